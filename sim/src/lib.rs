@@ -54,6 +54,7 @@ pub mod evaluation;
 pub mod file;
 pub mod fit;
 pub mod jitter;
+mod names;
 mod nearest;
 pub mod pointing;
 pub mod record;

@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 
 /// Less alike than this, a name is no likely meaning.
 const LIKENESS: f64 = 0.7;
+/// Names of which more than this share of the longer one's letters differ are not alike, however they begin: `s` is
+/// not meant by `stone`.
+const CHANGED_MAX: f64 = 0.6;
 /// More than this, a list is not read.
 const MOST: usize = 3;
 
@@ -11,7 +14,7 @@ const MOST: usize = 3;
 pub(crate) fn nearest<N: AsRef<str>>(unknown: &str, names: impl Iterator<Item = N>) -> Vec<String> {
     let mut alike: Vec<(f64, N)> = names
         .map(|name| (strsim::jaro_winkler(unknown, name.as_ref()), name))
-        .filter(|(likeness, _)| *likeness >= LIKENESS)
+        .filter(|(likeness, name)| *likeness >= LIKENESS && is_meant(unknown, name.as_ref()))
         .collect();
     alike.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut found: Vec<String> = Vec::new();
@@ -22,6 +25,11 @@ pub(crate) fn nearest<N: AsRef<str>>(unknown: &str, names: impl Iterator<Item = 
         }
     }
     found
+}
+
+/// Whether so few letters differ that one name may be meant by the other.
+fn is_meant(unknown: &str, name: &str) -> bool {
+    strsim::normalized_damerau_levenshtein(unknown, name) >= 1.0 - CHANGED_MAX
 }
 
 /// A question for help: which of the names may be meant; `otherwise` where none is like the unknown one.

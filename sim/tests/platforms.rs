@@ -368,7 +368,7 @@ fn errors_name_the_place_the_fault_and_the_remedy() {
     let shown = errors(&TWO_WHEELS.replace("\"iso\"", "\"panel\""));
     assert!(shown.contains("two devices or platforms are named `panel`; rename one"), "{shown}");
     let shown = errors(&TWO_WHEELS.replace("\"iso\"", "\"hub\""));
-    assert!(shown.contains("name the platform otherwise"), "{shown}");
+    assert!(shown.contains("choose another name"), "{shown}");
 }
 
 #[test]

@@ -314,7 +314,7 @@ impl<T: Scalar> Display for Warning<T> {
             Self::Triangle { part, excess } => write!(
                 f,
                 "largest principal moment of the {part} exceeds the sum of the other two by {:?} \
-                 kg m^2, more than 0; no mass distribution has this inertia, check its products",
+                 kg m^2; no mass distribution has this inertia, check its moments and products",
                 excess.to_f64(),
             ),
         }
@@ -334,7 +334,7 @@ mod tests {
         assert_eq!(
             warning.to_string(),
             "largest principal moment of the wheel of device 0 exceeds the sum of the other two by \
-             0.25 kg m^2, more than 0; no mass distribution has this inertia, check its products"
+             0.25 kg m^2; no mass distribution has this inertia, check its moments and products"
         );
     }
 }

@@ -9,9 +9,9 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{all_cores, may_write, progress_bar, write_whole};
+use super::run::{may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
-use super::{as_toml, print};
+use super::{Threads, as_toml, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
@@ -20,6 +20,7 @@ use crate::jitter::model::Contributor;
 use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
+use crate::names::column_heads;
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -53,9 +54,8 @@ pub(super) struct Jitter {
     /// Replace results that are there.
     #[arg(long)]
     force: bool,
-    /// Threads; the result does not depend on them. All cores without this option.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// A speed with its unit at which the coupled equations are run beside; may be repeated. The worst speed of each
     /// requirement without this option.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
@@ -186,7 +186,7 @@ impl Jitter {
         };
         let Prepared { model, campbell_speeds, branches, crossings, speeds, .. } = prepared;
         let has_tones = !model.contributors().is_empty();
-        let threads = self.threads.unwrap_or_else(all_cores);
+        let threads = self.threads.count();
         let bar = Mutex::new(progress_bar(parts(&model, &speeds), "speeds"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {
@@ -321,8 +321,7 @@ fn summary(budget: &Budget, found: &Found) -> String {
 /// A row for each speed and tone: amplitude and phase of each output.
 fn lines_csv(sweep: &Sweep) -> String {
     let mut text = String::from("speed_rad_per_s,rotor,cause,order,frequency_hz");
-    for output in &sweep.outputs {
-        let name = output.replace([' ', ','], "_");
+    for name in column_heads(&sweep.outputs) {
         let _ = write!(text, ",{name}_re,{name}_im");
     }
     text.push('\n');
@@ -349,8 +348,8 @@ fn lines_csv(sweep: &Sweep) -> String {
 /// A row for each speed: the metric of each requirement, SI.
 fn requirements_csv(found: &Found) -> String {
     let mut text = String::from("speed_rad_per_s");
-    for of in &found.assessed {
-        let _ = write!(text, ",{}", of.limit.name.replace([' ', ','], "_"));
+    for name in column_heads(found.assessed.iter().map(|of| &of.limit.name)) {
+        let _ = write!(text, ",{name}");
     }
     text.push('\n');
     let mut digits = zmij::Buffer::new();

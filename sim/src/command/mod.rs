@@ -124,6 +124,21 @@ struct Set {
     set: Vec<String>,
 }
 
+/// How many threads a command has.
+#[derive(Clone, Copy, Debug, Args)]
+struct Threads {
+    /// Threads; the result does not depend on them. All cores without this option.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl Threads {
+    /// The number of threads.
+    fn count(self) -> usize {
+        self.threads.map_or_else(run::all_cores, usize::from)
+    }
+}
+
 /// How a command prints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Form {

@@ -11,7 +11,7 @@ use super::{Files, print};
 use crate::record::Between;
 use crate::report::Report;
 use crate::scenario::Scenario;
-use crate::units::{Measure, parse_quantity};
+use crate::units::{Measure, Plain, parse_quantity};
 
 /// The options of `plot`.
 #[derive(Debug, Args)]
@@ -74,7 +74,12 @@ impl Plot {
             return Ok([from, to]);
         }
         let name = &scenario.name;
-        let message = format!("{name}: {from} s to {to} s is not within the run's {duration} s");
+        let message = format!(
+            "{name}: {} s to {} s is not within the run's {} s",
+            Plain(from),
+            Plain(to),
+            Plain(duration)
+        );
         Err(CommandError::Other(message))
     }
 

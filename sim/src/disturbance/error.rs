@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::broadband::CYCLES_MAX;
 use super::measured::{BREAKS_MAX, ROWS_MAX};
+use crate::units::Plain;
 
 /// Noise that cannot be realised.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,7 +75,9 @@ impl fmt::Display for BroadbandError {
             Self::Band([from, to]) => {
                 write!(
                     f,
-                    "a band from {from} Hz to {to} Hz; it starts above 0 Hz and ends above that"
+                    "a band from {from} Hz to {to} Hz; it starts above 0 Hz and ends above that",
+                    from = Plain(*from),
+                    to = Plain(*to)
                 )
             }
             Self::Period { period, cycles: [from, to] } => {
@@ -82,16 +85,28 @@ impl fmt::Display for BroadbandError {
                 write!(
                     f,
                     "a period of {period} s has {from} to {to} cycles of the band; it needs a whole \
-                     number of cycles in it, from 1 to {CYCLES_MAX}; write a {remedy} `period`"
+                     number of cycles in it, from 1 to {CYCLES_MAX}; write a {remedy} `period`",
+                    from = Plain(*from),
+                    to = Plain(*to),
+                    period = Plain(*period)
                 )
             }
             Self::Frequencies { before, after } => {
-                write!(f, "frequency {after} Hz after {before} Hz; they grow from above 0 Hz")
+                write!(
+                    f,
+                    "frequency {after} Hz after {before} Hz; they grow from above 0 Hz",
+                    after = Plain(*after),
+                    before = Plain(*before)
+                )
             }
             Self::Beyond { band: [from, to], table: [first, last] } => write!(
                 f,
                 "the band, {from} Hz to {to} Hz, is not within the table, {first} Hz to {last} Hz; \
-                 shorten it"
+                 shorten it",
+                from = Plain(*from),
+                to = Plain(*to),
+                first = Plain(*first),
+                last = Plain(*last)
             ),
             Self::Count { component, found, frequencies: 0 } => write!(
                 f,
@@ -103,7 +118,11 @@ impl fmt::Display for BroadbandError {
                  each"
             ),
             Self::Density { component, value } => {
-                write!(f, "a density of {component} is {value}; it is finite and not negative")
+                write!(
+                    f,
+                    "a density of {component} is {value}; it is finite and not negative",
+                    value = Plain(*value)
+                )
             }
             Self::Pair { components: [a, b], reason } => {
                 write!(f, "coherence between {a} and {b}: {reason}")
@@ -111,10 +130,15 @@ impl fmt::Display for BroadbandError {
             Self::Indefinite { frequency, component, pivot } => write!(
                 f,
                 "at {frequency} Hz the cross-spectral matrix is not positive semidefinite: the pivot of \
-                 {component} is {pivot:.3} below 0; lower the coherences of {component}, or correct their phases"
+                 {component} is {pivot:.3} below 0; lower the coherences of {component}, or correct their phases",
+                frequency = Plain(*frequency)
             ),
             Self::Reference(rate) => {
-                write!(f, "a reference rate of {rate} rad/s; it is finite and not zero")
+                write!(
+                    f,
+                    "a reference rate of {rate} rad/s; it is finite and not zero",
+                    rate = Plain(*rate)
+                )
             }
         }
     }
@@ -167,12 +191,18 @@ impl fmt::Display for MeasuredError {
                 write!(f, "{found} values of {component} for {rows} rows; give one for each")
             }
             Self::NotFinite { what, row, value } => {
-                write!(f, "{what} of row {row} is {value}; give a finite number")
+                write!(
+                    f,
+                    "{what} of row {row} is {value}; give a finite number",
+                    value = Plain(*value)
+                )
             }
             Self::Order { row, times: [before, after] } => write!(
                 f,
                 "the time of row {row}, {after} s, is not after that of the row before, {before} s; \
-                 sort the record"
+                 sort the record",
+                after = Plain(*after),
+                before = Plain(*before)
             ),
             Self::Breaks { found } => write!(
                 f,

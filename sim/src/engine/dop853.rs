@@ -12,9 +12,10 @@ use precess_dynamics::SolveError;
 use super::dense::Dense;
 use super::error::{Fault, RunError};
 use super::system::System;
+use crate::scenario::steps_max;
 
-/// Table 1 takes about 300 steps a second; a run that needs this many does not converge.
-const STEPS_PER_SECOND_MAX: f64 = 1e5;
+/// The square of this is a number, and so is the sum of as many as a state has.
+const FASTEST: f64 = 1e150;
 /// A step that is shortened this often after the solver failed is 1e-20 of what it was: the state
 /// itself fails.
 const REJECTIONS_MAX: usize = 30;
@@ -73,6 +74,10 @@ impl Dop853 {
         let mut dydt = y.clone();
         let evaluated = system.rates(start, y, &mut dydt);
         evaluated.map_err(|source| RunError::solve(system, start, source))?;
+        // The first step is chosen by sums of squares, which must be numbers.
+        if let Some(error) = self.too_fast(system, start, y, &dydt, FASTEST) {
+            return Err(error);
+        }
         self.method = method(system, self.tolerance, end - start);
         self.method.h0 = step.min(end - start);
         self.end = end;
@@ -92,8 +97,37 @@ impl Dop853 {
         let equations = Equations { system, dense: &self.dense, failure: RefCell::new(None) };
         match self.method.init(&equations, time, self.end, y) {
             Ok(_) => Ok(()),
+            // It finds no first step.
+            Err(Stop::BadInput { .. }) if equations.failure.borrow().is_none() => {
+                let mut dydt = vec![0.0; y.len()];
+                let evaluated = system.rates(time, y, &mut dydt);
+                evaluated.map_err(|source| RunError::solve(system, time, source))?;
+                Err(self
+                    .too_fast(system, time, y, &dydt, 0.0)
+                    .unwrap_or(RunError::Stiff { time, fastest: system.fastest(y) }))
+            }
             Err(stop) => Err(stopped(&equations, time, &stop)),
         }
+    }
+
+    /// The error of the number of a state that changes fastest, where it is by more tolerances per second than a bound.
+    fn too_fast(
+        &self,
+        system: &System<'_>,
+        time: f64,
+        y: &[f64],
+        dydt: &[f64],
+        bound: f64,
+    ) -> Option<RunError> {
+        let tolerances = system.layout.absolute_tolerance(self.tolerance);
+        let each = y.iter().zip(dydt).zip(tolerances).enumerate();
+        let speeds = each.map(|(place, ((value, rate), tolerance))| {
+            let speed = (rate / (tolerance + self.tolerance * value.abs())).abs();
+            (place, *rate, speed)
+        });
+        let (place, rate, speed) = speeds.max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let (quantity, unit) = system.layout.named(place);
+        (speed > bound).then_some(RunError::TooFast { time, quantity, rate, unit })
     }
 
     /// One step, repeated until it is accepted.
@@ -204,7 +238,7 @@ fn method(system: &System<'_>, tolerance: f64, length: f64) -> Method {
         clippy::cast_sign_loss,
         reason = "positive, and a cast from floating point saturates"
     )]
-    let steps = (STEPS_PER_SECOND_MAX * length.max(1.0)) as usize;
+    let steps = steps_max(length) as usize;
     ExplicitRungeKutta::dop853()
         .rtol(tolerance)
         .atol(system.layout.absolute_tolerance(tolerance))
@@ -215,10 +249,17 @@ fn stopped(equations: &Equations<'_, '_>, time: f64, stop: &Stop<f64, Vec<f64>>)
     if let Some((time, source)) = equations.failure.take() {
         return RunError::solve(equations.system, time, source);
     }
+    let system = equations.system;
     let fault = match stop {
-        Stop::MaxSteps { t, .. } => return RunError::TooManySteps { time: *t },
-        Stop::StepSize { t, .. } => return RunError::StepTooSmall { time: *t },
-        Stop::Stiffness { t, .. } => return RunError::Stiff { time: *t },
+        Stop::MaxSteps { t, y } => {
+            return RunError::TooManySteps { time: *t, fastest: system.fastest(y) };
+        }
+        Stop::StepSize { t, y } => {
+            return RunError::StepTooSmall { time: *t, fastest: system.fastest(y) };
+        }
+        Stop::Stiffness { t, y } => {
+            return RunError::Stiff { time: *t, fastest: system.fastest(y) };
+        }
         Stop::BadInput { msg } => Fault::Input { reason: msg.clone() },
         Stop::OutOfBounds { t_interp, t_prev, t_curr } => {
             Fault::Interpolation { time: *t_interp, from: *t_prev, to: *t_curr }

@@ -7,6 +7,7 @@ use precess_dynamics::{ModesError, ParameterError, Quantity, SolveError};
 use super::system::System;
 use crate::record::RecordError;
 use crate::scenario::ScenarioError;
+use crate::units::Plain;
 
 /// A cosine of the y turn below it is a right angle: the inertia of the x turn has fallen by its square.
 const NEAR: f64 = 1e-3;
@@ -83,16 +84,33 @@ pub enum RunError {
     TooManySteps {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
     },
     /// The step fell below what the clock resolves.
     StepTooSmall {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
     },
     /// The motion is too stiff for an explicit method.
     Stiff {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
+    },
+    /// A number of the state changes so fast that no step is short enough.
+    TooFast {
+        /// Simulated time, s.
+        time: f64,
+        /// The number: `position_x`.
+        quantity: String,
+        /// Its rate of change.
+        rate: f64,
+        /// The rate's unit.
+        unit: String,
     },
     /// The integrator reports what no run of this program should cause.
     Integrator {
@@ -161,9 +179,10 @@ impl RunError {
             | Self::TurnAtRightAngle { time, .. }
             | Self::LockedJointMoves { time, .. }
             | Self::NotDriven { time, .. }
-            | Self::TooManySteps { time }
-            | Self::StepTooSmall { time }
-            | Self::Stiff { time }
+            | Self::TooManySteps { time, .. }
+            | Self::StepTooSmall { time, .. }
+            | Self::Stiff { time, .. }
+            | Self::TooFast { time, .. }
             | Self::Integrator { time, .. } => Some(*time),
             Self::Elsewhere { time, .. } => *time,
             Self::Scenario(_)
@@ -189,6 +208,14 @@ fn turn_at_right_angle(system: &System<'_>, error: &SolveError) -> Option<(f64, 
     let turn = joints.position(|of| of.device == device && of.info.body == "y turn")?;
     let angle = system.evaluated_coordinate(turn)?;
     (angle.cos().abs() < NEAR).then_some((angle, pivot))
+}
+
+/// What varies fastest, and that it is to be slowed down.
+fn slower(fastest: Option<&str>) -> String {
+    fastest.map_or_else(
+        || "; check what moves fast".to_owned(),
+        |what| format!("; fastest is {what}: slow it down"),
+    )
 }
 
 /// The device that an error of the solver is about.
@@ -222,31 +249,40 @@ impl fmt::Display for RunError {
             Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Modes(error) => write!(f, "structure rejected: {error}"),
             Self::Solve { time, device: Some(device), source } => {
-                write!(f, "at t = {time} s, `{device}`: {source}")
+                write!(f, "at t = {time} s, `{device}`: {source}", time = Plain(*time))
             }
-            Self::Solve { time, device: None, source } => write!(f, "at t = {time} s: {source}"),
+            Self::Solve { time, device: None, source } => {
+                write!(f, "at t = {time} s: {source}", time = Plain(*time))
+            }
             Self::TurnAtRightAngle { time, platform, angle, pivot: [pivot, bound] } => write!(
                 f,
                 "at t = {time} s, `{platform}`: its y turn is at {} deg, where the x turn is about the \
                  axis of the z turn and has no inertia of its own: {pivot:e} kg m^2, not above \
                  {bound:e}; choose a `mount` in which the y turn stays away from 90 deg, or lock the x \
                  turn",
-                angle.to_degrees()
+                angle.to_degrees(),
+                time = Plain(*time)
             ),
             Self::LockedJointMoves { time, joint, rate, unit } => write!(
                 f,
                 "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \
-                 it with a brake instead"
+                 it with a brake instead",
+                time = Plain(*time),
+                rate = Plain(*rate)
             ),
             Self::NotDriven { time, joint } => write!(
                 f,
                 "at t = {time} s: the kind of {joint} keeps its rate constant; remove its drive, \
-                 or use a kind that drives it"
+                 or use a kind that drives it",
+                time = Plain(*time)
             ),
             Self::BeyondStop { joint, value, stops: [lower, upper], unit } => write!(
                 f,
                 "{joint} starts at {value} {unit}, beyond its end stops {lower} {unit} and {upper} \
-                 {unit}; start it in between"
+                 {unit}; start it in between",
+                value = Plain(*value),
+                lower = Plain(*lower),
+                upper = Plain(*upper)
             ),
             Self::Crossing { name, column, nearest } => {
                 write!(f, "crossing `{name}`: `{column}` is no column of the state")?;
@@ -255,23 +291,38 @@ impl fmt::Display for RunError {
                     write!(f, "{lead}`{near}`")
                 })
             }
-            Self::TooManySteps { time } => write!(
+            Self::TooManySteps { time, fastest } => write!(
                 f,
-                "the integrator used up its steps at t = {time} s; loosen the tolerance or \
-                 shorten the duration"
+                "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \
+                 shorten the duration",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
             ),
-            Self::StepTooSmall { time } => write!(
+            Self::StepTooSmall { time, fastest } => write!(
                 f,
-                "the integrator's step fell below rounding at t = {time} s; loosen the tolerance"
+                "the integrator's step fell below rounding at t = {time} s{} or loosen the \
+                 tolerance",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
             ),
-            Self::Stiff { time } => write!(
+            Self::Stiff { time, fastest } => write!(
                 f,
-                "the motion turns stiff at t = {time} s, too fast for an explicit method; check \
-                 torques and inertias"
+                "the motion turns stiff at t = {time} s, too fast for an explicit method{}, check \
+                 torques and inertias",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
+            ),
+            Self::TooFast { time, quantity, rate, unit } => write!(
+                f,
+                "at t = {time} s {quantity} changes by {rate} {unit}, too fast for any step; check the \
+                 initial state, torques, springs and inertias with their units",
+                time = Plain(*time),
+                rate = Plain(*rate)
             ),
             Self::Integrator { time, fault } => write!(
                 f,
-                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program"
+                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program",
+                time = Plain(*time)
             ),
             Self::Record(error) => error.fmt(f),
             Self::Elsewhere { message, .. } => f.write_str(message),
@@ -302,7 +353,11 @@ impl fmt::Display for Fault {
         match self {
             Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
             Self::Interpolation { time, from, to } => {
-                write!(f, "a state at {time} s, outside its last step, {from} s to {to} s")
+                write!(
+                    f,
+                    "a state at {time} s, outside its last step, {from} s to {to} s",
+                    time = Plain(*time)
+                )
             }
             Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
             Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),

@@ -85,11 +85,11 @@ impl<'a> Monitors<'a> {
     ) -> Result<Self, RunError> {
         let names = state_quantities(&system.layout);
         let watched = |(index, crossing): (usize, &crate::scenario::Crossing)| {
-            let found = names.iter().find(|(name, _)| *name == crossing.column);
-            let (_, quantity) = found.ok_or_else(|| RunError::Crossing {
+            let found = names.iter().find(|(name, ..)| *name == crossing.column);
+            let (_, quantity, _) = found.ok_or_else(|| RunError::Crossing {
                 name: crossing.name.clone(),
                 column: crossing.column.clone(),
-                nearest: nearest(&crossing.column, names.iter().map(|(name, _)| name.as_str())),
+                nearest: nearest(&crossing.column, names.iter().map(|(name, ..)| name.as_str())),
             })?;
             let (value, ends) = (crossing.value, crossing.ends);
             Ok(Watched { index, quantity: *quantity, value, ends })

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{Attitude, JointStates, Quaternion};
 
-use crate::record::columns::Quantity;
+use crate::record::columns::{Quantity, state_quantities};
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftState};
 
@@ -99,6 +99,19 @@ impl Layout {
             Quantity::ModalRate(mode) => Some(self.modal + self.modes + mode),
             _ => None,
         }
+    }
+
+    /// The name of the number at a place of the flat vector, and the unit of its rate.
+    pub(crate) fn named(&self, place: usize) -> (String, String) {
+        let columns = state_quantities(self);
+        let found =
+            columns.into_iter().find(|(_, quantity, _)| self.place(*quantity) == Some(place));
+        found.map_or_else(
+            || ("the work".to_owned(), "W".to_owned()),
+            |(name, _, unit)| {
+                (name, if unit == "1" { "1/s".to_owned() } else { format!("{unit} per s") })
+            },
+        )
     }
 
     /// How many numbers the flat vector has.

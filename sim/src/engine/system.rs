@@ -18,6 +18,7 @@ use precess_craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 
 /// The equations of motion.
 pub(crate) struct System<'a> {
+    scenario: &'a Scenario,
     pub(crate) craft: Craft,
     pub(crate) layout: Layout,
     pub(crate) acting: Acting<'a>,
@@ -55,6 +56,7 @@ impl<'a> System<'a> {
         let inputs = acting.inputs(scenario, &craft);
         let state = craft.at_rest();
         Self {
+            scenario,
             craft,
             layout,
             acting,
@@ -95,6 +97,23 @@ impl<'a> System<'a> {
     /// The longest step that resolves what varies faster than the motion shows, s.
     pub(crate) fn longest_step(&self, y: &[f64]) -> f64 {
         self.acting.longest_step(|joint| self.layout.rate(joint, y))
+    }
+
+    /// What varies fastest of what is known of the scenario and of a flat state, which may be empty: for messages.
+    pub(crate) fn fastest(&self, y: &[f64]) -> Option<String> {
+        let joints = self.layout.joints.iter().enumerate().filter(|(_, place)| !place.info.slides);
+        let turning = joints.filter(|_| !y.is_empty()).map(|(joint, place)| {
+            let rate = self.layout.rate(joint, y).abs();
+            let device = place.name.split('.').next().unwrap_or_default();
+            (
+                rate,
+                format!("the {} of `{device}`, which turns at {rate:.3e} rad/s", place.info.body),
+            )
+        });
+        let scales = self.scenario.time_scales().into_iter();
+        let scales = scales.map(|scale| (scale.rate, scale.described()));
+        let fastest = scales.chain(turning).filter(|(rate, _)| *rate > 0.0);
+        fastest.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, what)| what)
     }
 
     /// Inputs at a time and state.

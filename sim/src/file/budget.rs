@@ -3,6 +3,7 @@
 
 mod names;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Matrix2x3, Unit, Vector3};
@@ -14,10 +15,11 @@ use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};
+use crate::names::numbered;
 use crate::nearest::did_you_mean_file;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 pub use names::check_budget_names;
 
@@ -103,8 +105,10 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
     if !keys.has("line_of_sight") {
         keys.missing("line_of_sight", "[[line_of_sight]]` with `node = \"camera\"");
     }
-    let limits: Vec<_> =
-        keys.tables("requirement").iter().filter_map(|r| limit(r, known)).collect();
+    let requirements = keys.tables("requirement");
+    let written = requirements.iter().filter_map(|requirement| requirement.text("name"));
+    let mut taken = written.map(str::to_owned).collect();
+    let limits: Vec<_> = requirements.iter().filter_map(|r| limit(r, known, &mut taken)).collect();
     keys.finish();
     let (speeds, count, swept) = speed?;
     for (index, sight) in sights.iter().enumerate() {
@@ -127,7 +131,7 @@ fn speeds(keys: &Keys<'_>) -> Option<([f64; 2], usize, Vec<String>)> {
     let range = [from?, to?];
     let written = |key: &str, value: f64| match keys.text_or_list(key) {
         Some(text) => text.to_owned(),
-        None => format!("{value} rad/s"),
+        None => format!("{} rad/s", Plain(value)),
     };
     if range[0] <= 0.0 {
         let message =
@@ -196,8 +200,13 @@ fn sensitivity(keys: &Keys<'_>) -> Option<Sensitivity> {
     Some(Sensitivity { node: node?.to_owned(), displacement, rotation })
 }
 
-/// A requirement; the line of sight that it names is sought among those that are known, if all were read.
-fn limit(keys: &Keys<'_>, sights: Option<&[Sight]>) -> Option<(usize, Limit)> {
+/// A requirement; the line of sight that it names is sought among those that are known, if all were read. One without a
+/// name has that of its metric, with a number where that is taken.
+fn limit(
+    keys: &Keys<'_>,
+    sights: Option<&[Sight]>,
+    taken: &mut HashSet<String>,
+) -> Option<(usize, Limit)> {
     let named = keys.text("line_of_sight");
     let metrics = [("rms", 0), ("band_rms", 1), ("displacement", 2), ("smear", 3), ("jitter", 4)];
     let metric = if keys.has("metric") { keys.choice("metric", &metrics) } else { Some(0) };
@@ -268,7 +277,7 @@ fn limit(keys: &Keys<'_>, sights: Option<&[Sight]>) -> Option<(usize, Limit)> {
         3 => (Metric::Smear(exposure), "smear"),
         _ => (Metric::Jitter(exposure), "jitter"),
     };
-    let name = name.unwrap_or(word).to_owned();
+    let name = name.map_or_else(|| numbered(word, taken), str::to_owned);
     Some((sight, Limit { name, metric, limit, unit }))
 }
 

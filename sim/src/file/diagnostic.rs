@@ -7,6 +7,11 @@ use std::path::PathBuf;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use serde::Serialize;
 
+/// Most errors and warnings that are shown: whoever has more mends the first ones.
+const SHOWN_MAX: usize = 100;
+/// A new one is compared with so many before it.
+const COMPARED_MAX: usize = 1000;
+
 /// A text that was read: a file, an override, a text that a program passed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
@@ -99,6 +104,19 @@ impl Diagnostics {
         self.all.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count()
     }
 
+    /// Adds a sentence to the help of the errors from a number on; not of unknown keys, which are where they are written.
+    pub(super) fn add_help(&mut self, first: usize, sentence: &str) {
+        let wanted = |of: &&mut Diagnostic| {
+            of.severity == Severity::Error && !of.message.starts_with("unknown key")
+        };
+        for error in self.all.iter_mut().skip(first).filter(wanted) {
+            if !error.help.is_empty() {
+                error.help.push_str("; ");
+            }
+            error.help.push_str(sentence);
+        }
+    }
+
     /// Removes an error of which another one is the cause.
     pub(super) fn retract(&mut self, span: &Span, message: &str) {
         self.all.retain(|of| of.span.as_ref() != Some(span) || of.message != message);
@@ -134,15 +152,39 @@ impl Diagnostics {
     ) {
         let (label, help) = (label.to_owned(), help.to_owned());
         let new = Diagnostic { severity, span, message, label, help };
-        if !self.all.contains(&new) {
+        // What is said twice is said of one place, and soon again: of very many the first need not be compared.
+        let recent = self.all.len().saturating_sub(COMPARED_MAX);
+        if !self.all.iter().skip(recent).any(|known| *known == new) {
             self.all.push(new);
         }
     }
 
-    /// As JSON, one object each, for tools: lines and columns count from 1.
+    /// Those that are shown, and how many more there are: of very many the first errors.
+    fn shown_ones(&self) -> (Vec<&Diagnostic>, usize) {
+        let mut shown: Vec<_> = self.all.iter().collect();
+        let more = shown.len().saturating_sub(SHOWN_MAX);
+        if more > 0 {
+            shown.sort_by_key(|diagnostic| diagnostic.severity == Severity::Warning);
+            shown.truncate(SHOWN_MAX);
+        }
+        (shown, more)
+    }
+
+    /// As JSON, one object each, of the first hundred, for tools: lines and columns count from 1.
     #[must_use]
     pub fn json(&self) -> String {
-        let entries: Vec<_> = self.all.iter().map(|diagnostic| self.entry(diagnostic)).collect();
+        let (shown, more) = self.shown_ones();
+        let mut entries: Vec<_> = shown.into_iter().map(|of| self.entry(of)).collect();
+        let rest = Diagnostic {
+            severity: Severity::Error,
+            span: None,
+            message: more_of_them(more),
+            label: String::new(),
+            help: String::new(),
+        };
+        if more > 0 {
+            entries.push(self.entry(&rest));
+        }
         // Texts and numbers only: writing to memory cannot fail.
         serde_json::to_string_pretty(&entries).unwrap_or_default()
     }
@@ -197,6 +239,11 @@ impl Diagnostics {
     }
 }
 
+/// What is said of those that are not shown.
+fn more_of_them(more: usize) -> String {
+    format!("{more} more errors and warnings; mend the first ones")
+}
+
 /// The span within its text, on the borders of characters, its first line only.
 fn clipped(text: &str, span: &Span) -> Range<usize> {
     let floor = |mut at: usize| {
@@ -222,11 +269,15 @@ fn place(text: &str, at: usize) -> (usize, usize) {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, diagnostic) in self.all.iter().enumerate() {
+        let (shown, more) = self.shown_ones();
+        for (index, diagnostic) in shown.iter().enumerate() {
             if index > 0 {
                 f.write_str("\n")?;
             }
             writeln!(f, "{}", self.shown(diagnostic))?;
+        }
+        if more > 0 {
+            writeln!(f, "\n{}", more_of_them(more))?;
         }
         Ok(())
     }

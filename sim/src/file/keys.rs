@@ -7,11 +7,23 @@
 mod quantities;
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Span};
 use super::document::{Entry, Node, Table, Value};
+use crate::names::{NAME_MAX, name_fault};
 use crate::nearest::nearest;
+
+/// Most unknown keys of a table that are reported one by one.
+const UNKNOWN_MAX: usize = 20;
+
+/// A name as messages show it: what is not shown is written out, and of a long one its begin.
+pub(super) fn shown_name(name: &str) -> String {
+    let letters = name.chars().take(NAME_MAX);
+    let shown: String = letters.flat_map(char::escape_debug).collect();
+    if name.chars().nth(NAME_MAX).is_some() { shown + ".." } else { shown }
+}
 
 /// Where errors go.
 pub(super) type Reports = RefCell<Diagnostics>;
@@ -111,33 +123,46 @@ impl<'a> Keys<'a> {
 
     /// Reports the keys that nobody asked for; whether there are any.
     pub(super) fn finish(&self) -> bool {
-        let mut found = false;
         let asked = self.asked.borrow();
-        for entry in &self.table.entries {
-            if asked.contains(&entry.key) {
-                continue;
-            }
-            let mut known: Vec<_> = asked.iter().map(String::as_str).collect();
-            known.sort_unstable();
+        let mut known: Vec<_> = asked.iter().map(String::as_str).collect();
+        known.sort_unstable();
+        let is_unknown = |entry: &&Entry| known.binary_search(&entry.key.as_str()).is_err();
+        let unknown: Vec<_> = self.table.entries.iter().filter(is_unknown).collect();
+        for entry in unknown.iter().take(UNKNOWN_MAX) {
             let near = nearest(&entry.key, known.iter().copied());
             let help = match near.first() {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => format!("known here: {}", known.join(", ")),
             };
-            let message = format!("unknown key `{}`", self.path_of(&entry.key));
+            let message = format!("unknown key `{}`", self.path_of(&shown_name(&entry.key)));
             let mut reports = self.reports.borrow_mut();
             if let Some(name) = near.first() {
                 reports.retract(&self.span, &self.is_missing(name));
             }
             reports.error(&entry.key_span, message, "", &help);
-            found = true;
         }
-        found
+        if let Some(entry) = unknown.get(UNKNOWN_MAX) {
+            let more = unknown.len() - UNKNOWN_MAX;
+            let table = if self.path.is_empty() { "the file" } else { &self.path };
+            let message = format!("{more} more unknown keys in `{table}`");
+            self.reports.borrow_mut().error(&entry.key_span, message, "", "");
+        }
+        !unknown.is_empty()
     }
 
     /// The table of a key.
     pub(super) fn table(&self, key: &str) -> Option<Keys<'a>> {
         Keys::new(self.node(key)?, &self.path_of(key), self.reports)
+    }
+
+    /// A table without keys, in the place of this one.
+    pub(super) fn empty(&self) -> Node {
+        Node { value: Value::Table(Table::default()), span: self.span.clone() }
+    }
+
+    /// The table of a key; an empty one where it is missing.
+    pub(super) fn table_or<'b>(&'b self, key: &str, empty: &'b Node) -> Option<Keys<'b>> {
+        Keys::new(self.node(key).unwrap_or(empty), &self.path_of(key), self.reports)
     }
 
     /// The tables of a list, each with its name or number in its path.
@@ -148,12 +173,33 @@ impl<'a> Keys<'a> {
             self.other_type::<()>(key, node, &help);
             return Vec::new();
         };
+        self.check_names(key, list);
         let path = |index: usize, node: &Node| {
-            let name = node.name().map_or_else(|| index.to_string(), str::to_owned);
+            let name = node.name().map_or_else(|| index.to_string(), shown_name);
             format!("{}.{name}", self.path_of(key))
         };
         let members = list.iter().enumerate();
         members.filter_map(|(k, node)| Keys::new(node, &path(k, node), self.reports)).collect()
+    }
+
+    /// Reports names of a list of tables that are none, and names that two of them have.
+    pub(super) fn check_names(&self, key: &str, list: &[Node]) {
+        let mut known = HashSet::new();
+        for node in list {
+            let Value::Table(table) = &node.value else { continue };
+            let (Some(entry), Some(name)) = (table.get("name"), table.text("name")) else {
+                continue;
+            };
+            let twice = !known.insert(name);
+            let message = match name_fault(name) {
+                Some(fault) => fault.to_string(),
+                None if twice => {
+                    format!("two of `{}` are named `{name}`; rename one", self.path_of(key))
+                }
+                None => continue,
+            };
+            self.reports.borrow_mut().error(&entry.node.span, message, "", "");
+        }
     }
 
     /// The path of the file that a key names, and its name from `folder`. It is beside the file in which the key is

@@ -5,6 +5,7 @@
 //! key; lists of tables with names are merged by name, other lists replaced whole.
 //! [Overrides](super::overrides) come last.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -23,8 +24,7 @@ pub type Overrides = Vec<Override>;
 
 /// Reads a file and all that it is based on.
 pub(super) fn load_file(path: &Path, reports: &mut Diagnostics) -> Node {
-    let mut open = Vec::new();
-    load(path, None, &mut open, reports)
+    load(path, None, &mut Files::default(), reports)
 }
 
 /// The tree of a text that names files relative to a folder.
@@ -34,15 +34,22 @@ pub(super) fn load_text(
     folder: &Path,
     reports: &mut Diagnostics,
 ) -> Node {
-    let mut open = Vec::new();
     let node = parse(name, text, numbers, reports);
-    with_bases(node, folder, &mut open, reports)
+    with_bases(node, folder, &mut Files::default(), reports)
+}
+
+/// The files on the way to the one that is being read, and the trees of those that were read: each is read once,
+/// however many are based on it.
+#[derive(Default)]
+struct Files {
+    open: Vec<PathBuf>,
+    read: HashMap<PathBuf, Node>,
 }
 
 fn load(
     path: &Path,
     named: Option<(&str, &Span)>,
-    open: &mut Vec<PathBuf>,
+    files: &mut Files,
     reports: &mut Diagnostics,
 ) -> Node {
     let nothing = Node { value: Value::Table(Table::default()), span: Span::default() };
@@ -52,11 +59,14 @@ fn load(
         None => reports.error_anywhere(message, help),
     };
     let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    if open.contains(&real) {
+    if files.open.contains(&real) {
         refuse(format!("{shown} is based on itself"), "remove this `base`");
         return nothing;
     }
-    if open.len() >= DEPTH_MAX {
+    if let Some(node) = files.read.get(&real) {
+        return node.clone();
+    }
+    if files.open.len() >= DEPTH_MAX {
         refuse(format!("more than {DEPTH_MAX} files based on each other"), "");
         return nothing;
     }
@@ -79,14 +89,15 @@ fn load(
         refuse(format!("{shown} is not UTF-8 text"), "a scenario file is TOML text");
         return nothing;
     };
-    open.push(real);
+    files.open.push(real.clone());
     let node = parse(&shown, &text, Numbers::WithUnits, reports);
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
     if let Some(source) = reports.sources.last_mut() {
         source.folder = Some(folder.clone());
     }
-    let node = with_bases(node, &folder, open, reports);
-    open.pop();
+    let node = with_bases(node, &folder, files, reports);
+    files.open.pop();
+    files.read.insert(real, node.clone());
     node
 }
 
@@ -98,12 +109,7 @@ fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// The tree over those it is based on.
-fn with_bases(
-    mut node: Node,
-    folder: &Path,
-    open: &mut Vec<PathBuf>,
-    reports: &mut Diagnostics,
-) -> Node {
+fn with_bases(mut node: Node, folder: &Path, files: &mut Files, reports: &mut Diagnostics) -> Node {
     let Value::Table(table) = &mut node.value else { return node };
     let Some(position) = table.entries.iter().position(|entry| entry.key == "base") else {
         return node;
@@ -130,7 +136,7 @@ fn with_bases(
     };
     let mut below = Table::default();
     for (name, span) in names {
-        let loaded = load(&folder.join(&name), Some((&name, &span)), open, reports);
+        let loaded = load(&folder.join(&name), Some((&name, &span)), files, reports);
         if let Value::Table(loaded) = loaded.value {
             merge(&mut below, loaded);
         }
@@ -144,8 +150,11 @@ fn with_bases(
 
 /// Puts the keys of a table over those of another.
 fn merge(below: &mut Table, above: Table) {
+    let keys = below.entries.iter().map(|entry| entry.key.clone()).zip(0..);
+    let places: HashMap<String, usize> = keys.collect();
     for entry in above.entries {
-        let Some(old) = below.get_mut(&entry.key) else {
+        let place = places.get(&entry.key);
+        let Some(old) = place.and_then(|place| below.entries.get_mut(*place)) else {
             below.entries.push(entry);
             continue;
         };
@@ -179,8 +188,13 @@ pub(super) fn named(list: &[Node]) -> bool {
 }
 
 fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
+    let mut places: HashMap<String, usize> = HashMap::new();
+    for (name, place) in below.iter().map(Node::name).zip(0..) {
+        places.entry(name.unwrap_or_default().to_owned()).or_insert(place);
+    }
     for node in above {
-        let same = below.iter_mut().find(|old| old.name() == node.name());
+        let place = node.name().and_then(|name| places.get(name));
+        let same = place.and_then(|place| below.get_mut(*place));
         match (same, node) {
             (
                 Some(Node { value: Value::Table(old), .. }),

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
+use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use super::waterfall::waterfall;
 use crate::fit::device::Rotor;
@@ -15,6 +16,7 @@ use crate::fit::samples::{Layout, Samples, mean_and_slope, read as read_samples,
 use crate::fit::{
     CHANNELS, Group, Measurement, Mode, ModeGuess, Options, Placement, Record, WaterfallRow,
 };
+use crate::names::column_name_fault;
 use crate::units::{Measure, parse_unit};
 
 /// The number of the format that this program reads.
@@ -64,9 +66,8 @@ fn read(keys: &Keys<'_>, folder: &Path, progress: &mut dyn FnMut(&str)) -> Optio
         keys.missing("name", "name = \"rw\"");
     }
     let name = keys.text("name").unwrap_or_default();
-    let good = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    if name.is_empty() || !name.chars().all(good) {
-        keys.error("name", format!("`{name}` is no name of a device"), "use a-z, 0-9, _");
+    if let Some(fault) = column_name_fault(name).filter(|_| keys.has("name")) {
+        keys.error("name", format!("`name` is of a device: {fault}"), "use a-z, 0-9, _");
     }
     let title = keys.text("title").unwrap_or(name).to_owned();
     let options = options(keys);
@@ -148,11 +149,14 @@ fn placement(keys: &Keys<'_>) -> Option<Placement> {
     if position.is_none() && !table.has("position") {
         table.missing("position", "position = \"0, 0, 8 cm\"");
     }
-    let axis = table.numbers::<3>("spin_axis").map(Vector3::from);
-    if axis.is_none() && !table.has("spin_axis") {
+    if !table.has("spin_axis") {
         table.missing("spin_axis", "spin_axis = [0, 0, 1]");
     }
-    let reference = table.numbers::<3>("reference").map(Vector3::from);
+    let [axis, reference] = ["spin_axis", "reference"].map(|key| {
+        let vector = table.node(key).and_then(|_| table.numbers::<3>(key)).map(Vector3::from);
+        // Reports one without a direction.
+        vector.filter(|_| direction(&table, key).is_some())
+    });
     let words = [("on_table", false), ("on_wheel", true)];
     let on_wheel = table.choice("reads", &words).unwrap_or(false);
     table.finish();
@@ -172,7 +176,11 @@ fn placement(keys: &Keys<'_>) -> Option<Placement> {
 /// `[columns]`: names and units.
 fn layout(keys: &Keys<'_>) -> Option<Layout> {
     let rate = keys.quantity("rate", Measure::FREQUENCY);
-    let Some(table) = keys.table("columns") else {
+    // With the rate every column has a usual name.
+    let empty = keys.empty();
+    let table =
+        if keys.has("rate") { keys.table_or("columns", &empty) } else { keys.table("columns") };
+    let Some(table) = table else {
         if !keys.has("columns") {
             keys.missing("columns", "[columns]");
         }

@@ -166,6 +166,10 @@ impl fmt::Display for FitError {
                 "{record}: of {found} index pulses one is {missed:.3} turns beside a whole turn, more \
                  than {bound}; check the speed, or leave the pulses out"
             ),
+            Self::Axes { sine, .. } if !sine.is_finite() => f.write_str(
+                "the spin axis, the reference direction or the position is zero or not finite; give three \
+                 finite numbers, of a direction not all zero",
+            ),
             Self::Axes { sine, bound } => write!(
                 f,
                 "the spin axis and the reference direction enclose an angle with the sine {sine:e}, \

@@ -143,7 +143,9 @@ pub fn sweep(
         }
     };
     let mut found = thread::scope(|scope| {
-        let threads: Vec<_> = (1..threads.max(1)).map(|_| scope.spawn(work)).collect();
+        // No more than there are parts: another would have nothing to do.
+        let threads = threads.clamp(1, parts(model, speeds).max(1));
+        let threads: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let mut found = work();
         for thread in threads {
             match thread.join() {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::spectra::SpectrumError;
+use crate::units::Plain;
 
 /// What no metric can be computed of.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,13 +83,19 @@ impl fmt::Display for PointingError {
                 f,
                 "a window of {window} s is {:.4} samples at {rate} 1/s; it is a whole number of \
                  samples, {least} to 4194304: choose another window or rate",
-                window * rate
+                window * rate,
+                window = Plain(*window),
+                rate = Plain(*rate)
             ),
-            Self::Time(time) => write!(f, "a time of {time} s; it is a positive finite number"),
+            Self::Time(time) => {
+                write!(f, "a time of {time} s; it is a positive finite number", time = Plain(*time))
+            }
             Self::Stability { stability, window } => write!(
                 f,
                 "a stability time of {stability} s is not a whole multiple of the window of {window} \
-                 s; choose 1, 2, 3 ... times the window"
+                 s; choose 1, 2, 3 ... times the window",
+                window = Plain(*window),
+                stability = Plain(*stability)
             ),
             Self::Short { samples, least } => write!(
                 f,
@@ -96,7 +103,11 @@ impl fmt::Display for PointingError {
                  or choose a shorter window"
             ),
             Self::Level(level) => {
-                write!(f, "a level of {level} is not between 0 and 1; write 0.997")
+                write!(
+                    f,
+                    "a level of {level} is not between 0 and 1; write 0.997",
+                    level = Plain(*level)
+                )
             }
             Self::Interpretation { of } => {
                 write!(f, "{of} is not defined; choose another interpretation or input")
@@ -105,10 +116,15 @@ impl fmt::Display for PointingError {
                 f,
                 "{runs} runs state no bound of level {level} with confidence {confidence}; at least \
                  {:.0} are needed",
-                ((1.0 - confidence).ln() / level.ln()).ceil()
+                ((1.0 - confidence).ln() / level.ln()).ceil(),
+                level = Plain(*level)
             ),
             Self::Number { of, index, value } => {
-                write!(f, "{of} {index} is {value}; it is a finite number of the right sign")
+                write!(
+                    f,
+                    "{of} {index} is {value}; it is a finite number of the right sign",
+                    value = Plain(*value)
+                )
             }
             Self::Order { index } => {
                 write!(f, "frequency {index} is not above the one before it; sort them")
@@ -120,7 +136,10 @@ impl fmt::Display for PointingError {
             Self::Boresight([x, y, z]) => write!(
                 f,
                 "the direction {x}, {y}, {z} is zero, not finite or along the boresight; choose one \
-                 across it"
+                 across it",
+                x = Plain(*x),
+                y = Plain(*y),
+                z = Plain(*z)
             ),
             Self::Spectrum(error) => error.fmt(f),
         }

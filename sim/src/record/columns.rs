@@ -10,6 +10,8 @@ mod disturbances;
 mod quantity;
 mod structure;
 
+use std::collections::HashSet;
+
 use precess_dynamics::kind::JointInfo;
 
 pub(crate) use quantity::Quantity;
@@ -140,8 +142,18 @@ impl Column {
     }
 }
 
-/// The names of the quantities that are integrated.
-pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
+/// Names that are of columns, vectors and groups whatever devices, points and sources a scenario has.
+pub(crate) fn reserved_names() -> HashSet<String> {
+    let mut columns = Vec::new();
+    hub(&mut columns);
+    structure::modal(&mut columns, 1);
+    totals(&mut columns);
+    let names = columns.into_iter().flat_map(|of| [Some(of.name), Some(of.group), of.vector]);
+    names.flatten().chain(["loads".to_owned()]).collect()
+}
+
+/// The quantities that are integrated, with name and unit.
+pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity, &'static str)> {
     let mut columns = Vec::new();
     hub(&mut columns);
     for (joint, place) in layout.joints.iter().enumerate() {
@@ -150,7 +162,7 @@ pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
     }
     structure::modal(&mut columns, layout.modes);
     let state = columns.into_iter().filter(|column| column.quantity.is_state());
-    state.map(|column| (column.name, column.quantity)).collect()
+    state.map(|column| (column.name, column.quantity, column.unit)).collect()
 }
 
 /// The indices of a quantity's columns: one by its name, or those of a vector.

@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::pointing::PointingError;
+use crate::units::Plain;
 
 /// Samples that cannot be recorded.
 #[derive(Debug)]
@@ -86,7 +87,10 @@ impl fmt::Display for RecordError {
             Self::Band { requirement, band: [from, to], highest } => write!(
                 f,
                 "requirement `{requirement}`: the band {from} Hz to {to} Hz is not within 0 Hz to \
-                 {highest} Hz, half the sampling rate; raise output.rate"
+                 {highest} Hz, half the sampling rate; raise output.rate",
+                from = Plain(*from),
+                to = Plain(*to),
+                highest = Plain(*highest)
             ),
             Self::Metric { requirement, source } => {
                 write!(f, "requirement `{requirement}`: {source}")

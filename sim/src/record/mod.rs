@@ -23,6 +23,7 @@ pub mod statistics;
 mod welch;
 
 pub use between::Between;
+pub(crate) use columns::reserved_names;
 pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};

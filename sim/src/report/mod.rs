@@ -48,12 +48,6 @@ const BUCKET_BYTES: usize = 11;
 /// Fewest and most buckets.
 const BUCKETS: [usize; 2] = [120, 1600];
 
-/// A name in names of files: lower case, digits, hyphens.
-pub(crate) fn slug(name: &str) -> String {
-    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
-    name.chars().map(letter).collect()
-}
-
 /// Collects what the page of one run shows.
 pub struct Report {
     scenario: Scenario,

@@ -1,13 +1,17 @@
 //! Checks of a scenario, whether a file or a program gave it; and [`ScenarioError`].
 
+use std::collections::HashSet;
 use std::fmt;
 
-use precess_dynamics::{ModesError, ParameterError};
+use precess_dynamics::{Gravity, HubMode, ModesError, ParameterError};
 
 use super::{
     Action, Drive, IntegratorChoice, Member, Profile, Scenario, Statistic, Target, members,
 };
+use crate::names::{column_name_fault, name_fault};
 use crate::pointing::{EXPOSURE_SAMPLES_MIN, Index, IndexStream, PointingError, samples_of};
+use crate::record::reserved_names;
+use crate::units::Plain;
 
 /// Shorter, and a turn of no wheel fits in.
 pub(crate) const DURATION_MIN: f64 = 1e-6;
@@ -21,6 +25,9 @@ pub(crate) const TOLERANCE_MAX: f64 = 1e-3;
 pub(crate) const STEP_MIN: f64 = 1e-9;
 /// Most samples of a run: 8 bytes a number and fifty columns are 400 GB.
 pub(crate) const SAMPLES_MAX: f64 = 1e9;
+/// Most steps of a run that chooses its steps, for each second; Table 1 takes about 300 a second, and a run that needs
+/// this many does not converge.
+pub(crate) const STEPS_PER_SECOND_MAX: f64 = 1e5;
 /// Most steps of a run with fixed steps.
 pub(crate) const STEPS_MAX: f64 = 1e11;
 
@@ -102,13 +109,43 @@ impl Scenario {
     pub fn check(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
         errors.extend(self.check_settings());
+        errors.extend(self.check_hub());
         errors.extend(self.check_names());
         errors.extend(self.check_joints());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {
+            errors.extend(self.check_time_scales());
             errors.extend(self.check_structure());
             errors.extend(self.check_disturbances());
+        }
+        errors
+    }
+
+    /// What no hub and no field of gravity is, and the solver cannot tell before a state is evaluated.
+    fn check_hub(&self) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        let moments = self.hub.i_b_bc.diagonal();
+        let alone = members(&self.devices).is_empty();
+        let zero = |moment: &f64| *moment == 0.0;
+        if self.hub_mode == HubMode::Free
+            && (moments.iter().all(zero) || (alone && moments.iter().any(zero)))
+        {
+            let [x, y, z] = [moments.x, moments.y, moments.z].map(Plain);
+            let message = format!(
+                "moments of inertia of the hub of {x}, {y}, {z} kg m^2; one that is free to turn has \
+                 moments above zero, or write `mode = \"fixed\"`"
+            );
+            errors.push(range("hub.inertia", message));
+        }
+        if let Gravity::Central { mu } = self.gravity
+            && !(mu >= 0.0 && mu.is_finite())
+        {
+            let message = format!(
+                "a gravitational parameter of {} m^3/s^2; it is not negative, the Earth's is 3.986e14",
+                Plain(mu)
+            );
+            errors.push(range("gravity.central", message));
         }
         errors
     }
@@ -119,7 +156,10 @@ impl Scenario {
         if !(DURATION_MIN..=DURATION_MAX).contains(&duration) {
             errors.push(range(
                 "run.duration",
-                format!("{duration} s is outside {DURATION_MIN:e} s to {DURATION_MAX:e} s"),
+                format!(
+                    "{} s is outside {DURATION_MIN:e} s to {DURATION_MAX:e} s",
+                    Plain(duration)
+                ),
             ));
             return errors;
         }
@@ -140,7 +180,11 @@ impl Scenario {
                 if !(shortest..=duration).contains(&step) {
                     errors.push(range(
                         "run.step",
-                        format!("{step} s is outside {shortest:e} s to the duration, {duration} s"),
+                        format!(
+                            "{} s is outside {shortest:e} s to the duration, {} s",
+                            Plain(step),
+                            Plain(duration)
+                        ),
                     ));
                 }
             }
@@ -151,8 +195,10 @@ impl Scenario {
             errors.push(range(
                 "output.rate",
                 format!(
-                    "{rate} Hz is outside {lowest} Hz to {highest} Hz: one sample in the run, and \
-                     {SAMPLES_MAX:e}"
+                    "{} Hz is outside {} Hz to {} Hz: one sample in the run, and {SAMPLES_MAX:e}",
+                    Plain(rate),
+                    Plain(lowest),
+                    Plain(highest)
                 ),
             ));
         }
@@ -162,7 +208,12 @@ impl Scenario {
                 let key = if 0.0 <= from { "to" } else { "from" };
                 errors.push(range(
                     &format!("requirement.{}.{key}", requirement.name),
-                    format!("the window {from} s to {to} s is not within the run's {duration} s"),
+                    format!(
+                        "the window {} s to {} s is not within the run's {} s",
+                        Plain(from),
+                        Plain(to),
+                        Plain(duration)
+                    ),
                 ));
             }
             if let Err(error) = requirement.statistic.check(rate) {
@@ -191,27 +242,22 @@ impl Scenario {
                 ),
             ));
         }
+        let reserved = reserved_names();
+        let mut known = HashSet::new();
         for (index, name) in self.names.iter().enumerate() {
             let is_platform = matches!(all.get(index), Some(Member::Platform(_)));
             let key = format!("{}.{name}.name", if is_platform { "platform" } else { "device" });
-            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-            if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
-                errors.push(range(
-                    &key,
-                    format!("`{name}` is not lower-case letters, digits and underscores"),
-                ));
+            if let Some(fault) = column_name_fault(name) {
+                errors.push(range(&key, fault.to_string()));
             }
-            if name == "loads" || (name == "modes" && self.structure.is_some()) {
-                let message = format!(
-                    "`{name}` is the name of a group of columns; name the device otherwise"
-                );
+            if name == "hub" {
+                let message = "`on = \"hub\"` means the hub; choose another name";
+                errors.push(range(&key, message.to_owned()));
+            } else if reserved.contains(name.as_str()) {
+                let message = format!("`{name}` names other columns; choose another name");
                 errors.push(range(&key, message));
             }
-            if is_platform && name == "hub" {
-                let message = "`on = \"hub\"` means the hub; name the platform otherwise";
-                errors.push(range(&key, message.to_owned()));
-            }
-            if self.names.iter().take(index).any(|other| other == name) {
+            if !known.insert(name.as_str()) {
                 let what = if all.iter().any(|member| member.platform().is_some()) {
                     "two devices or platforms"
                 } else {
@@ -220,6 +266,12 @@ impl Scenario {
                 errors.push(range(&key, format!("{what} are named `{name}`; rename one")));
             }
         }
+        let requirements = self.requirements.iter().map(|of| of.name.as_str());
+        let crossings = self.crossings.iter().map(|of| of.name.as_str());
+        let nodes = self.structure.iter().flat_map(|of| &of.nodes).map(|node| node.name.as_str());
+        errors.extend(named_once("requirement", "requirements", requirements));
+        errors.extend(named_once("crossing", "crossings", crossings));
+        errors.extend(named_once("structure.node", "nodes", nodes));
         errors
     }
 
@@ -240,8 +292,8 @@ impl Scenario {
         }
         for change in &self.changes {
             if !(0.0..=self.settings.duration).contains(&change.time) {
-                let duration = self.settings.duration;
-                let message = format!("{} s is outside the run, 0 s to {duration} s", change.time);
+                let [time, duration] = [change.time, self.settings.duration].map(Plain);
+                let message = format!("{time} s is outside the run, 0 s to {duration} s");
                 errors.push(range("at.time", message));
             }
         }
@@ -263,6 +315,25 @@ impl Scenario {
         let of_wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.moment));
         of_drives.chain(of_wrenches)
     }
+}
+
+/// What is wrong with names of one kind: a name that is none, and a second one.
+fn named_once<'a>(
+    table: &str,
+    kind: &str,
+    names: impl Iterator<Item = &'a str>,
+) -> Vec<ScenarioError> {
+    let mut known = HashSet::new();
+    let wrong = |name: &'a str| {
+        let twice = !known.insert(name);
+        let message = match name_fault(name) {
+            Some(fault) => fault.to_string(),
+            None if twice => format!("two {kind} are named `{name}`; rename one"),
+            None => return None,
+        };
+        Some(range(&format!("{table}.{name}.name"), message))
+    };
+    names.filter_map(wrong).collect()
 }
 
 impl Drive {

@@ -7,6 +7,8 @@ use precess_dynamics::{BuiltIn, BuiltInKind};
 use super::check::range;
 use super::{Member, Scenario, ScenarioError, members};
 use crate::disturbance::{COMPONENTS, Disturbance, Harmonic, Model, SourceTarget, by_spin_axis};
+use crate::names::column_name_fault;
+use crate::units::Plain;
 
 /// A harmonic number this near to one is the fundamental: twice the 0.5 % to which a fit gives it.
 const FUNDAMENTAL: f64 = 0.01;
@@ -72,9 +74,8 @@ impl Scenario {
 
     fn name_fault(&self, index: usize, of: &Disturbance) -> Option<String> {
         let name = &of.name;
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
-            return Some(format!("`{name}` is not lower-case letters, digits and underscores"));
+        if let Some(fault) = column_name_fault(name) {
+            return Some(fault.to_string());
         }
         if self.disturbances.iter().take(index).any(|other| other.name == *name) {
             return Some(format!("two sources are named `{name}`; rename one"));
@@ -124,7 +125,11 @@ impl Scenario {
         if !rises {
             return Some((
                 "to",
-                format!("it acts from {from} s to {to} s; the end is after the start"),
+                format!(
+                    "it acts from {} s to {} s; the end is after the start",
+                    Plain(from),
+                    Plain(to)
+                ),
             ));
         }
         if of.spin_axis > 2 {
@@ -250,14 +255,15 @@ fn is_imbalanced(device: &BuiltIn) -> bool {
 
 /// What is wrong with a harmonic.
 fn fault(harmonic: &Harmonic) -> Option<String> {
-    let number = harmonic.number;
-    if !(number > 0.0 && number <= NUMBER_MAX) {
+    let number = Plain(harmonic.number);
+    if !(harmonic.number > 0.0 && harmonic.number <= NUMBER_MAX) {
         return Some(format!("harmonic number {number} is not above 0 and up to {NUMBER_MAX}"));
     }
     let of = COMPONENTS.into_iter().zip(harmonic.amplitudes.iter().zip(&harmonic.phases));
     of.into_iter().find_map(|(component, (amplitude, phase))| {
         if !(*amplitude >= 0.0 && amplitude.is_finite()) {
             let sign = "it is finite and not negative; a sign is a phase of 180 deg";
+            let amplitude = Plain(*amplitude);
             return Some(format!("harmonic {number}: {component} is {amplitude}; {sign}"));
         }
         (!phase.is_finite())

@@ -16,6 +16,7 @@ pub mod profile;
 mod residual;
 mod source_place;
 mod structure;
+mod time_scales;
 
 use nalgebra::Vector3;
 use precess_description::Turn;
@@ -29,6 +30,7 @@ pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
 pub use source_place::{SourceBody, SourcePlace};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
+pub(crate) use time_scales::steps_max;
 
 use crate::disturbance::Disturbance;
 use crate::pointing::Index;

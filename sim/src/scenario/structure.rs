@@ -14,6 +14,8 @@ use precess_dynamics::{
 
 use super::check::range;
 use super::{Scenario, ScenarioError, Set, Target, WrenchAxes};
+use crate::names::{NameFault, column_name_fault};
+use crate::record::reserved_names;
 use crate::structure::steady::set_of;
 use crate::structure::{COORDINATES, Mode, RigidMass};
 
@@ -244,18 +246,21 @@ impl Scenario {
                 format!("`{}` has {} shapes for {modes} modes", node.name, node.shapes.len());
             errors.push(range("structure.node", message));
         }
+        let reserved = reserved_names();
         for (index, point) in structure.points.iter().enumerate() {
             let name = point.name.as_str();
-            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-            if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
-                let message = format!(
-                    "`{name}` is not lower-case letters, digits and underscores; write \
-                     `name = \"camera\"` and `node = \"{name}\"`"
-                );
+            if let Some(fault) = column_name_fault(name) {
+                let remedy = match fault {
+                    NameFault::Column => {
+                        format!("; write `name = \"camera\"` and `node = \"{name}\"`")
+                    }
+                    _ => String::new(),
+                };
+                let message = format!("{fault}{remedy}");
                 errors.push(range(&format!("structure.point.{name}.name"), message));
             }
             let earlier = structure.points.iter().take(index).any(|other| other.name == name);
-            let group = ["loads", "modes"].contains(&name);
+            let group = reserved.contains(name);
             if earlier || group || self.names.iter().any(|device| device == name) {
                 let message = format!(
                     "`{name}` names other columns, of a device, a point or a group; choose \
@@ -272,22 +277,22 @@ impl Scenario {
     fn not_on_a_structure(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
         let mut reject = |key: String, message: &str| errors.push(range(&key, message.to_owned()));
-        for wrench in &self.wrenches {
+        for (index, wrench) in self.wrenches.iter().enumerate() {
             match wrench.body {
                 Target::Hub => {
                     let message = "a force on a structure that bends acts on one of its nodes; \
                                    write `on = \"NODE\"`";
-                    reject("wrench.on".to_owned(), message);
+                    reject(format!("wrench.{index}.on"), message);
                 }
                 Target::Node(_) if wrench.point != Vector3::zeros() => {
                     let message = "a force on a node acts at the node; remove `point`, or add a \
                                    node there";
-                    reject("wrench.point".to_owned(), message);
+                    reject(format!("wrench.{index}.point"), message);
                 }
                 Target::Joint(_) if wrench.axes == WrenchAxes::Inertial => {
                     let message = "on a device of a structure that bends, wrenches are in the \
                                    axes of the body; write `axes = \"body\"`, or put it on a node";
-                    reject("wrench.axes".to_owned(), message);
+                    reject(format!("wrench.{index}.axes"), message);
                 }
                 Target::Node(_) | Target::Joint(_) => {}
             }

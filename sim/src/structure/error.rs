@@ -134,6 +134,13 @@ pub enum Fault {
         /// How many nodes have shapes.
         nodes: usize,
     },
+    /// A name of a node that is none.
+    Name {
+        /// The name, its hidden letters written out.
+        name: String,
+        /// Why it is none.
+        reason: String,
+    },
     /// No node of this name.
     UnknownNode {
         /// The name.
@@ -294,6 +301,7 @@ impl fmt::Display for Fault {
             Self::UnknownNode { name, nodes } => {
                 write!(f, "no node is named `{name}`; there are {}", listed(nodes))
             }
+            Self::Name { name, reason } => write!(f, "a node is named `{name}`: {reason}"),
             Self::NameTwice { name } => {
                 write!(f, "two nodes are named `{name}`; give one of them another name")
             }

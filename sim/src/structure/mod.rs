@@ -43,7 +43,11 @@ pub mod op4;
 mod read;
 pub mod steady;
 
+use std::collections::HashSet;
+
 use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3};
+
+use crate::names::{NAME_MAX, name_fault};
 
 pub use error::{Fault, Place, StructureError};
 pub use read::{MOST_BYTES, ReadError, bytes_of, from_file};
@@ -210,9 +214,14 @@ impl Structure {
                 return Err(Fault::Number { what: what.into(), found, range: [1, MOST] });
             }
         }
-        for (index, node) in self.nodes.iter().enumerate() {
+        let mut names = HashSet::new();
+        for node in &self.nodes {
+            if let Some(fault) = name_fault(&node.name) {
+                let name = node.name.escape_debug().take(NAME_MAX).collect();
+                return Err(Fault::Name { name, reason: fault.to_string() });
+            }
             finite(node.position.iter(), || format!("position of node `{}`", node.name))?;
-            if self.nodes.iter().take(index).any(|other| other.name == node.name) {
+            if !names.insert(node.name.as_str()) {
                 return Err(Fault::NameTwice { name: node.name.clone() });
             }
         }

@@ -2,15 +2,17 @@
 //!
 //! ```text
 //! quantity  = number ("," number)* unit          -0.02, 0.01, 10 cm
-//! unit      = power (("*" | "·" | "/" | " ") power)*      a "/" divides by the next power only
-//! power     = (symbol | "(" unit ")") (("^" | "**") integer | superscript digits)?
+//! unit      = power (("*" | "·" | "/" | "-" | "." | " ") power)*      a "/" divides by the next power only
+//! power     = (symbol | "(" unit ")") (("^" | "**") integer | superscript digits | digit | "-" digit)?
 //! ```
-
-use crate::nearest::nearest;
+//!
+//! Spellings of data sheets are read where they have one reading (`N-m`, `g.cm`, `gcm`, `m/s2`, `RPM`); of others the
+//! error names the readings. Hertz are a unit of a frequency and of a spectral density only: of a rate they would
+//! leave a factor of 2 pi open.
 
 use super::error::{UnitError, UnitErrorKind};
 use super::measure::{Dimension, Measure, measure_of};
-use super::symbols;
+use super::unit::{ONE, Scale, scale_of};
 
 /// Numbers of one unit, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +23,6 @@ pub struct Quantity {
     pub dimension: Dimension,
     /// The unit as written; empty of a pure number.
     pub unit: String,
-}
-
-/// A unit: `10^ten * factor` of SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Scale {
-    ten: i32,
-    factor: f64,
-    dimension: Dimension,
 }
 
 impl Quantity {
@@ -57,7 +51,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
         at = skip(text, at);
         let end = number_end(text, at);
         if end == at {
-            return Err(UnitError { at: at..text.len().max(at), kind: UnitErrorKind::Number });
+            return Err(no_number(text, at));
         }
         numbers.push(at..end);
         at = skip(text, end);
@@ -67,14 +61,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
         }
     }
     let rest = text.get(at..).unwrap_or_default();
-    let scale = if rest.trim().is_empty() {
-        Scale { ten: 0, factor: 1.0, dimension: Dimension::default() }
-    } else {
-        let mut parser = Parser { text, at };
-        let scale = parser.product()?;
-        parser.end()?;
-        scale
-    };
+    let scale = if rest.trim().is_empty() { ONE } else { scale_of(text, at)? };
     let values = numbers.into_iter().map(|at| value(text, at, scale)).collect::<Result<_, _>>()?;
     Ok(Quantity { values, dimension: scale.dimension, unit: rest.trim().to_owned() })
 }
@@ -84,11 +71,23 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
 /// # Errors
 /// The first place at which the text is no unit.
 pub fn parse_unit(text: &str) -> Result<(f64, Dimension), UnitError> {
-    let mut parser = Parser { text, at: 0 };
-    let scale = parser.product()?;
-    parser.end()?;
+    let scale = scale_of(text, 0)?;
     let size = format!("1e{}", scale.ten).parse::<f64>().unwrap_or(f64::NAN) * scale.factor;
     Ok((size, scale.dimension))
+}
+
+/// Why there is no number at a place.
+fn no_number(text: &str, at: usize) -> UnitError {
+    let rest = text.get(at..).unwrap_or_default();
+    let signed = rest.strip_prefix(['+', '-']).unwrap_or(rest);
+    let letters = signed.find(|c: char| !c.is_alphabetic()).unwrap_or(signed.len());
+    let word = signed.get(..letters).unwrap_or_default();
+    let is_word = ["inf", "infinity", "nan"].contains(&word.to_lowercase().as_str());
+    if is_word {
+        let end = at + rest.len() - signed.len() + letters;
+        return UnitError { at: at..end, kind: UnitErrorKind::NotFinite(word.to_owned()) };
+    }
+    UnitError { at: at..text.len().max(at), kind: UnitErrorKind::Number }
 }
 
 /// The number in SI. Its decimal exponent and that of the unit are added before it is rounded.
@@ -104,13 +103,13 @@ fn value(text: &str, at: std::ops::Range<usize>, scale: Scale) -> Result<f64, Un
     }
 }
 
-fn skip(text: &str, at: usize) -> usize {
+pub(super) fn skip(text: &str, at: usize) -> usize {
     let rest = text.get(at..).unwrap_or_default();
     at + (rest.len() - rest.trim_start().len())
 }
 
 /// Where a decimal number that starts at `at` ends; `at` if there is none.
-fn number_end(text: &str, at: usize) -> usize {
+pub(super) fn number_end(text: &str, at: usize) -> usize {
     let bytes = text.as_bytes();
     let byte = |i: usize| bytes.get(i).copied().unwrap_or(0);
     let mut i = at;
@@ -145,137 +144,6 @@ fn number_end(text: &str, at: usize) -> usize {
         }
     }
     i
-}
-
-struct Parser<'a> {
-    text: &'a str,
-    at: usize,
-}
-
-impl Parser<'_> {
-    fn rest(&self) -> &str {
-        self.text.get(self.at..).unwrap_or_default()
-    }
-
-    fn error(&self, start: usize, kind: UnitErrorKind) -> UnitError {
-        UnitError { at: start..self.at.max(start), kind }
-    }
-
-    fn take(&mut self, token: &str) -> bool {
-        let found = self.rest().starts_with(token);
-        if found {
-            self.at += token.len();
-        }
-        found
-    }
-
-    fn end(&mut self) -> Result<(), UnitError> {
-        self.at = skip(self.text, self.at);
-        if self.at == self.text.len() {
-            return Ok(());
-        }
-        Err(UnitError { at: self.at..self.text.len(), kind: UnitErrorKind::Expected })
-    }
-
-    fn product(&mut self) -> Result<Scale, UnitError> {
-        let mut product = self.power()?;
-        loop {
-            self.at = skip(self.text, self.at);
-            let start = self.at;
-            let inverse = self.take("/");
-            if !inverse && !self.take("·") && self.rest().starts_with("**") {
-                return Err(UnitError { at: start..start + 2, kind: UnitErrorKind::Expected });
-            }
-            if !inverse && self.at == start {
-                self.take("*");
-            }
-            self.at = skip(self.text, self.at);
-            if self.rest().is_empty() || self.rest().starts_with(')') {
-                if self.at == start
-                    || self.text.get(start..self.at).unwrap_or_default().trim().is_empty()
-                {
-                    return Ok(product);
-                }
-                return Err(UnitError { at: start..self.at, kind: UnitErrorKind::Expected });
-            }
-            let factor = self.power()?;
-            product = self.times(start, product, factor, if inverse { -1 } else { 1 })?;
-        }
-    }
-
-    fn power(&mut self) -> Result<Scale, UnitError> {
-        self.at = skip(self.text, self.at);
-        let start = self.at;
-        let base = if self.take("(") {
-            let inner = self.product()?;
-            self.at = skip(self.text, self.at);
-            if !self.take(")") {
-                return Err(self.error(start, UnitErrorKind::Expected));
-            }
-            inner
-        } else {
-            self.symbol()?
-        };
-        let power = self.exponent()?;
-        let one = Scale { ten: 0, factor: 1.0, dimension: Dimension::default() };
-        self.times(start, one, base, power)
-    }
-
-    fn symbol(&mut self) -> Result<Scale, UnitError> {
-        let start = self.at;
-        let letter = |c: char| c.is_alphabetic() || c == '°';
-        let rest = self.rest();
-        let end = rest.find(|c| !letter(c)).unwrap_or(rest.len());
-        // The number one, as in 1/s.
-        let end = if end == 0 && rest.starts_with('1') { 1 } else { end };
-        let name = rest.get(..end).unwrap_or_default().to_owned();
-        self.at += end;
-        if name.is_empty() {
-            self.at = self.text.len();
-            return Err(self.error(start, UnitErrorKind::Expected));
-        }
-        let Some(found) = symbols::find(&name) else {
-            let near = symbols::parted(&name)
-                .or_else(|| nearest(&name, symbols::all()).into_iter().next());
-            return Err(self.error(start, UnitErrorKind::Symbol(near)));
-        };
-        Ok(Scale { ten: found.ten, factor: found.factor, dimension: found.dimension })
-    }
-
-    fn exponent(&mut self) -> Result<i8, UnitError> {
-        const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-        let start = self.at;
-        if self.take("^") || self.take("**") {
-            let digits = self.at;
-            self.take("-");
-            let end = number_end(self.text, self.at);
-            self.at = end;
-            let power = self.text.get(digits..end).and_then(|text| text.parse::<i8>().ok());
-            return match power {
-                Some(power) if power.abs() <= 9 => Ok(power),
-                _ => Err(self.error(start, UnitErrorKind::Exponent)),
-            };
-        }
-        let negative = self.take("⁻");
-        let digit = self.rest().chars().next();
-        let place = digit.and_then(|c| SUPERSCRIPTS.chars().position(|s| s == c));
-        match (place.and_then(|place| i8::try_from(place).ok()), digit) {
-            (Some(power), Some(digit)) => {
-                self.at += digit.len_utf8();
-                Ok(if negative { -power } else { power })
-            }
-            _ if negative => Err(self.error(start, UnitErrorKind::Exponent)),
-            _ => Ok(1),
-        }
-    }
-
-    fn times(&self, start: usize, a: Scale, b: Scale, power: i8) -> Result<Scale, UnitError> {
-        let error = || self.error(start, UnitErrorKind::Exponent);
-        let dimension = a.dimension.times(b.dimension, power).ok_or_else(error)?;
-        let ten = b.ten.checked_mul(i32::from(power)).and_then(|ten| a.ten.checked_add(ten));
-        let factor = a.factor * b.factor.powi(i32::from(power));
-        Ok(Scale { ten: ten.ok_or_else(error)?, factor, dimension })
-    }
 }
 
 #[cfg(test)]
@@ -331,21 +199,13 @@ mod tests {
         assert_eq!(unknown.at, 2..5);
         assert!(matches!(unknown.kind, UnitErrorKind::Symbol(Some(_))), "{unknown:?}");
         let joined = |text: &str| error(text).kind;
-        assert_eq!(joined("60 mNm"), UnitErrorKind::Symbol(Some("mN m".to_owned())));
         assert_eq!(joined("4 kgs"), UnitErrorKind::Symbol(Some("kg".to_owned())));
-        assert_eq!(joined("3000 RPM"), UnitErrorKind::Symbol(Some("rpm".to_owned())));
-        for (written, symbol) in [
-            ("microrad", "urad"),
-            ("microradians", "urad"),
-            ("µradians", "µrad"),
-            ("milliNewton", "mN"),
-            ("degrees", "deg"),
-            ("arcseconds", "arcsec"),
-        ] {
-            assert_eq!(
-                joined(&format!("5 {written}")),
-                UnitErrorKind::Symbol(Some(symbol.to_owned()))
-            );
+        assert_eq!(joined("4 KG"), UnitErrorKind::Symbol(Some("kg".to_owned())));
+        // Of one letter nothing is left that is meant.
+        assert_eq!(joined("4 stone"), UnitErrorKind::Symbol(None));
+        for word in ["inf", "NaN", "-Infinity"] {
+            let word_alone = word.trim_start_matches('-').to_owned();
+            assert_eq!(joined(&format!("{word} kg")), UnitErrorKind::NotFinite(word_alone));
         }
         // In lower case it is longer.
         assert!(matches!(joined("5 \u{130}\u{130}\u{130}s"), UnitErrorKind::Symbol(_)));
@@ -364,7 +224,72 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_in_hertz_is_no_angular_rate() {
+    fn spellings_of_data_sheets_with_one_reading_are_read() {
+        for (written, symbols) in [
+            ("g-cm", "g cm"),
+            ("g.cm", "g cm"),
+            ("gcm", "g cm"),
+            ("gcm²", "g cm^2"),
+            ("g cm2", "g cm^2"),
+            ("kg-m^2", "kg m^2"),
+            ("kgm^2", "kg m^2"),
+            ("N-m", "N m"),
+            ("Nm", "N m"),
+            ("mNm", "mN m"),
+            ("N-m-s", "N m s"),
+            ("Nm s/rad", "N m s/rad"),
+            ("ozf-in", "ozf in"),
+            ("kg m s-2", "kg m/s^2"),
+            ("m/s2", "m/s^2"),
+            ("Kg", "kg"),
+            ("lbm", "lb"),
+            ("RPM", "rpm"),
+            ("r/min", "rpm"),
+            ("rad/sec", "rad/s"),
+            ("degrees/s", "deg/s"),
+            ("milliarcsec", "marcsec"),
+            ("milli-arcsec", "marcsec"),
+            ("mas", "marcsec"),
+            ("microrad", "urad"),
+            ("microradians", "urad"),
+            ("µradians", "µrad"),
+            ("Mradian", "Mrad"),
+            ("milliNewton", "mN"),
+            ("arcseconds", "arcsec"),
+        ] {
+            let parsed = |unit: &str| parse_unit(unit).unwrap_or_else(|e| panic!("{unit}: {e:?}"));
+            let ((size, dimension), (right, wanted)) = (parsed(written), parsed(symbols));
+            assert_eq!(dimension, wanted, "{written}");
+            assert!((size - right).abs() < 1e-15 * right, "{written}: {size} and {right}");
+        }
+        assert!((one("1 slug", Measure::MASS) - 14.593_902_937_206_36).abs() < 1e-14);
+        assert_eq!(parse_quantity("5 12/s").map(|found| found.values).ok(), None);
+    }
+
+    #[test]
+    fn spellings_with_several_readings_name_them() {
+        let readings = |text: &str| match parse_quantity(text).expect_err(text).kind {
+            UnitErrorKind::Ambiguous(readings) => readings.join(", "),
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(readings("3 Nms"), "N m s, N ms");
+        assert_eq!(readings("0.48 gm cm"), "g, g m");
+        assert_eq!(readings("50 rps"), "rev/s, rad/s");
+        assert_eq!(readings("1 N/rad-s"), "N/(rad s), N s/rad");
+        assert_eq!(readings("1 rad/Nm"), "(Nm)");
+    }
+
+    #[test]
+    fn hertz_are_of_frequencies_and_densities_only() {
         assert!(!parse_quantity("100 Hz").expect("a frequency").is(Measure::ANGULAR_RATE));
+        for density in ["mN^2/Hz", "N^2 m^2/Hz", "N²/kHz", "kHz", "rad^2/Hz"] {
+            assert!(parse_unit(density).is_ok(), "{density}");
+        }
+        for rate in ["N/Hz^2", "N m/Hz^2", "N/Hz", "N m/Hz/rad", "kg m^2 Hz", "kg m Hz^2", "m Hz"] {
+            let kind = parse_unit(rate).expect_err(rate).kind;
+            assert!(matches!(kind, UnitErrorKind::Hertz(_)), "{rate}: {kind:?}");
+        }
+        let shown = parse_unit("N/Hz^2").expect_err("hertz").kind.to_string();
+        assert!(shown.contains("`N/(rev/s)^2` for turns, `N/(rad/s)^2` for radians"), "{shown}");
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A unit is a product of powers of the symbols of [`symbols`], and what a key wants is a
 //! [`Measure`]: a dimension and the unit that an error names. The plane angle is a
-//! dimension of its own, so an angular rate in hertz is an error and not a factor of 2 pi.
+//! dimension of its own, so an angular rate in hertz is an error and not a factor of 2 pi; so are hertz within any
+//! other unit of a rate, `N/Hz^2`. What data sheets write is read where it has one reading.
 //! Torque and energy have one dimension; which of them is meant is known by the key.
 //!
 //! Powers of ten are not multiplied: `0.08 mm` is the number `0.08e-3` as a compiler reads it. A
@@ -14,8 +15,11 @@
 mod error;
 mod expression;
 mod measure;
+mod plain;
 mod symbols;
+mod unit;
 
 pub use error::{UnitError, UnitErrorKind};
 pub use expression::{Quantity, parse_quantity, parse_unit};
 pub use measure::{Dimension, Measure, measure_of};
+pub(crate) use plain::Plain;

@@ -76,8 +76,8 @@ fn a_range_of_speeds_that_falls_is_shown_with_both_values() {
         ["`speed.from` is 600 rpm, which is not below `speed.to`, 500 rpm"]
     );
     assert_eq!(
-        messages("600 rpm", "0 Hz rad"),
-        ["`speed.from` is 0 Hz rad; a wheel at rest has no tones"]
+        messages("600 rpm", "0 rad/s"),
+        ["`speed.from` is 0 rad/s; a wheel at rest has no tones"]
     );
 }
 

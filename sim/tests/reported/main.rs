@@ -1,5 +1,6 @@
 //! Faults that users reported: each input as it was sent in, with the right answer. By subject:
 
+mod extremes;
 mod files;
 mod fits;
 mod frequencies;
@@ -7,6 +8,7 @@ mod inputs;
 mod loads;
 mod names;
 mod requirements;
+mod units;
 
 use std::fs;
 use std::path::{Path, PathBuf};

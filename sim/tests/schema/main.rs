@@ -263,6 +263,75 @@ fn an_unknown_key_is_refused_in_every_table_and_both_know_the_same_keys() {
     assert_eq!(listed.len(), tables, "{:?}", listed.keys());
 }
 
+/// The words of a part of the schema.
+fn words<'a>(schema: &'a Value, mut part: &'a Value) -> Vec<&'a str> {
+    if let Some(reference) = part["$ref"].as_str() {
+        part = schema.pointer(reference.trim_start_matches('#')).expect("a definition");
+    }
+    let own = part["enum"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let branches = part["anyOf"].as_array().into_iter().flatten();
+    own.chain(branches.flat_map(|branch| words(schema, branch))).collect()
+}
+
+/// Where the schema lists the words of a key, the reader takes these and no other.
+#[test]
+fn both_know_the_same_words_of_every_key() {
+    let schema = schema();
+    let mut compared: BTreeMap<String, usize> = BTreeMap::new();
+    for (name, table) in documents() {
+        for place in places(&schema, &table) {
+            for (key, part) in place.properties {
+                let known = words(&schema, part);
+                let at = format!("{}/{key}", place.name);
+                let with = |word: &str| with_word(&table, &place.steps, key, word);
+                let Some(other) = with(UNKNOWN).filter(|_| !known.is_empty()) else { continue };
+                if compared.contains_key(&at) {
+                    continue;
+                }
+                let reads = |changed: &Table| {
+                    let read = from_toml("changed.toml", &changed.to_string(), &folder());
+                    read.err().map_or_else(String::new, |errors| errors.to_string())
+                };
+                assert!(!reads(&other).is_empty(), "{name}: {at} takes any word");
+                assert!(!faults(&schema, &json(&other)).is_empty(), "{name}: {at}");
+                for word in &known {
+                    let changed = with(word).expect("the key is there");
+                    let refused = format!("is \"{word}\"\n");
+                    let shown = reads(&changed);
+                    assert!(!shown.contains(&refused), "{name}: {at} = {word}\n{shown}");
+                    assert!(
+                        !shown.contains("platforms stand on"),
+                        "{name}: {at} = {word}\n{shown}"
+                    );
+                }
+                compared.insert(at, known.len());
+            }
+        }
+    }
+    println!("{compared:?}");
+    for at in ["#/$defs/platform/on", "#/$defs/device/kind", "/hub/mode"] {
+        assert!(compared.contains_key(at), "{at} in {compared:?}");
+    }
+}
+
+/// The document with a word for a key of one of its tables; none where that key is not there or is no text.
+fn with_word(table: &Table, steps: &[Step], key: &str, word: &str) -> Option<Table> {
+    let mut value = toml::Value::Table(table.clone());
+    let mut at = &mut value;
+    for step in steps {
+        at = match step {
+            Step::Key(key) => &mut at[key.as_str()],
+            Step::Index(index) => &mut at[*index],
+        };
+    }
+    let entry = at.as_table_mut()?.get_mut(key).filter(|value| value.is_str())?;
+    *entry = toml::Value::String(word.to_owned());
+    match value {
+        toml::Value::Table(table) => Some(table),
+        _ => None,
+    }
+}
+
 /// How many tables a schema has.
 fn tables(part: &Value) -> usize {
     match part {

@@ -103,7 +103,7 @@ fn what_a_source_refers_to_is_there() {
     refused(&on("rw", &format!("{TONE}{RECORD}")), &["given in 2 ways"]);
     refused(
         &(on("rw", TONE) + "[[source]]\nname = \"a\"\non = \"rw\"\n" + TONE),
-        &["two sources are named `a`"],
+        &["two of `source` are named `a`"],
     );
     refused(&on("rw", TONE).replace("name = \"a\"", "name = \"A b\""), &["lower-case letters"]);
     refused(&on("rw", TONE).replace("\"rw\"", "\"source_a\""), &["`source_a` names other columns"]);

@@ -14,8 +14,8 @@ use super::error::CommandError;
 use super::exit::Exit;
 use super::run::{may_write, write_whole};
 use super::{print, structure};
+use crate::names::file_names;
 use crate::report::response::Response;
-use crate::report::slug;
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
 use crate::structure::mounted::{transmission, without_mass};
 use crate::structure::{COORDINATE_NAMES, COORDINATES, Fault, Structure};
@@ -122,17 +122,21 @@ impl AcceleranceCommand {
             let numbers =
                 [structure.node(to).map_err(failed)?, structure.node(from).map_err(failed)?];
             tables.push(
-                self.accelerance(&structure, &stem, [to, from], numbers, &frequencies)
-                    .map_err(failed)?,
+                self.accelerance(&structure, [to, from], numbers, &frequencies).map_err(failed)?,
             );
         }
         let node = self.at.first().map_or("", String::as_str);
         let number = structure.node(node).map_err(failed)?;
         let position = structure.nodes.get(number).map_or_else(Default::default, |n| n.position);
         if let Some(devices) = self.devices.mounted(node, &position)? {
-            tables.push(dynamic_mass(&devices, &stem, node, &frequencies).map_err(failed)?);
-            let both = self.transmission(&structure, &stem, (node, number), &devices, &frequencies);
+            tables.push(dynamic_mass(&devices, node, &frequencies).map_err(failed)?);
+            let both = self.transmission(&structure, (node, number), &devices, &frequencies);
             tables.push(both.map_err(failed)?);
+        }
+        // Names of nodes that differ may be one in the name of a file.
+        let names = file_names(tables.iter().map(|table| &table.name));
+        for (table, name) in tables.iter_mut().zip(names) {
+            table.name = format!("{stem}-{name}");
         }
         let files: Vec<_> = tables.iter().flat_map(|table| table.files(&frequencies)).collect();
         let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
@@ -175,7 +179,6 @@ impl AcceleranceCommand {
     fn accelerance(
         &self,
         structure: &Structure,
-        stem: &str,
         [to, from]: [&str; 2],
         [row, column]: [usize; 2],
         frequencies: &[f64],
@@ -183,14 +186,14 @@ impl AcceleranceCommand {
         let accelerance = Accelerance::new(structure, self.base(), &[row], &[column])?;
         let values: Result<Vec<_>, _> =
             frequencies.iter().map(|f| accelerance.at(TAU * f)).collect();
-        let by = if to == from { String::new() } else { format!("-by-{}", slug(from)) };
+        let by = if to == from { String::new() } else { format!(" by {from}") };
         let title = if to == from {
             format!("Accelerance at {to}")
         } else {
             format!("Accelerance of {to} by {from}")
         };
         Ok(Table {
-            name: format!("{stem}-accelerance-{}{by}", slug(to)),
+            name: format!("accelerance {to}{by}"),
             title,
             names: [COORDINATE_NAMES, FORCES],
             units: [["m/s²/N", "m/s²/(N m)"], ["rad/s²/N", "rad/s²/(N m)"]],
@@ -203,7 +206,6 @@ impl AcceleranceCommand {
     fn transmission(
         &self,
         structure: &Structure,
-        stem: &str,
         (node, number): (&str, usize),
         devices: &MountedDevices,
         frequencies: &[f64],
@@ -227,7 +229,7 @@ impl AcceleranceCommand {
             );
         }
         Ok(Table {
-            name: format!("{stem}-transmission-{}", slug(node)),
+            name: format!("transmission {node}"),
             title: format!("Mounted by blocked force at {node}: {}", devices.names),
             names: [FORCES, FORCES],
             units: [["N/N", "N/(N m)"], ["N m/N", "N m/(N m)"]],
@@ -238,12 +240,7 @@ impl AcceleranceCommand {
 }
 
 /// The dynamic mass of devices at a node, and the bound of what averaging leaves out.
-fn dynamic_mass(
-    devices: &MountedDevices,
-    stem: &str,
-    node: &str,
-    frequencies: &[f64],
-) -> Result<Table, Fault> {
+fn dynamic_mass(devices: &MountedDevices, node: &str, frequencies: &[f64]) -> Result<Table, Fault> {
     let MountedDevices { averaged, names, .. } = devices;
     let values: Result<Vec<_>, _> =
         frequencies.iter().map(|f| averaged.dynamic_mass(TAU * f)).collect();
@@ -256,7 +253,7 @@ fn dynamic_mass(
          plus and minus one and two times the rates"
     );
     Ok(Table {
-        name: format!("{stem}-dynamic-mass-{}", slug(node)),
+        name: format!("dynamic mass {node}"),
         title: format!("Dynamic mass at {node}: {names}"),
         names: [FORCES, COORDINATE_NAMES],
         units: [["kg", "kg m"], ["kg m", "kg m²"]],

@@ -8,10 +8,10 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::Set;
 use super::error::CommandError;
 use super::plot::time;
-use super::run::{all_cores, interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use super::run::{interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use super::{Set, Threads};
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };
@@ -45,9 +45,8 @@ pub(super) struct CampaignOptions {
     /// Replace results that are there, and discard the journal of another campaign.
     #[arg(long)]
     force: bool,
-    /// Threads; the result does not depend on them. All cores without this option.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// A scenario and what is recorded of it.
@@ -120,7 +119,7 @@ impl CampaignOptions {
         let opened =
             Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
         watch_interrupts();
-        let threads = self.threads.map_or_else(all_cores, usize::from);
+        let threads = self.threads.count();
         let bar = Mutex::new(progress_bar(plan.samples.len(), "samples"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {

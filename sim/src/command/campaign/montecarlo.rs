@@ -16,8 +16,8 @@ use crate::command::print;
 use crate::command::run::progress_bar;
 use crate::command::table::{aligned, six};
 use crate::file::variations_from_toml;
+use crate::names::file_names;
 use crate::report::montecarlo::distribution;
-use crate::report::slug;
 use crate::spectra::float;
 
 pub(in crate::command) const HELP: &str = "\
@@ -76,7 +76,9 @@ impl MonteCarlo {
         for part in ["percentiles", "correlations"] {
             names.push(format!("{stem}-{part}.csv"));
         }
-        names.extend(shown(&prepared).map(|(name, ..)| format!("{stem}-{}.svg", slug(&name))));
+        let pictures = file_names(shown(&prepared).map(|(name, ..)| name)).into_iter();
+        let pictures: Vec<_> = pictures.map(|name| format!("{stem}-{name}.svg")).collect();
+        names.extend(pictures.iter().cloned());
         if self.sensitivities {
             names.push(format!("{beside}.csv"));
         }
@@ -85,13 +87,10 @@ impl MonteCarlo {
             return Ok(Exit::Violated);
         };
         let mut texts = Vec::new();
-        for (name, field, (unit, size), limit) in shown(&prepared) {
+        for ((name, field, (unit, size), limit), file) in shown(&prepared).zip(pictures) {
             let sorted = sorted(&finished, field);
             let picture = distribution(&name, (&unit, size), &sorted, limit);
-            texts.push((
-                format!("{stem}-{}.svg", slug(&name)),
-                picture.map_err(|error| other(&error))?,
-            ));
+            texts.push((file, picture.map_err(|error| other(&error))?));
         }
         texts.push((format!("{stem}-percentiles.csv"), percentiles_csv(&prepared, &finished)));
         let correlations = correlations(&prepared, &plan, &finished);

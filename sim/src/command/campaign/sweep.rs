@@ -14,9 +14,9 @@ use crate::disturbance::Model as SourceModel;
 use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
 use crate::jitter::device::Steady;
 use crate::jitter::model::Model;
+use crate::names::file_names;
 use crate::pointing::Margin;
 use crate::report::DrawError;
-use crate::report::slug;
 use crate::report::sweep::{Numbers, curve, map, waterfall};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
@@ -73,13 +73,18 @@ impl Sweep {
     /// The files of the result.
     fn names(&self, prepared: &Prepared, stem: &str) -> Vec<String> {
         let mut names = vec![format!("{stem}.csv"), format!("{stem}.npz")];
-        names.extend(shown(prepared).map(|(name, ..)| format!("{stem}-{}.svg", slug(&name))));
-        if self.over.len() == 1 && prepared.selection.lines > 0 {
-            let columns = prepared.selection.columns.iter();
-            names.extend(columns.map(|name| format!("{stem}-lines-{}.svg", slug(name))));
-            names.push(format!("{stem}-campbell.svg"));
-        }
+        names.extend(self.picture_names(prepared, stem));
         names
+    }
+
+    /// The files of the pictures: of each number, then the one of natural frequencies, then of the lines of each column.
+    fn picture_names(&self, prepared: &Prepared, stem: &str) -> Vec<String> {
+        let mut names: Vec<String> = shown(prepared).map(|(name, ..)| name).collect();
+        if self.over.len() == 1 && prepared.selection.lines > 0 {
+            names.push("campbell".to_owned());
+            names.extend(prepared.selection.columns.iter().map(|name| format!("lines {name}")));
+        }
+        file_names(names).into_iter().map(|name| format!("{stem}-{name}.svg")).collect()
     }
 
     fn pictures(
@@ -89,7 +94,8 @@ impl Sweep {
         stem: &str,
     ) -> Result<Vec<(String, String)>, DrawError> {
         let mut files = Vec::new();
-        for (name, field, unit, limit) in shown(prepared) {
+        let mut names = self.picture_names(prepared, stem).into_iter();
+        for ((name, field, unit, limit), file) in shown(prepared).zip(names.by_ref()) {
             let values = values_of(finished, field);
             let unit = (unit.0.as_str(), unit.1);
             let numbers = Numbers { name: &name, unit, values: &values, limit };
@@ -98,16 +104,17 @@ impl Sweep {
                 [first, second] => map([first, second], &numbers)?,
                 _ => continue,
             };
-            files.push((format!("{stem}-{}.svg", slug(&name)), picture));
+            files.push((file, picture));
         }
         let ([axis], true) = (&self.over[..], prepared.selection.lines > 0) else {
             return Ok(files);
         };
         let requirements = prepared.scenario.requirements.len();
+        let file = names.next().unwrap_or_default();
         if let Some(picture) = campbell(prepared, axis)? {
-            files.push((format!("{stem}-campbell.svg"), picture));
+            files.push((file, picture));
         }
-        for (column, name) in prepared.selection.columns.iter().enumerate() {
+        for ((column, name), file) in prepared.selection.columns.iter().enumerate().zip(names) {
             let mut lines = Vec::new();
             for [frequency, amplitude] in prepared.selection.lines_of(column, requirements) {
                 let pairs = values_of(finished, frequency).into_iter();
@@ -117,7 +124,7 @@ impl Sweep {
             let field = prepared.selection.rms_of(column, requirements);
             let unit = prepared.fields.get(field).map_or("", |field| field.unit.as_str());
             let picture = waterfall(axis, name, unit, &lines, &orders(prepared, axis))?;
-            files.push((format!("{stem}-lines-{}.svg", slug(name)), picture));
+            files.push((file, picture));
         }
         Ok(files)
     }

@@ -12,6 +12,7 @@ use super::plot::time;
 use super::result::{Signal, Signals};
 use super::run::{may_write, write_whole};
 use super::{Form, print};
+use crate::names::file_names;
 use crate::pointing::{PointingError, exposure_of_history};
 use crate::report::spectrum::{SpectrumCurve, SpectrumFigure};
 use crate::spectra::{
@@ -225,15 +226,13 @@ fn figures(analysis: &Analysis) -> Vec<(String, SpectrumFigure)> {
     let mut figures: Vec<(String, SpectrumFigure)> = Vec::new();
     for column in &analysis.columns {
         let of = base(&column.name);
-        let slug: String =
-            of.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
         let curve = SpectrumCurve {
             name: column.name.clone(),
             density: column.density.density.clone(),
             rms: column.density.cumulative_rms_forward(),
         };
         if let Some((_, figure)) =
-            figures.iter_mut().find(|(known, of)| *known == slug && of.unit == column.unit)
+            figures.iter_mut().find(|(known, figure)| *known == of && figure.unit == column.unit)
         {
             figure.curves.push(curve);
             continue;
@@ -250,7 +249,8 @@ fn figures(analysis: &Analysis) -> Vec<(String, SpectrumFigure)> {
             frequencies: column.density.iter().map(|(frequency, _)| frequency).collect(),
             curves: vec![curve],
         };
-        figures.push((slug, figure));
+        figures.push((of, figure));
     }
-    figures
+    let names = file_names(figures.iter().map(|(of, _)| of));
+    names.into_iter().zip(figures).map(|(name, (_, figure))| (name, figure)).collect()
 }

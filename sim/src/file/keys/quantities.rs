@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::super::diagnostic::Numbers;
 use super::super::document::{Node, Value};
 use super::Keys;
-use crate::units::{Measure, Quantity, parse_quantity};
+use crate::units::{Measure, Plain, Quantity, parse_quantity};
 
 impl Keys<'_> {
     /// A pure number.
@@ -118,6 +118,11 @@ impl Keys<'_> {
         };
         let text = match &node.value {
             Value::Text(text) => text,
+            Value::Number(value, _) if !value.is_finite() => {
+                let message = format!("`{path}` is {value}, which is no finite number");
+                self.report(node, message, "", &wanted);
+                return None;
+            }
             Value::Number(value, _) if measure == Measure::NUMBER => return Some(vec![*value]),
             Value::Number(value, _)
                 if self.reports.borrow().numbers_at(&node.span) == Numbers::Si =>
@@ -125,6 +130,7 @@ impl Keys<'_> {
                 return Some(vec![*value]);
             }
             Value::Number(value, _) => {
+                let value = Plain(*value);
                 let message = format!("`{path}` has no unit");
                 let help = if measure.unit == usual {
                     format!("write `\"{value} {usual}\"`, or another unit")
@@ -155,7 +161,8 @@ impl Keys<'_> {
         } else {
             format!("{usual}, {}", measure.unit)
         };
-        let help = format!("write it in {units}, or another unit of it");
+        let help = other_reading(&quantity, text, measure)
+            .unwrap_or_else(|| format!("write it in {units}, or another unit of it"));
         self.report(node, message, "", &help);
         None
     }
@@ -180,6 +187,24 @@ impl Keys<'_> {
     fn report(&self, node: &Node, message: String, label: &str, help: &str) {
         self.reports.borrow_mut().error(&node.span, message, label, help);
     }
+}
+
+/// What may be meant by a quantity of another measure than the one that is wanted: turns or radians per second by
+/// hertz, a weight by the unit of a mass.
+fn other_reading(found: &Quantity, text: &str, wanted: Measure) -> Option<String> {
+    let unit = found.unit.as_str();
+    let numbers = text.trim().strip_suffix(unit)?.trim_end();
+    if found.is(Measure::FREQUENCY) && wanted == Measure::ANGULAR_RATE && unit == "Hz" {
+        return Some(format!(
+            "write `{numbers} rev/s` for turns per second, `{numbers} rad/s` for radians per second"
+        ));
+    }
+    let weight = ["oz", "lb"]
+        .into_iter()
+        .find(|mass| unit.split(|c: char| !c.is_alphabetic()).any(|symbol| symbol == *mass))?;
+    let meant = format!("{numbers} {}", unit.replace(weight, &format!("{weight}f")));
+    let fits = parse_quantity(&meant).is_ok_and(|meant| meant.is(wanted));
+    fits.then(|| format!("`{weight}` is a mass, `{weight}f` its weight: write `{meant}`"))
 }
 
 /// A line that would do.

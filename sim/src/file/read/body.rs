@@ -7,7 +7,7 @@ use precess_dynamics::kind::{BodyParameters, JointInfo};
 use super::super::keys::Keys;
 use super::drive::profile;
 use crate::scenario::{Drive, Profile, StopAction};
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// What the table of a body says.
 pub(super) struct Body {
@@ -128,7 +128,11 @@ pub(in crate::file) fn mass(keys: &Keys<'_>) -> Option<f64> {
     if mass >= 0.0 {
         return Some(mass);
     }
-    keys.error("mass", format!("`{}.mass` is {mass} kg", keys.path()), "a mass is not negative");
+    keys.error(
+        "mass",
+        format!("`{}.mass` is {} kg", keys.path(), Plain(mass)),
+        "a mass is not negative",
+    );
     None
 }
 
@@ -144,7 +148,8 @@ pub(in crate::file) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix
     }
     let [xx, yy, zz] = keys.quantities::<3>("inertia", Measure::INERTIA)?;
     if [xx, yy, zz].iter().any(|moment| *moment < 0.0) {
-        let message = format!("`{}.inertia` is {xx}, {yy}, {zz} kg m^2", keys.path());
+        let [x, y, z] = [xx, yy, zz].map(Plain);
+        let message = format!("`{}.inertia` is {x}, {y}, {z} kg m^2", keys.path());
         keys.error("inertia", message, "a moment of inertia is not negative");
         return None;
     }
@@ -219,6 +224,14 @@ fn stop(keys: &Keys<'_>, measures: &JointMeasures, initial: f64) -> Option<([f64
         return None;
     }
     let bounds = [lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)];
+    if bounds[0] > bounds[1] {
+        let unit = measures.coordinate.unit;
+        let [lower, upper] = bounds.map(Plain);
+        let message =
+            format!("the lower stop, {lower} {unit}, is above the upper stop, {upper} {unit}");
+        keys.error("lower_stop", message, "exchange them, or correct a sign");
+        return None;
+    }
     if !(bounds[0]..=bounds[1]).contains(&initial) {
         let key = if initial < bounds[0] { "lower_stop" } else { "upper_stop" };
         keys.error(key, "the joint starts beyond its stop", "move the stop, or the start");

@@ -35,12 +35,12 @@ pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
     for (keys, crossing) in keys.tables("crossing").iter().zip(&scenario.crossings) {
         let name = &crossing.column;
         let column = all.iter().find(|column| column.name == *name);
-        if let Some(column) = column.filter(|_| state.iter().any(|(known, _)| known == name)) {
+        if let Some(column) = column.filter(|_| state.iter().any(|(known, ..)| known == name)) {
             compare(keys, "value", name, [column.unit, &crossing.unit]);
         } else {
             let help = did_you_mean(
                 name,
-                state.iter().map(|(name, _)| name.as_str()),
+                state.iter().map(|(name, ..)| name.as_str()),
                 "name a coordinate, a rate, or a component of `omega`",
             );
             keys.error("column", format!("`{name}` is no column of the state"), &help);

@@ -64,11 +64,11 @@ pub(super) fn given(
 }
 
 /// The number of each key in a table that only has keys of others, such as phases; reports one
-/// whose other is not there.
+/// whose other is not there. Where the others could not be read, none is.
 pub(super) fn beside(
     keys: &Keys<'_>,
     spin_axis: usize,
-    others: &[Given],
+    others: Option<&[Given]>,
     measure: Measure,
 ) -> Vec<(&'static str, f64)> {
     let mut found = Vec::new();
@@ -76,7 +76,7 @@ pub(super) fn beside(
         if !keys.has(key) {
             continue;
         }
-        if others.iter().any(|other| other.key == key) {
+        if others.is_none_or(|others| others.iter().any(|other| other.key == key)) {
             found.extend(keys.quantity(key, measure).map(|value| (key, value)));
         } else {
             let message = format!("`{}.{key}` is of no amplitude", keys.path());

@@ -11,10 +11,10 @@ use precess_dynamics::{
 };
 
 use super::super::diagnostic::Span;
-use super::super::document::{Node, Value};
-use super::super::keys::Keys;
-use super::super::load::merged;
+use super::super::document::Value;
+use super::super::keys::{Keys, shown_name};
 use super::body::{Body, Joint, Needs, body};
+use super::copies::{help_of_copy, original, with_original};
 use super::layout::{Place, layout, turned};
 use super::mount::{DeviceAxes, mount};
 use super::structure::Structure;
@@ -109,36 +109,20 @@ pub(super) fn devices(
         let _ = keys.tables("device");
         return devices;
     };
+    keys.check_names("device", list);
     for (index, node) in list.iter().enumerate() {
         let nodes = with_original(node, list, keys);
         let name = nodes.name().map_or_else(|| index.to_string(), str::to_owned);
-        if let Some(device) = Keys::new(&nodes, &format!("device.{name}"), keys.reports()) {
+        let path = format!("device.{}", shown_name(&name));
+        if let Some(device) = Keys::new(&nodes, &path, keys.reports()) {
+            let first = keys.reports().borrow().all.len();
             devices.extend(read(&device, &name, folder, structure));
+            if let Some(original) = original(node) {
+                keys.reports().borrow_mut().add_help(first, &help_of_copy(original));
+            }
         }
     }
     devices
-}
-
-/// A copy with the keys of its original under its own.
-fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
-    let Value::Table(table) = &node.value else { return node.clone() };
-    let Some(original) = table.text("copy_of") else { return node.clone() };
-    let found = list.iter().find(|other| other.name() == Some(original));
-    let own =
-        |node: &Node| matches!(&node.value, Value::Table(table) if table.get("copy_of").is_none());
-    match found {
-        Some(found) if own(found) => merged(found, node),
-        _ => {
-            let message = match found {
-                Some(_) => format!("`{original}` is a copy itself"),
-                None => format!("no device is named `{original}`"),
-            };
-            let span = table.get("copy_of").map_or(&node.span, |entry| &entry.node.span);
-            let help = "name a device that is no copy";
-            keys.reports().borrow_mut().error(span, message, "", help);
-            node.clone()
-        }
-    }
 }
 
 /// The devices of one table: one, or those of its layout.
@@ -167,18 +151,22 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     };
     let model = model(keys);
     let imbalance = imbalance(keys);
+    let empty = keys.empty();
     let bodies: Vec<_> = infos
         .iter()
         .map(|joint| {
             let key = body_key(joint);
-            let Some(table) = keys.table(&key) else {
+            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
+            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
+            // Of a link without a body every key has a default.
+            let table =
+                if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
+            let Some(table) = table else {
                 if !keys.has(&key) {
                     keys.missing(&key, &format!("[device.{key}]"));
                 }
                 return None;
             };
-            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
-            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
             body(&table, needs, folder)
         })
         .collect();

@@ -17,7 +17,13 @@ pub(super) fn hub(
     keys: &Keys<'_>,
     structure: Option<&Structure>,
 ) -> Option<(Hub, Vector3<f64>, HubMode)> {
-    let Some(hub) = keys.table("hub") else {
+    // With the mass of the structure's file every key has a default.
+    let empty = keys.empty();
+    let table = match structure.and_then(Structure::mass) {
+        Some(_) => keys.table_or("hub", &empty),
+        None => keys.table("hub"),
+    };
+    let Some(hub) = table else {
         if !keys.has("hub") {
             keys.missing("hub", "[hub]");
         }

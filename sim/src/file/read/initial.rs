@@ -7,7 +7,7 @@ use super::super::keys::Keys;
 use super::device::Device;
 use super::mount::{axis_and_angle, euler};
 use crate::scenario::Set;
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.
 const NORM_MAX: f64 = 1e-4;
@@ -89,7 +89,11 @@ fn quaternion(keys: &Keys<'_>) -> Option<Quaternion> {
         if first? { numbers } else { [numbers[3], numbers[0], numbers[1], numbers[2]] };
     let norm = Vector3::new(q1, q2, q3).norm().hypot(q0);
     if (norm - 1.0).abs() > NORM_MAX {
-        keys.error("quaternion", format!("its norm is {norm:.6}"), "a unit quaternion has norm 1");
+        keys.error(
+            "quaternion",
+            format!("its norm is {}", Plain(norm)),
+            "a unit quaternion has norm 1",
+        );
         return None;
     }
     let given = Quaternion { q0, q1, q2, q3 };

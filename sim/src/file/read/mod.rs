@@ -4,6 +4,7 @@ pub(super) mod body;
 mod check;
 mod columns;
 mod components;
+mod copies;
 mod device;
 mod drive;
 mod hub;
@@ -35,6 +36,7 @@ use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
 pub(crate) use device::{body_key, has_inertia, has_mass, has_origin, joint_key};
 
+use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};
 
 /// The number of the format that this program reads.
@@ -71,7 +73,8 @@ pub fn from_toml(name: &str, text: &str, folder: &Path) -> Read {
 fn text(name: &str, text: (&str, Numbers), folder: &Path, overrides: &[Override]) -> Read {
     let mut reports = Diagnostics::default();
     let node = load_text(name, text, folder, &mut reports);
-    scenario(node, name, name, folder, (overrides, Numbers::Si), reports)
+    let stem: String = name.chars().take(NAME_MAX).collect();
+    scenario(node, name, &stem, folder, (overrides, Numbers::Si), reports)
 }
 
 /// The tables of a scenario, for [`from_program`].
@@ -161,7 +164,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let settings = settings::settings(&keys);
     let initial = initial::initial(&keys, &devices);
     let gravity = settings::gravity(&keys);
-    let changes = over_time::changes(&keys, &joints, folder);
+    let changes = over_time::changes(&keys, &joints, settings.as_ref(), folder);
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
     let known = source::Known {
         devices: &devices,
@@ -217,7 +220,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
 fn name(keys: &Keys<'_>, stem: &str) -> String {
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     match keys.text("name") {
-        Some(name) if !name.is_empty() && name.chars().all(fits) && name.len() <= 100 => {
+        Some(name) if !name.is_empty() && name.chars().all(fits) && name.len() <= NAME_MAX => {
             name.to_owned()
         }
         Some(name) => {
@@ -228,6 +231,10 @@ fn name(keys: &Keys<'_>, stem: &str) -> String {
         None => {
             let small = stem.to_lowercase();
             let name: String = small.chars().map(|c| if fits(c) { c } else { '-' }).collect();
+            if name.len() > NAME_MAX {
+                let message = format!("the file's name has {} letters", name.len());
+                keys.error("name", message, "add a `name` of at most 100: results are named by it");
+            }
             if name.is_empty() { "scenario".to_owned() } else { name }
         }
     }
@@ -305,7 +312,7 @@ mod tests {
             .replace("mass = \"810 kg\"", "mas = \"810 kg\"")
             .replace("\"4 kg\"", "4")
             .replace("\"500 rpm\"", "\"500 Hz\"")
-            .replace("\"10 s\"", "\"10 sec\"")
+            .replace("\"10 s\"", "\"10 furlongs\"")
             .replace("mass = \"24 kg\"", "mass = \"-24 kg\"");
         let shown = errors(&text);
         for part in [

@@ -53,7 +53,18 @@ fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
         (["spin_axis"], _) => by_axes(mount, axes?),
         ([], Some(axes)) => by_axes(mount, axes),
         _ => {
-            let message = format!("`{}` is given in {} ways", mount.path(), ways.len());
+            let mut names: Vec<_> = ways.iter().map(|way| format!("`{way}`")).collect();
+            if of_axes.is_some() {
+                names.push("axes of joints".to_owned());
+            }
+            let message = match names.as_slice() {
+                [] => format!("`{}` says no direction", mount.path()),
+                names => format!(
+                    "`{}` is given in more than one way: {}",
+                    mount.path(),
+                    names.join(", ")
+                ),
+            };
             let help = match axes {
                 Some(_) => {
                     "give one of `matrix`, `axis` with `angle`, `euler` with `sequence` and \

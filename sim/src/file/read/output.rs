@@ -1,7 +1,10 @@
 //! What is recorded, and what is noted: `[output]`, `[[crossing]]`.
 
+use std::collections::HashSet;
+
 use super::super::document::Value;
 use super::super::keys::Keys;
+use crate::names::numbered;
 use crate::scenario::{Crossing, Format, Output, Settings};
 use crate::units::Measure;
 
@@ -62,11 +65,13 @@ fn words(keys: &Keys<'_>, key: &str) -> Option<Vec<String>> {
 /// `[[crossing]]`: `name`, `column`, `value` in the column's unit, and `ends = true`.
 pub(super) fn crossings(keys: &Keys<'_>) -> Vec<Crossing> {
     let tables = keys.tables("crossing");
-    tables.iter().filter_map(crossing).collect()
+    let mut taken = tables.iter().filter_map(|keys| keys.text("name")).map(str::to_owned).collect();
+    tables.iter().filter_map(|keys| crossing(keys, &mut taken)).collect()
 }
 
-fn crossing(keys: &Keys<'_>) -> Option<Crossing> {
-    let name = keys.text("name").unwrap_or("crossing").to_owned();
+/// One without a name is `crossing`, from the second on with its number.
+fn crossing(keys: &Keys<'_>, taken: &mut HashSet<String>) -> Option<Crossing> {
+    let name = keys.text("name").map_or_else(|| numbered("crossing", taken), str::to_owned);
     let column = keys.text("column");
     if !keys.has("column") {
         keys.missing("column", "column = \"wheel1.spin\"");

@@ -10,22 +10,34 @@ use super::body::{JointMeasures, drive};
 use super::drive::profile;
 use super::joints::Joints;
 use super::structure::Structure;
-use crate::scenario::{Action, AppliedWrench, Change, Profile, Target, WrenchAxes};
-use crate::units::Measure;
+use crate::scenario::{Action, AppliedWrench, Change, Profile, Settings, Target, WrenchAxes};
+use crate::units::{Measure, Plain};
 
 /// `[[at]]`: `time`, `joint`, and `brake = true`, `locked = true`, a `torque`, an `acceleration`;
 /// in the order of time.
-pub(super) fn changes(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Vec<Change> {
-    let mut changes: Vec<_> =
-        keys.tables("at").iter().filter_map(|keys| change(keys, joints, folder)).collect();
+pub(super) fn changes(
+    keys: &Keys<'_>,
+    joints: &Joints,
+    settings: Option<&Settings>,
+    folder: &Path,
+) -> Vec<Change> {
+    let duration = settings.map_or(f64::INFINITY, |settings| settings.duration);
+    let of_table = |keys: &Keys<'_>| change(keys, joints, duration, folder);
+    let mut changes: Vec<_> = keys.tables("at").iter().filter_map(of_table).collect();
     changes.sort_by(|a, b| a.time.total_cmp(&b.time));
     changes
 }
 
-fn change(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Option<Change> {
+fn change(keys: &Keys<'_>, joints: &Joints, duration: f64, folder: &Path) -> Option<Change> {
     // A name is only for messages and for overrides.
     let _ = keys.text("name");
     let time = keys.required("time", Measure::TIME);
+    if let Some(time) = time.filter(|time| !(0.0..=duration).contains(time)) {
+        let [time, duration] = [time, duration].map(Plain);
+        let message = format!("`{}.time` is {time} s", keys.path());
+        let help = format!("a change is within the run, 0 s to {duration} s");
+        keys.error("time", message, &help);
+    }
     let joint = joint(keys, "joint", joints);
     let brake = keys.boolean("brake").unwrap_or(false);
     let info = joints.info(joint?)?;

@@ -1,7 +1,7 @@
 //! Where in a file the check of a whole scenario finds fault: the place of a key by its path.
 //!
-//! A path names tables, entries of lists by their `name`, and a key: `device.wheel.wheel.mass`. A key
-//! that is not there has the place of the innermost table that is, without one it has none.
+//! A path names tables, entries of lists by their `name` or number, and a key: `device.wheel.wheel.mass`,
+//! `wrench.0.point`. A key that is not there has the place of the innermost table that is, without one it has none.
 
 use precess_dynamics::{ModesError, ParameterError, Part, Warning};
 
@@ -134,10 +134,15 @@ fn entry<'a, 'p>(list: &'a [Node], path: &'p str) -> (Option<&'a Node>, &'p str)
         Value::Table(table) => table.get("layout").is_some(),
         _ => false,
     };
+    let by_number = || {
+        let (number, rest) = path.split_once('.').unwrap_or((path, ""));
+        Some((list.get(number.parse::<usize>().ok()?)?, rest))
+    };
     let own = list.iter().rev().find_map(|node| Some((node, after(node.name()?)?)));
     let layouts = list.iter().filter(|node| has_layout(node));
     let found =
         own.or_else(|| layouts.rev().find_map(|node| Some((node, of_layout(node.name()?)?))));
+    let found = found.or_else(by_number);
     found.map_or((None, ""), |(node, rest)| (Some(node), rest))
 }
 

@@ -28,7 +28,7 @@ use super::structure::Structure;
 use super::suspension::suspension;
 use super::turns::Mount;
 use crate::scenario::Set;
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// What a joint's spring is given by.
 struct Corner {
@@ -174,7 +174,7 @@ fn corner(keys: &Keys<'_>) -> Option<Option<Corner>> {
     let (frequency, ratio) = (frequency?, ratio.unwrap_or(0.0));
     for (key, value) in [("corner_frequency", frequency), ("damping_ratio", ratio)] {
         if !(value >= 0.0 && value.is_finite()) {
-            let message = format!("`{}.{key}` is {value}", keys.path());
+            let message = format!("`{}.{key}` is {}", keys.path(), Plain(value));
             keys.error(key, message, "it is not negative");
             return None;
         }

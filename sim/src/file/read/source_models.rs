@@ -45,7 +45,7 @@ fn harmonic(
     }
     let number = keys.number("number");
     let amplitudes = given(keys, spin_axis, [FORCE_COEFFICIENT, MOMENT_COEFFICIENT]);
-    let known = amplitudes.as_deref().unwrap_or_default();
+    let known = amplitudes.as_deref();
     let written = keys.table("phase").map(|table| {
         let written = beside(&table, spin_axis, known, Measure::ANGLE);
         table.finish();

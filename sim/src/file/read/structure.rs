@@ -18,7 +18,7 @@ use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
 use crate::structure::{
     COORDINATES, MOST, Mode, Node, ReadError, RigidMass, Structure as Modes, from_file,
 };
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// A structure as a file gives it, and which of its nodes are used.
 pub(super) struct Structure {
@@ -132,6 +132,7 @@ fn written_out(keys: &Keys<'_>) -> Option<Modes> {
             keys.missing(key, &format!("[[structure.{key}]]"));
         }
     }
+    let before = keys.errors();
     let tables = keys.tables("node").into_iter().map(|keys| {
         if !keys.has("name") {
             keys.missing("name", "name = \"tip\"");
@@ -146,7 +147,7 @@ fn written_out(keys: &Keys<'_>) -> Option<Modes> {
     });
     let nodes: Option<Vec<Node>> = tables.collect();
     let tables = keys.tables("mode");
-    let (nodes, count) = (nodes?, tables.len());
+    let (nodes, count) = (nodes.filter(|_| keys.errors() == before)?, tables.len());
     let mut shapes = DMatrix::zeros(COORDINATES * nodes.len(), count);
     let mut modes = Vec::new();
     for (column, keys) in tables.iter().enumerate() {
@@ -250,7 +251,7 @@ fn selected(
         order.retain(|mode| frequency(mode) <= limit);
         if order.is_empty() {
             let hertz = lowest / TAU;
-            let message = format!("the lowest mode is at {hertz} Hz, above this limit");
+            let message = format!("the lowest mode is at {} Hz, above this limit", Plain(hertz));
             keys.error("frequency_limit", message, "raise it, or remove `[structure]`");
             return None;
         }
@@ -277,7 +278,7 @@ fn damped(keys: &Keys<'_>, structure: &mut Modes, residual: usize) -> Option<()>
         return None;
     }
     if let Some(bad) = ratios.iter().find(|ratio| !(0.0..1.0).contains(*ratio)) {
-        let message = format!("a damping ratio of {bad} is outside 0 to below 1");
+        let message = format!("a damping ratio of {} is outside 0 to below 1", Plain(*bad));
         keys.error("damping", message, "write the share of critical damping: 0.005");
         return None;
     }

@@ -11,7 +11,7 @@ use precess_dynamics::{Coupled, Strut, Suspension};
 
 use super::super::keys::Keys;
 use super::mount::direction;
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// Most struts of a platform.
 const STRUTS_MAX: usize = 6;
@@ -113,7 +113,7 @@ fn strut(keys: &Keys<'_>) -> Option<Strut> {
     ];
     for (key, value, fits, unit, help) in bounds {
         if !fits {
-            keys.error(key, format!("`{}.{key}` is {value} {unit}", keys.path()), help);
+            keys.error(key, format!("`{}.{key}` is {} {unit}", keys.path(), Plain(value)), help);
             return None;
         }
     }

@@ -51,6 +51,8 @@ pub(in crate::report) const TYPE: f64 = 13.0;
 pub(in crate::report) const TYPE_SMALL: f64 = 12.0;
 /// Most points of a line, and of the edge of a band.
 const POINTS_MAX: [usize; 2] = [600, 190];
+/// The largest power of a thousand that is a number.
+const EXPONENT_MAX: i32 = 306;
 /// What is no thicker is drawn as a line, tenths of a unit: about a line's own width.
 const THIN: i32 = 12;
 
@@ -145,6 +147,8 @@ impl Figure {
         let plain = peak == 0.0 || (1e-2..1e5).contains(&peak);
         #[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
         let exponent = if plain { 0 } else { 3 * (peak.log10() / 3.0).floor() as i32 };
+        // Below it, the power that they are multiplied by is no number.
+        let exponent = exponent.max(-EXPONENT_MAX);
         let factor = if plain { String::new() } else { power_of_ten(exponent) };
         let unit = [factor.as_str(), self.unit].join(" ");
         let label = match unit.trim() {
@@ -266,7 +270,7 @@ impl Band {
 
 /// A curve without gaps: a line where it is thin throughout, otherwise a closed band.
 fn path(out: &mut String, run: &[Placed], index: usize) {
-    if run.iter().all(|[_, greatest, least]| least - greatest <= THIN) {
+    if run.iter().all(|[_, greatest, least]| least.saturating_sub(*greatest) <= THIN) {
         let middle = |[time, greatest, least]: &Placed| [*time, i32::midpoint(*greatest, *least)];
         let middles: Vec<_> = run.iter().map(middle).collect();
         let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&middles), stroke(index, 13));
@@ -292,7 +296,7 @@ pub(in crate::report) fn moves(points: &[[i32; 2]]) -> String {
         if points.get(index + 1).is_some_and(|next| next[1] == point[1]) && at[1] == point[1] {
             continue;
         }
-        for number in [point[0] - at[0], point[1] - at[1]] {
+        for number in [point[0].saturating_sub(at[0]), point[1].saturating_sub(at[1])] {
             if number >= 0 && !out.ends_with('l') {
                 out.push(' ');
             }

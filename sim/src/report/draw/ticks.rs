@@ -11,10 +11,14 @@ const PARTS: f64 = 6.5;
 /// A range is at least this share of its largest magnitude, so that ticks have few digits.
 const SPAN_MIN: f64 = 2e-4;
 
+/// Values beyond it are drawn at the edge: a range of more has no length.
+const MOST: f64 = 1e307;
+
 /// The range of an axis that shows every value.
 pub(in crate::report) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (mut from, mut to) = (f64::MAX, f64::MIN);
-    for value in values.filter(|value| value.is_finite()) {
+    let shown = values.filter(|value| value.is_finite()).map(|value| value.clamp(-MOST, MOST));
+    for value in shown {
         (from, to) = (from.min(value), to.max(value));
     }
     if from > to {

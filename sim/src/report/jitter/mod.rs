@@ -13,12 +13,12 @@ use super::blocks::{Block, Fact, Section, Summary, table};
 use super::error::{DrawError, ReportError};
 use super::number::{short, with_unit};
 use super::page::{Page, lines};
-use super::slug;
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing};
 use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
 use crate::jitter::sweep::Sweep;
+use crate::names::file_names;
 use crate::pointing::Metric;
 use crate::scenario::Scenario;
 
@@ -115,8 +115,8 @@ impl JitterReport<'_> {
         for (index, of) in self.assessed.iter().enumerate() {
             files.push((format!("requirement-{}", index + 1), self.over_speed(of).file()?));
         }
-        for (sight, of) in self.budget.sights.iter().enumerate() {
-            let name = slug(&of.name);
+        let names = file_names(self.budget.sights.iter().map(|of| &of.name));
+        for (sight, name) in names.iter().enumerate() {
             files.push((format!("waterfall-{name}"), self.waterfall(sight).file()?));
         }
         for (index, of) in self.assessed.iter().enumerate() {

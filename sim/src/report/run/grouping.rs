@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
+use crate::names::file_names;
 use crate::record::columns::Quantity;
 use crate::record::{Column, Header};
 use crate::report::unit::{self, Family};
@@ -82,7 +83,10 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
         };
         groups.insert((21, 0), chart);
     }
-    groups.into_values().flat_map(split).collect()
+    let mut charts: Vec<Chart> = groups.into_values().flat_map(split).collect();
+    let names = file_names(charts.iter().map(|chart| &chart.slug));
+    charts.iter_mut().zip(names).for_each(|(chart, name)| chart.slug = name);
+    charts
 }
 
 /// Where a column belongs.
