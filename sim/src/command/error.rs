@@ -32,6 +32,8 @@ pub enum CommandError {
         /// The operating system's reason.
         source: std::io::Error,
     },
+    /// Standard output that cannot be written.
+    Output(std::io::Error),
     /// Anything else, in a sentence with its remedy.
     Other(String),
 }
@@ -49,6 +51,9 @@ impl fmt::Display for CommandError {
                 path.display()
             ),
             Self::Io { path, source } => write!(f, "error: {}: {source}", path.display()),
+            Self::Output(source) => {
+                write!(f, "error: standard output: {source}; what was printed is not complete")
+            }
             Self::Other(text) => write!(f, "error: {text}"),
         }
     }
@@ -60,7 +65,7 @@ impl std::error::Error for CommandError {
             Self::Scenario(source) | Self::ScenarioJson(source) => Some(source),
             Self::Run { source, .. } => Some(source),
             Self::Record(source) => Some(source),
-            Self::Io { source, .. } => Some(source),
+            Self::Io { source, .. } | Self::Output(source) => Some(source),
             Self::Exists(_) | Self::Other(_) => None,
         }
     }

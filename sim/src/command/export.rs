@@ -78,7 +78,7 @@ impl Export {
             to.display(),
             bytes.len(),
             scenario.names.len()
-        ));
+        ))?;
         Ok(Exit::Success)
     }
 }

@@ -51,7 +51,8 @@ impl FitCommand {
                 (example::DESCRIPTION.to_owned(), example::TOML.to_owned()),
                 (example::SAMPLES.to_owned(), example::samples()),
             ];
-            return write(folder, &files, self.force);
+            print(&write(folder, &files, self.force)?)?;
+            return Ok(Exit::Success);
         }
         let Some(path) = &self.file else { return Ok(Exit::Error) };
         // Silent where the output is no terminal.
@@ -89,26 +90,29 @@ impl FitCommand {
             of_spectra: !file.waterfall.is_empty(),
         };
         files.extend(report.files().map_err(|error| CommandError::Other(error.to_string()))?);
-        print(&format!("{}\n\n{}\n", file.title, table(&fitted)));
-        write(&self.out, &files, self.force)
+        let paths = write(&self.out, &files, self.force)?;
+        print(&format!("{}\n\n{}\n{paths}", file.title, table(&fitted)))?;
+        Ok(Exit::Success)
     }
 }
 
+/// Writes files; their paths, a line each.
 fn write(
     folder: &std::path::Path,
     files: &[(String, String)],
     force: bool,
-) -> Result<Exit, CommandError> {
+) -> Result<String, CommandError> {
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
     may_write(folder, &names, force)?;
     std::fs::create_dir_all(folder)
         .map_err(|source| CommandError::Io { path: folder.to_owned(), source })?;
+    let mut paths = String::new();
     for (name, text) in files {
         let path = folder.join(name);
         write_whole(&path, text)?;
-        print(&format!("{}\n", path.display()));
+        let _ = writeln!(paths, "{}", path.display());
     }
-    Ok(Exit::Success)
+    Ok(paths)
 }
 
 /// A row: name, value, interval, unit.

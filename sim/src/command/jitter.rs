@@ -11,7 +11,7 @@ use super::error::CommandError;
 use super::exit::Exit;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
-use super::{as_toml, print};
+use super::{as_toml, note, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
@@ -116,7 +116,7 @@ impl Jitter {
         warnings.extend(prepared.left_out.iter().cloned());
         warnings.extend(self.compared_outside(&budget));
         for warning in &warnings {
-            eprintln!("warning: {warning}");
+            note(&format!("warning: {warning}"));
         }
         let found = self.find(&scenario, &budget, prepared)?;
         let mut text = std::fs::read_to_string(&self.file)
@@ -153,9 +153,9 @@ impl Jitter {
         for (name, text) in &files {
             write_whole(&self.out.join(name), text)?;
         }
-        print(&summary(&budget, &found));
+        print(&summary(&budget, &found))?;
         let folder = self.out.display();
-        print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1));
+        print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;
         let met = found.assessed.iter().all(|of| of.margin.is_met());
         Ok(Exit::of_met(met))
     }

@@ -23,8 +23,9 @@ mod sources;
 mod spectrum;
 mod structure;
 mod table;
+mod terminal;
 
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -33,6 +34,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 pub use error::CommandError;
 
 use exit::Exit;
+use terminal::{note, notes_are_written, print};
 
 use campaign::{montecarlo, sweep};
 
@@ -160,9 +162,16 @@ impl Cli {
         match Self::try_parse() {
             Ok(cli) => cli.execute(),
             Err(error) => {
-                // Help and version go to standard output, which may be closed; what is wrong to standard error.
-                let _ = error.print();
-                if error.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() }
+                // Help and version go to standard output, what is wrong to standard error.
+                let printed = error.print().and_then(|()| std::io::stdout().flush());
+                match printed {
+                    _ if error.use_stderr() => Exit::Usage.into(),
+                    Err(found) if found.kind() != ErrorKind::BrokenPipe => {
+                        note(&CommandError::Output(found).to_string());
+                        Exit::Error.into()
+                    }
+                    _ => Exit::Success.into(),
+                }
             }
         }
     }
@@ -171,13 +180,13 @@ impl Cli {
     fn execute(self) -> ExitCode {
         let done = match self.command {
             Command::New(new) => new.execute(),
-            Command::Check(check) => Ok(check.execute()),
+            Command::Check(check) => check.execute(),
             Command::Run(run) => run.execute(),
             Command::Evaluate(evaluate) => evaluate.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Plot(plot) => plot.execute(),
             Command::Spectrum(spectrum) => spectrum.execute(),
-            Command::Schema => Ok(schema::execute()),
+            Command::Schema => schema::execute(),
             Command::Kinds(kinds) => kinds.execute(),
             Command::Bake(bake) => bake.execute(),
             Command::Structure(structure) => structure.execute(),
@@ -189,19 +198,14 @@ impl Cli {
             Command::Export(export) => export.execute(),
         };
         match done {
-            Ok(exit) => exit.into(),
+            Ok(exit) if notes_are_written() => exit.into(),
+            Ok(_) => Exit::Error.into(),
             Err(error) => {
-                eprintln!("{}", error.to_string().trim_end());
+                note(&error.to_string());
                 Exit::Error.into()
             }
         }
     }
-}
-
-/// Prints to standard output; a reader that has gone away is no error.
-fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
 #[cfg(test)]

@@ -60,7 +60,7 @@ impl Plot {
             for (of, svg) in &figures {
                 let path = self.out.join(format!("{}-{of}.svg", scenario.name));
                 write_whole(&path, svg)?;
-                print(&format!("{}\n", path.display()));
+                print(&format!("{}\n", path.display()))?;
             }
         }
         Ok(Exit::Success)

@@ -15,7 +15,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::advice::{self, advice};
 use super::error::CommandError;
 use super::exit::Exit;
-use super::{Files, print};
+use super::terminal::{visible, written};
+use super::{Files, note, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
 use crate::record::partial::Partial;
@@ -118,9 +119,9 @@ impl Run {
             .iter()
             .map(|name| self.out.join(name).display().to_string())
             .collect();
-        print(&report.summary(&outcome, &files));
+        print(&report.summary(&outcome, &files))?;
         for warning in &warnings {
-            eprintln!("warning: {warning}");
+            note(&format!("warning: {warning}"));
         }
         Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
     }
@@ -149,7 +150,7 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
                 if let Some(CommandError::Scenario(earlier)) =
                     failed.replace(CommandError::Scenario(errors))
                 {
-                    eprintln!("{earlier}");
+                    note(&earlier.to_string());
                 }
             }
         }
@@ -196,7 +197,7 @@ pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
     {
         bar.set_style(style);
     }
-    bar.set_message(what.to_owned());
+    bar.set_message(visible(what).into_owned());
     bar
 }
 
@@ -275,8 +276,9 @@ pub(super) fn may_write(folder: &Path, names: &[String], force: bool) -> Result<
     if !stdin.is_terminal() || !std::io::stderr().is_terminal() {
         return Err(CommandError::Exists(path));
     }
-    eprint!("{} exists. Replace it and the results beside it? [y/N] ", path.display());
-    let _ = std::io::stderr().flush();
+    let question =
+        format!("{} exists. Replace it and the results beside it? [y/N] ", path.display());
+    let _ = written(&mut std::io::stderr(), &question);
     let mut answer = String::new();
     let read = stdin.lock().read_line(&mut answer);
     if read.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {

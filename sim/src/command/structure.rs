@@ -76,17 +76,17 @@ impl Show {
         if self.shapes.is_none()
             && let Some(text) = self.matrices()?
         {
-            print(&text);
+            print(&text)?;
             return Ok(Exit::Success);
         }
         let structure = read(&self.file)?;
-        print(&shown(&structure));
+        print(&shown(&structure))?;
         if let Some(path) = &self.shapes {
             let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
             let folder = path.parent().map(PathBuf::from).unwrap_or_default();
             may_write(&folder, &name.into_iter().collect::<Vec<_>>(), self.force)?;
             write_whole(path, &mode_shapes(&structure))?;
-            print(&format!("\n{}\n", path.display()));
+            print(&format!("\n{}\n", path.display()))?;
         }
         Ok(Exit::Success)
     }
@@ -135,7 +135,7 @@ impl Convert {
             file.finish().map_err(failure)?;
         }
         let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
-        print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()));
+        print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()))?;
         Ok(Exit::Success)
     }
 }

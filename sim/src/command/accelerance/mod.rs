@@ -13,7 +13,7 @@ use nalgebra::Complex;
 use super::error::CommandError;
 use super::exit::Exit;
 use super::run::{may_write, write_whole};
-use super::{print, structure};
+use super::{note, print, structure};
 use crate::report::response::Response;
 use crate::report::slug;
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
@@ -142,7 +142,7 @@ impl AcceleranceCommand {
         for (name, text) in &files {
             let path = self.out.join(name);
             write_whole(&path, text)?;
-            print(&format!("{}\n", path.display()));
+            print(&format!("{}\n", path.display()))?;
         }
         Ok(Exit::Success)
     }
@@ -220,11 +220,11 @@ impl AcceleranceCommand {
         };
         let values: Result<Vec<_>, _> = frequencies.iter().map(at).collect();
         if structure.has_devices.is_none() {
-            eprintln!(
+            note(&format!(
                 "warning: {} does not say whether its model has the devices' mass (`has_devices`); taken as \
                  without",
                 self.file.display()
-            );
+            ));
         }
         Ok(Table {
             name: format!("{stem}-transmission-{}", slug(node)),
@@ -251,10 +251,10 @@ fn dynamic_mass(
         frequencies.iter().map(|f| averaged.periodic(TAU * f)).collect();
     let left_out = left_out?;
     let most = left_out.iter().copied().fold(0.0, f64::max);
-    eprintln!(
+    note(&format!(
         "note: {names}: averaging over a turn leaves out at most {most:.1e} of the inertia, at the frequency \
          plus and minus one and two times the rates"
-    );
+    ));
     Ok(Table {
         name: format!("{stem}-dynamic-mass-{}", slug(node)),
         title: format!("Dynamic mass at {node}: {names}"),

@@ -8,10 +8,10 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::Set;
 use super::error::CommandError;
 use super::plot::time;
 use super::run::{all_cores, interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use super::{Set, note};
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };
@@ -68,7 +68,7 @@ impl CampaignOptions {
         let (mut scenario, reports) =
             template.scenario(&overrides).map_err(CommandError::Scenario)?;
         for warning in &reports.all {
-            eprintln!("warning: {}", warning.message);
+            note(&format!("warning: {}", warning.message));
         }
         let columns =
             if self.column.is_empty() { vec!["omega".to_owned()] } else { self.column.clone() };
@@ -141,11 +141,11 @@ impl CampaignOptions {
         }
         if !finished.is_complete() {
             let done = finished.rows.iter().flatten().count();
-            eprintln!(
+            note(&format!(
                 "{done} of {} samples are complete, in {}; the same command continues with the others",
                 plan.samples.len(),
                 path.display()
-            );
+            ));
             return Ok(None);
         }
         Ok(Some(finished))

@@ -107,9 +107,9 @@ impl MonteCarlo {
         }
         self.options.write(&prepared, &plan, &finished, &stem, &texts)?;
         let (text, met) = summary(&prepared, &plan, &finished, &correlations, &found);
-        print(&text);
+        print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {} more\n", texts.len() + 1));
+        print(&format!("files: {folder}/{stem}.csv and {} more\n", texts.len() + 1))?;
         Ok(Exit::of_met(met))
     }
 }
@@ -137,7 +137,7 @@ impl MonteCarlo {
         let slopes = match exact {
             Ok(found) => found.slopes,
             Err(reason) => {
-                print(&format!("derivatives are central differences: {reason}\n"));
+                print(&format!("derivatives are central differences: {reason}\n"))?;
                 Vec::new()
             }
         };

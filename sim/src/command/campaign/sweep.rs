@@ -64,9 +64,9 @@ impl Sweep {
         let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
         self.options.write(&prepared, &plan, &finished, &stem, &pictures)?;
         let (text, met) = self.summary(&prepared, &plan, &finished);
-        print(&text);
+        print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {} more\n", pictures.len() + 1));
+        print(&format!("files: {folder}/{stem}.csv and {} more\n", pictures.len() + 1))?;
         Ok(Exit::of_met(met))
     }
 

@@ -11,7 +11,7 @@ use super::error::CommandError;
 use super::exit::Exit;
 use super::run::{files, watch_interrupts, with_progress};
 use super::table::{aligned, six};
-use super::{Form, Set, print};
+use super::{Form, Set, note, print};
 use crate::file::from_file;
 use crate::record::Csv;
 use difference::{Differences, differences};
@@ -42,11 +42,11 @@ impl Compare {
             let found = differences(&a, &b)?;
             match self.format {
                 Form::Json => entries.push(json(&name, &found)),
-                Form::Text => print(&shown(&name, &found)),
+                Form::Text => print(&shown(&name, &found))?,
             }
         }
         if self.format == Form::Json {
-            print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"));
+            print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"))?;
         }
         Ok(Exit::Success)
     }
@@ -63,7 +63,7 @@ impl Compare {
         }
         let [a, b] = [files(&self.a, "csv")?, files(&self.b, "csv")?];
         for (only, folder) in [(a.difference(&b), &self.a), (b.difference(&a), &self.b)] {
-            only.for_each(|name| eprintln!("only in {}: {name}", folder.display()));
+            only.for_each(|name| note(&format!("only in {}: {name}", folder.display())));
         }
         let both: Vec<_> = a.intersection(&b).collect();
         if both.is_empty() {

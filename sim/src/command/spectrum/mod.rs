@@ -153,8 +153,8 @@ impl Spectrum {
             paths.push(path.display().to_string());
         }
         match self.format {
-            Form::Text => print(&format!("{}\n{}\n", text(&analysis), paths.join("\n"))),
-            Form::Json => print(&(json(&analysis, &paths) + "\n")),
+            Form::Text => print(&format!("{}\n{}\n", text(&analysis), paths.join("\n")))?,
+            Form::Json => print(&(json(&analysis, &paths) + "\n"))?,
         }
         Ok(Exit::Success)
     }
