@@ -55,6 +55,7 @@ pub mod file;
 pub mod fit;
 pub mod jitter;
 mod nearest;
+mod opened;
 pub mod pointing;
 pub mod record;
 #[cfg(feature = "tool")]

@@ -11,6 +11,7 @@ use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::outputs::Outputs;
 use super::{Set, note, print};
 use crate::file::from_file;
 
@@ -69,6 +70,7 @@ impl Bake {
             note(&format!("note: {left} is not part of the kernels; add it to torques and forces"));
         }
         let out = self.out.clone().unwrap_or_else(|| self.file.with_file_name(&description.name));
+        let _reserved = Outputs::of_folder(&out)?;
         self.derive(&text, &out)
     }
 

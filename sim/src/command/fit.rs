@@ -11,8 +11,8 @@ use indicatif::ProgressBar;
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::outputs::Outputs;
 use super::print;
-use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
@@ -102,17 +102,8 @@ fn write(
     files: &[(String, String)],
     force: bool,
 ) -> Result<String, CommandError> {
-    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    may_write(folder, &names, force)?;
-    std::fs::create_dir_all(folder)
-        .map_err(|source| CommandError::Io { path: folder.to_owned(), source })?;
-    let mut paths = String::new();
-    for (name, text) in files {
-        let path = folder.join(name);
-        write_whole(&path, text)?;
-        let _ = writeln!(paths, "{}", path.display());
-    }
-    Ok(paths)
+    let paths = Outputs::reserve(folder, &[], force)?.write(files)?;
+    Ok(paths.iter().map(|path| format!("{}\n", path.display())).collect())
 }
 
 /// A row: name, value, interval, unit.

@@ -15,6 +15,7 @@ mod fit;
 mod jitter;
 mod kinds;
 mod new;
+mod outputs;
 mod plot;
 mod result;
 mod run;
@@ -29,7 +30,7 @@ use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
 
 pub use error::CommandError;
 
@@ -159,7 +160,10 @@ impl Cli {
     /// Executes the command line of this process: prints help or what is wrong with it, or executes the command.
     #[must_use]
     pub fn execute_arguments() -> ExitCode {
-        match Self::try_parse() {
+        let mut command = with_exit_codes(Self::command());
+        let parsed = command.try_get_matches_from_mut(std::env::args_os());
+        let parsed = parsed.and_then(|matches| Self::from_arg_matches(&matches));
+        match parsed.map_err(|error| error.format(&mut command)) {
             Ok(cli) => cli.execute(),
             Err(error) => {
                 // Help and version go to standard output, what is wrong to standard error.
@@ -178,6 +182,7 @@ impl Cli {
 
     /// Executes the command.
     fn execute(self) -> ExitCode {
+        crate::opened::remember();
         let done = match self.command {
             Command::New(new) => new.execute(),
             Command::Check(check) => check.execute(),
@@ -208,6 +213,12 @@ impl Cli {
     }
 }
 
+/// A command whose help, and that of all its commands, ends with the table of exit codes.
+fn with_exit_codes(command: clap::Command) -> clap::Command {
+    let help = command.get_after_help().map_or_else(String::new, |help| format!("{help}\n\n"));
+    command.after_help(help + exit::TABLE).mut_subcommands(with_exit_codes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,7 +234,6 @@ mod tests {
 
     #[test]
     fn every_command_is_declared_without_conflict() {
-        use clap::CommandFactory as _;
         Cli::command().debug_assert();
     }
 }

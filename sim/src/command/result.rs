@@ -2,10 +2,14 @@
 //! file with their sampling rate.
 
 use std::fs::File;
+use std::io::{BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::error::CommandError;
+use super::note;
 use crate::nearest::nearest;
+use crate::opened::open;
+use crate::record::extent::{Extent, comments};
 use crate::spectra::float;
 use crate::structure::npz::Members;
 
@@ -16,11 +20,13 @@ const DEFAULT: &str = "omega";
 
 /// A CSV result that is read row by row.
 pub(super) struct Rows {
-    reader: csv::Reader<File>,
+    reader: csv::Reader<BufReader<File>>,
     pub(super) names: Vec<String>,
     pub(super) units: Vec<String>,
     path: PathBuf,
     record: csv::StringRecord,
+    extent: Extent,
+    rows: u64,
 }
 
 /// Columns of a result.
@@ -44,16 +50,28 @@ pub(super) struct Signal {
 
 impl Rows {
     pub(super) fn open(path: &Path) -> Result<Self, CommandError> {
+        let failure = |source| CommandError::Io { path: path.to_owned(), source };
         let wrong = |text: String| wrong(path, &text);
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_path(path)
-            .map_err(|error| wrong(error.to_string()))?;
+        let ending = path.extension();
+        if ending.is_some_and(|ending| {
+            ["npz", "parquet"].iter().any(|of| ending.eq_ignore_ascii_case(of))
+        }) {
+            return Err(wrong("not a CSV file; name the CSV result of the run".to_owned()));
+        }
+        let mut file = BufReader::new(open(path).map_err(failure)?);
+        let comments = comments(&mut file).map_err(failure)?;
+        let extent = Extent::of_comments(comments.iter().map(String::as_str));
+        if extent == Extent::NotEnded {
+            let path = path.display();
+            note(&format!("warning: {path}: the run that writes it has not ended, or was killed"));
+        }
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(file);
         let head = reader.headers().map_err(|error| wrong(error.to_string()))?;
         let names: Vec<_> = head.iter().map(str::to_owned).collect();
         check_names(path, &names)?;
-        let units = units(path, names.len());
-        Ok(Self { reader, names, units, path: path.to_owned(), record: csv::StringRecord::new() })
+        let units = units(&comments, names.len());
+        let (path, record) = (path.to_owned(), csv::StringRecord::new());
+        Ok(Self { reader, names, units, path, record, extent, rows: 0 })
     }
 
     /// The next row, if there is one.
@@ -66,7 +84,13 @@ impl Rows {
             let number = text.parse::<f64>();
             row.push(number.map_err(|_| wrong(format!("`{text}` is no number")))?);
         }
-        Ok(more)
+        if more {
+            self.rows += 1;
+            return Ok(true);
+        }
+        let missing = self.extent.missing(&self.path, self.rows);
+        let missing = missing.map_err(|error| wrong(error.to_string()))?;
+        missing.map_or(Ok(false), |text| Err(wrong(text)))
     }
 }
 
@@ -79,7 +103,7 @@ impl Signals {
         [from, to]: [f64; 2],
     ) -> Result<Self, CommandError> {
         let (places, [all, units], mut values) =
-            if path.extension().is_some_and(|extension| extension == "npz") {
+            if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
                 of_npz(path, names)?
             } else {
                 of_csv(path, names)?
@@ -118,7 +142,8 @@ fn of_csv(path: &Path, names: &[String]) -> Result<Read, CommandError> {
 
 fn of_npz(path: &Path, names: &[String]) -> Result<Read, CommandError> {
     let failure = |source| CommandError::Io { path: path.to_owned(), source };
-    let bytes = std::fs::read(path).map_err(failure)?;
+    let mut bytes = Vec::new();
+    open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failure)?;
     let wrong = |text: &dyn std::fmt::Display| wrong(path, &text.to_string());
     let members = Members::of(&bytes).map_err(|error| wrong(&error))?;
     let texts = |name: &str| {
@@ -216,16 +241,13 @@ fn wrong(path: &Path, text: &str) -> CommandError {
 }
 
 /// The units of a result's columns, from its metadata; empty where there are none.
-fn units(path: &Path, count: usize) -> Vec<String> {
-    use std::io::{BufRead as _, BufReader};
-    let Ok(file) = File::open(path) else { return vec![String::new(); count] };
-    let lines = BufReader::new(file).lines().map_while(Result::ok);
-    let comments = lines.take_while(|line| line.starts_with('#'));
+fn units(comments: &[String], count: usize) -> Vec<String> {
     let columns = comments
+        .iter()
         .skip_while(|line| !line.starts_with("# columns:"))
         .skip(1)
         .take_while(|line| line.starts_with("#   "));
-    let unit = |line: String| {
+    let unit = |line: &String| {
         let (_, rest) = line.split_once(" [")?;
         rest.split_once(']').map(|(unit, _)| unit.to_owned())
     };

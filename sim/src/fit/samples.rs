@@ -1,12 +1,13 @@
 //! Columns of samples from CSV and NPZ files, and steady steps of a sweep.
 
 use std::fmt;
-use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::FitError;
 use super::measurement::{CHANNELS, Record, SAMPLES_MIN};
+use crate::opened::open;
+use crate::record::extent::check_rows;
 use crate::structure::{Fault, MOST_BYTES, bytes_of, npz};
 
 /// Steps between samples differ by less than this share.
@@ -193,7 +194,7 @@ fn of_npz(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
 
 fn of_csv(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
     let reason = |error: &dyn fmt::Display| SampleFault::Read(error.to_string());
-    let file = File::open(path).map_err(|error| reason(&error))?;
+    let file = open(path).map_err(|error| reason(&error))?;
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
@@ -225,6 +226,8 @@ fn of_csv(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
             return Err(SampleFault::Rows { bound: ROWS_MAX });
         }
     }
+    let rows = columns.first().map_or(0, Vec::len);
+    check_rows(path, rows).map_err(SampleFault::Read)?;
     Ok(columns)
 }
 

@@ -12,7 +12,7 @@ use nalgebra::Complex;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{may_write, write_whole};
+use super::outputs::Outputs;
 use super::{note, print, structure};
 use crate::report::response::Response;
 use crate::report::slug;
@@ -135,13 +135,7 @@ impl AcceleranceCommand {
             tables.push(both.map_err(failed)?);
         }
         let files: Vec<_> = tables.iter().flat_map(|table| table.files(&frequencies)).collect();
-        let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-        may_write(&self.out, &names, self.force)?;
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
-        for (name, text) in &files {
-            let path = self.out.join(name);
-            write_whole(&path, text)?;
+        for path in Outputs::reserve(&self.out, &[], self.force)?.write(&files)? {
             print(&format!("{}\n", path.display()))?;
         }
         Ok(Exit::Success)

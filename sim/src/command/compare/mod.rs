@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{files, watch_interrupts, with_progress};
+use super::run::{files, interrupted, watch_interrupts, with_progress};
 use super::table::{aligned, six};
 use super::{Form, Set, note, print};
 use crate::file::from_file;
@@ -83,6 +83,10 @@ impl Compare {
         let (scenario, _) =
             from_file(path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
         with_progress(&scenario, scenario.settings.duration, &mut Csv::new(to))?;
+        if interrupted() {
+            let message = "interrupted: nothing is compared with a shorter run".to_owned();
+            return Err(CommandError::Other(message));
+        }
         Ok(to.to_owned())
     }
 }

@@ -1,10 +1,11 @@
 //! Columns of numbers in a file beside a scenario: CSV by the names of its first line, or NPZ by the names
 //! of its arrays.
 
-use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::opened::open;
+use crate::record::extent::check_rows;
 use crate::structure::npz;
 
 /// Most rows of a table.
@@ -34,7 +35,7 @@ fn no_column(name: &str, known: &[&str]) -> String {
 }
 
 fn of_csv(path: &Path, names: &[(&str, bool)]) -> Result<Numbers, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
+    let file = open(path).map_err(|error| error.to_string())?;
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
@@ -69,11 +70,12 @@ fn of_csv(path: &Path, names: &[(&str, bool)]) -> Result<Numbers, String> {
     if reader.position().byte() >= BYTES_MAX {
         return Err(too_long());
     }
+    check_rows(path, rows)?;
     Ok(columns)
 }
 
 fn of_npz(path: &Path, names: &[(&str, bool)]) -> Result<Numbers, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
+    let file = open(path).map_err(|error| error.to_string())?;
     let mut bytes = Vec::new();
     file.take(BYTES_MAX + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
     if u64::try_from(bytes.len()).unwrap_or(u64::MAX) > BYTES_MAX {
