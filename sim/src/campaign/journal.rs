@@ -254,6 +254,24 @@ mod tests {
         }
     }
 
+    /// As campaigns do that are started at the same instant: one has the journal, the others are told so.
+    #[test]
+    fn of_several_that_make_a_journal_one_has_it() {
+        for _ in 0..50 {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("a.journal");
+            let opened: Vec<_> = std::thread::scope(|scope| {
+                let open = || Journal::open(&path, &PLAN, 2, false);
+                let threads: Vec<_> = (0..4).map(|_| scope.spawn(open)).collect();
+                threads.into_iter().map(|thread| thread.join().expect("it ends")).collect()
+            });
+            assert_eq!(opened.iter().filter(|opened| opened.is_ok()).count(), 1, "{opened:?}");
+            for error in opened.iter().filter_map(|opened| opened.as_ref().err()) {
+                assert!(matches!(error, CampaignError::Locked { .. }), "{error}");
+            }
+        }
+    }
+
     #[test]
     fn a_journal_of_another_plan_or_in_use_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");

@@ -68,7 +68,7 @@ enum Command {
     #[command(after_help = "Example:\n  precess evaluate bus.toml --format json")]
     Evaluate(evaluate::Evaluate),
     /// Print the differences of two results (CSV), of two folders of them, or of two scenario files
-    #[command(after_help = "Example:\n  precess compare a/bus.csv b/bus.csv")]
+    #[command(after_help = compare::HELP)]
     Compare(compare::Compare),
     /// Run scenario files and write only the figures, as SVG
     #[command(after_help = "Example:\n  precess plot bus.toml --out figures")]

@@ -57,6 +57,11 @@ static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 impl Run {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
+        if !cfg!(feature = "parquet")
+            && scenarios.iter().any(|(of, _)| of.output.formats.contains(&Format::Parquet))
+        {
+            return Err(without_parquet());
+        }
         let names: Vec<_> =
             scenarios.iter().flat_map(|(scenario, _)| self.names(scenario)).collect();
         let mut outputs = Outputs::reserve(&self.out, &names, self.force)?;
@@ -248,12 +253,17 @@ fn recorder(format: Format, reservation: Reservation) -> Result<Box<dyn Recorder
         #[cfg(feature = "parquet")]
         Format::Parquet => Ok(Box::new(crate::record::Parquet::reserved(reservation))),
         #[cfg(not(feature = "parquet"))]
-        Format::Parquet => Err(CommandError::Other(
-            "this program was built without Parquet; build it with `--features parquet`, or record \
-             csv or npz"
-                .to_owned(),
-        )),
+        Format::Parquet => Err(without_parquet()),
     }
+}
+
+/// The error of a format that this program does not have.
+fn without_parquet() -> CommandError {
+    CommandError::Other(
+        "this program was built without Parquet; install it by `cargo install --path sim --features parquet`, or \
+         record csv or npz"
+            .to_owned(),
+    )
 }
 
 /// The names of the files in a folder that have an extension.

@@ -137,6 +137,24 @@ fn head(header: &Header, to: &mut Vec<u8>) -> io::Result<usize> {
     Ok(count_at)
 }
 
+/// A text in one line, without characters that a terminal obeys.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.replace(char::is_control, "\u{fffd}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_with_the_count_has_one_length_and_is_text() {
+        for text in
+            [NOT_ENDED.to_owned(), "0 (finished)".to_owned(), "é".repeat(200), "aé".repeat(200)]
+        {
+            let line = count_line(&text);
+            assert_eq!(line.len(), COUNT_BYTES + 1);
+            assert!(String::from_utf8(line).is_ok_and(|line| line.ends_with('\n')), "{text}");
+        }
+    }
 }

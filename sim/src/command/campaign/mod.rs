@@ -136,7 +136,8 @@ impl CampaignOptions {
             fields: prepared.fields.len(),
             threads,
         };
-        let finished = execute(&execution, opened, &show, &interrupted).map_err(other)?;
+        let finished = execute(&execution, opened, &show, &interrupted);
+        let finished = finished.map_err(|error| other(error).leaving(vec![path.clone()]))?;
         if let Ok(bar) = bar.lock() {
             bar.finish_and_clear();
         }
@@ -175,7 +176,8 @@ impl CampaignOptions {
         files.push((format!("{stem}.npz"), archive));
         let text = table::csv(&head, plan, &prepared.fields, finished);
         files.push((format!("{stem}.csv"), text));
-        outputs.write(&files).map(drop)
+        let journal = self.out.join(format!("{stem}.journal"));
+        outputs.write(&files).map(drop).map_err(|error| error.leaving(vec![journal]))
     }
 }
 
