@@ -102,8 +102,8 @@ impl Jitter {
         let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
         check_budget_names(&self.file, &of_budget, &scenario).map_err(CommandError::Scenario)?;
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
-        // Before the work, too.
-        let mut outputs = Outputs::reserve(&self.out, &[format!("{stem}.html")], self.force)?;
+        // Before the work, too; not kept, since an interrupt during the work would leave it.
+        drop(Outputs::reserve(&self.out, &[format!("{stem}.html")], self.force)?);
         let prepared = Prepared::new(&scenario, &budget).map_err(|error| match error {
             PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
             PrepareError::Model(error) => {
@@ -145,7 +145,7 @@ impl Jitter {
         for (name, svg) in report.figures().map_err(|error| other(&error))? {
             files.push((format!("{stem}-{name}.svg"), svg));
         }
-        outputs.write(&files)?;
+        Outputs::reserve(&self.out, &[], self.force)?.write(&files)?;
         print(&summary(&budget, &found))?;
         let folder = self.out.display();
         print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;

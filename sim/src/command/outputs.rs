@@ -81,12 +81,18 @@ impl Outputs {
         }
         let names: Vec<_> =
             names.iter().filter(|name| !self.reserved.contains_key(*name)).collect();
+        // In one order in every program: of two that want some of the same names one has them all.
         let mut paths: Vec<_> = names.iter().map(|name| self.folder.join(name)).collect();
+        paths.sort();
+        if let Some([path, _]) = paths.array_windows().find(|[path, next]| path == next) {
+            let path = path.display();
+            let message =
+                format!("{path} would be written twice: two names give one file; rename one");
+            return Err(CommandError::Other(message));
+        }
         self.check_inputs(&paths)?;
         self.may_replace(&paths)?;
         self.make_folder()?;
-        // In one order in every program: of two that want some of the same names one has them all.
-        paths.sort();
         for path in &paths {
             let reservation = Reservation::new(path).map_err(failure(path))?;
             self.reserved.insert(name_of(path), reservation);

@@ -1,10 +1,11 @@
 //! Checks of the recorders: files read back, what a killed program leaves, buckets, statistics.
 
 use std::fs;
+use std::io::Write as _;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::partial::partial_name;
+use super::partial::{Partial, partial_name};
 use super::{Csv, Decimate, Header, Many, Npz, Recorder, Samples, Statistics};
 use crate::engine::checks::turning_panel;
 use crate::engine::{End, Outcome, Steps, run};

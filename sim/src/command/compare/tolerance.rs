@@ -109,8 +109,10 @@ mod tests {
     use super::*;
 
     fn column(name: &str, unit: &str, peak: f64, largest: f64) -> Difference {
-        let (name, unit) = (name.to_owned(), unit.to_owned());
-        Difference { name, unit, peak, largest: [largest; 2], ..Difference::default() }
+        let mut column = Difference::default();
+        (column.name, column.unit) = (name.to_owned(), unit.to_owned());
+        (column.peak, column.largest) = (peak, [largest; 2]);
+        column
     }
 
     /// Whether each column differs.
