@@ -103,7 +103,8 @@ fn write(
     force: bool,
 ) -> Result<String, CommandError> {
     let paths = Outputs::reserve(folder, &[], force)?.write(files)?;
-    Ok(paths.iter().map(|path| format!("{}\n", path.display())).collect())
+    let lines: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
+    Ok(lines.join("\n") + "\n")
 }
 
 /// A row: name, value, interval, unit.

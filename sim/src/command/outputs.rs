@@ -84,13 +84,14 @@ impl Outputs {
         // In one order in every program: of two that want some of the same names one has them all.
         let mut paths: Vec<_> = names.iter().map(|name| self.folder.join(name)).collect();
         paths.sort();
-        if let Some([path, _]) = paths.array_windows().find(|[path, next]| path == next) {
+        let pairs = paths.iter().zip(paths.iter().skip(1));
+        if let Some((path, _)) = pairs.into_iter().find(|(path, next)| path == next) {
             let path = path.display();
             let message =
                 format!("{path} would be written twice: two names give one file; rename one");
             return Err(CommandError::Other(message));
         }
-        self.check_inputs(&paths)?;
+        check_inputs(&paths)?;
         self.may_replace(&paths)?;
         self.make_folder()?;
         for path in &paths {
@@ -171,19 +172,6 @@ impl Outputs {
         names.flat_map(of_name).filter(has_samples).collect()
     }
 
-    /// Rejects a path that is that of a file which the command reads, or whose partial file is.
-    fn check_inputs(&self, paths: &[PathBuf]) -> Result<(), CommandError> {
-        let inputs = opened();
-        for path in paths {
-            for written in [path.clone(), partial_name(path)] {
-                if inputs.iter().any(|input| is_same(input, &written)) {
-                    return Err(CommandError::Input(written));
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Rejects a path that is there and may not be replaced.
     fn may_replace(&mut self, paths: &[PathBuf]) -> Result<(), CommandError> {
         let Some(path) = paths.iter().find(|path| path.exists()) else { return Ok(()) };
@@ -234,6 +222,19 @@ impl Drop for Outputs {
             let _ = fs::remove_dir(folder);
         }
     }
+}
+
+/// Rejects a path that is that of a file which the command reads, or whose partial file is.
+fn check_inputs(paths: &[PathBuf]) -> Result<(), CommandError> {
+    let inputs = opened();
+    for path in paths {
+        for written in [path.clone(), partial_name(path)] {
+            if inputs.iter().any(|input| is_same(input, &written)) {
+                return Err(CommandError::Input(written));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn failure(path: &Path) -> impl FnOnce(io::Error) -> CommandError + use<> {

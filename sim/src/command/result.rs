@@ -26,7 +26,7 @@ pub(super) struct Rows {
     path: PathBuf,
     record: csv::StringRecord,
     extent: Extent,
-    rows: u64,
+    count: u64,
 }
 
 /// Columns of a result.
@@ -71,7 +71,7 @@ impl Rows {
         check_names(path, &names)?;
         let units = units(&comments, names.len());
         let (path, record) = (path.to_owned(), csv::StringRecord::new());
-        Ok(Self { reader, names, units, path, record, extent, rows: 0 })
+        Ok(Self { reader, names, units, path, record, extent, count: 0 })
     }
 
     /// The next row, if there is one.
@@ -85,10 +85,10 @@ impl Rows {
             row.push(number.map_err(|_| wrong(format!("`{text}` is no number")))?);
         }
         if more {
-            self.rows += 1;
+            self.count += 1;
             return Ok(true);
         }
-        let missing = self.extent.missing(&self.path, self.rows);
+        let missing = self.extent.missing(&self.path, self.count);
         let missing = missing.map_err(|error| wrong(error.to_string()))?;
         missing.map_or(Ok(false), |text| Err(wrong(text)))
     }

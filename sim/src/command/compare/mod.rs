@@ -4,6 +4,7 @@
 mod difference;
 mod tolerance;
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -165,13 +166,13 @@ fn shown(name: &str, found: &Differences) -> String {
     let mut text =
         format!("{heading}{}{} samples, {columns} columns in both", aligned(&rows), found.samples);
     let differing = found.columns.iter().filter(|d| d.differs).count();
-    text += &match differing {
-        0 => ", none differs\n".to_owned(),
-        count => format!(", {count} differ\n"),
+    let _ = match differing {
+        0 => writeln!(text, ", none differs"),
+        count => writeln!(text, ", {count} differ"),
     };
     for (which, only) in ["first", "second"].into_iter().zip(&found.only) {
         if !only.is_empty() {
-            text += &format!("only in the {which}: {}\n", only.join(", "));
+            let _ = writeln!(text, "only in the {which}: {}", only.join(", "));
         }
     }
     text

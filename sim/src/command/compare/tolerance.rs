@@ -54,7 +54,7 @@ impl Tolerance {
                 Self::Absolute { name, value, .. } => is_of(&column.name, name).then_some(*value),
             });
             // A difference that is no number is larger than every bound.
-            column.differs = !(column.peak <= bounds.fold(0.0, f64::max));
+            column.differs = column.peak.is_nan() || column.peak > bounds.fold(0.0, f64::max);
         }
         Ok(())
     }

@@ -40,8 +40,7 @@ fn sigterm_ends_a_run_early_with_results_that_say_so() {
     for mut case in writing("terminated") {
         let long = match case.name.as_str() {
             "run" | "plot" => ["--set", "run.duration=2000 s"].as_slice(),
-            "sweep" => &["--set", "run.duration=2000 s", "--threads", "1"],
-            "montecarlo" => &["--set", "run.duration=2000 s", "--threads", "1"],
+            "sweep" | "montecarlo" => &["--set", "run.duration=2000 s", "--threads", "1"],
             _ => continue,
         };
         case.arguments.extend(long.iter().map(|text| (*text).to_owned()));

@@ -67,11 +67,8 @@ fn results_of_others_and_of_runs_in_progress_are_read() {
     let not_yet = "# samples: not counted, the run has not ended";
     let partial = text.replace(counted, &format!("{not_yet:<width$}", width = counted.len()));
     let partial = put(&folder, "a.csv.partial", &partial);
-    let plain: String = text
-        .lines()
-        .filter(|line| !line.starts_with('#'))
-        .map(|line| format!("{line}\n"))
-        .collect();
+    let rows = text.split_inclusive('\n').filter(|line| !line.starts_with('#'));
+    let plain: String = rows.collect();
     let plain = put(&folder, "plain.csv", &plain);
     for (file, warned) in [(earlier, false), (plain, false), (partial, true)] {
         for ended in [precess(&["compare", &file, &file]), spectrum(&folder, &file)] {
