@@ -79,12 +79,7 @@ impl Run {
 
     /// The files of a scenario.
     fn names(&self, scenario: &Scenario) -> Vec<String> {
-        let mut names: Vec<_> = scenario
-            .output
-            .formats
-            .iter()
-            .map(|format| format!("{}.{}", scenario.name, extension(*format)))
-            .collect();
+        let mut names: Vec<_> = results(scenario).collect();
         if !self.no_report {
             names.push(format!("{}.html", scenario.name));
         }
@@ -123,7 +118,10 @@ impl Run {
         }
         if !self.no_report {
             let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
-            outputs.write(&[(format!("{}.html", scenario.name), page)])?;
+            let page = [(format!("{}.html", scenario.name), page)];
+            // The results are complete, and stay.
+            let results = || results(scenario).map(|name| self.out.join(name)).collect();
+            outputs.write(&page).map_err(|error| error.leaving(results()))?;
         }
         let files: Vec<_> = self
             .names(scenario)
@@ -136,6 +134,12 @@ impl Run {
         }
         Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
     }
+}
+
+/// The names of a scenario's results.
+fn results(scenario: &Scenario) -> impl Iterator<Item = String> {
+    let formats = scenario.output.formats.iter();
+    formats.map(|format| format!("{}.{}", scenario.name, extension(*format)))
 }
 
 /// Reads all files, or reports what is wrong with all of them.

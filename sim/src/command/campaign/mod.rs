@@ -117,10 +117,10 @@ impl CampaignOptions {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
         readable(prepared, plan)?;
         let path = self.out.join(format!("{stem}.journal"));
+        watch_interrupts();
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
         let opened =
             Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
-        watch_interrupts();
         let threads = self.threads.map_or_else(all_cores, usize::from);
         let bar = Mutex::new(progress_bar(plan.samples.len(), "samples"));
         let show = |done: usize| {
