@@ -145,7 +145,8 @@ fn of_npz(path: &Path, names: &[String]) -> Result<Read, CommandError> {
     let mut bytes = Vec::new();
     open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failure)?;
     let wrong = |text: &dyn std::fmt::Display| wrong(path, &text.to_string());
-    let members = Members::of(&bytes).map_err(|error| wrong(&error))?;
+    let members = Members::of(&bytes)
+        .map_err(|error| wrong(&format!("it was cut, or is no NPZ file: {error}")))?;
     let texts = |name: &str| {
         let array = members.needed(name).map_err(|error| wrong(&error))?;
         array.texts().map_err(|fault| wrong(&format!("{name}: {fault}")))

@@ -8,8 +8,8 @@ use std::process::{Command, Output};
 use clap::CommandFactory as _;
 use precess::command::Cli;
 
-/// A title that would rename the window of a terminal, and clear it.
 const HUB: &str = "[hub]\nmass = \"96 kg\"\ninertia = \"20, 20, 20 kg m^2\"\n";
+/// Its title would rename the window of a terminal, and clear it.
 const WHEEL: &str = r#"format = 1
 base = "hub.toml"
 name = "wheel"

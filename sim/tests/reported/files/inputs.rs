@@ -28,12 +28,13 @@ fn no_command_replaces_a_file_that_it_reads() {
         let written: Vec<_> = written.iter().filter(|name| !name.ends_with(".journal")).collect();
         let name = *written.first().expect("a file");
         case.arguments.push("--force".to_owned());
-        for input in case.inputs.clone() {
+        for (number, input) in case.inputs.clone().into_iter().enumerate() {
             let before = fs::read(&input).expect("a file");
-            // A link of either kind stands where the output would, and where it is written until it is complete.
-            for (target, is_hard) in
-                [(name.clone(), true), (name.clone(), false), (format!("{name}.partial"), true)]
-            {
+            // A link of either kind stands where the output would, and where it is written until it is complete; one of
+            // them for the other inputs.
+            let places =
+                [(name.clone(), true), (name.clone(), false), (format!("{name}.partial"), true)];
+            for (target, is_hard) in places.into_iter().take(if number == 0 { 3 } else { 1 }) {
                 let link = case.empty_out().join(target);
                 let linked = if is_hard {
                     fs::hard_link(&input, &link)

@@ -46,6 +46,20 @@ fn a_result_that_was_cut_is_refused() {
             assert!(ended.error.contains("it was cut or changed"), "{}", ended.error);
         }
     }
+    // Nor has a cut archive the list of its members.
+    let wheel = folder.join("wheel.toml");
+    let wheel = wheel.to_str().expect("text");
+    let out = folder.join("archive");
+    let npz = ["--set", "output.formats=[\"npz\"]", "--out", out.to_str().expect("text")];
+    assert_eq!(precess(&[&["run", wheel][..], &npz].concat()).code, Some(0));
+    let bytes = fs::read(out.join("wheel.npz")).expect("a result");
+    for length in [bytes.len() - 1, bytes.len() / 2, 100] {
+        let file = out.join("cut.npz");
+        fs::write(&file, &bytes[..length]).expect("a file");
+        let ended = spectrum(&folder, file.to_str().expect("text"));
+        assert_eq!(ended.code, Some(1), "{length} of {}: {}", bytes.len(), ended.out);
+        assert!(ended.error.contains("it was cut"), "{}", ended.error);
+    }
     // A row more is not of the run, either.
     let last = &text[ends[ends.len() - 2]..];
     let file = put(&folder, "long.csv", &format!("{text}{last}"));
