@@ -112,3 +112,18 @@ fn no_columns_are_not_all_columns() {
         assert!(ended.error.contains("`columns` names no column"), "{}", ended.error);
     }
 }
+
+#[test]
+#[cfg(not(feature = "parquet"))]
+fn without_parquet_the_error_and_the_page_of_formats_name_the_feature() {
+    let case =
+        writing("without-parquet").into_iter().find(|case| case.name == "run").expect("a case");
+    let out = case.empty_out();
+    let ended = case.command().args(["--set", "output.formats=[\"csv\", \"parquet\"]"]).output();
+    let ended = ended.expect("it starts");
+    assert_eq!(ended.status.code(), Some(1));
+    assert!(error_of(&ended).contains("--features parquet"), "{}", error_of(&ended));
+    assert_eq!(fs::read_dir(out).expect("a folder").count(), 0, "before the run");
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenarios.md");
+    assert!(fs::read_to_string(page).expect("a page").contains("--features parquet"));
+}
