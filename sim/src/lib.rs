@@ -56,6 +56,7 @@ pub mod fit;
 pub mod jitter;
 mod names;
 mod nearest;
+mod opened;
 pub mod pointing;
 pub mod record;
 #[cfg(feature = "tool")]

@@ -6,10 +6,11 @@
 //! decimal commas, a row of units below the heading, a heading in a comment, UTF-16.
 
 use std::fmt;
-use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::Path;
 
+use crate::opened::open;
+use crate::record::extent::check_rows;
 use crate::structure::{Fault, Place, npz};
 
 /// Bytes of a file that show its dialect.
@@ -121,7 +122,7 @@ fn of_npz(
     limits: Limits,
 ) -> Result<Vec<Vec<f64>>, TableFault> {
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|error| reason(&error))?;
+    let file = open(path).map_err(|error| reason(&error))?;
     let read = file.take(limits.bytes.saturating_add(1)).read_to_end(&mut bytes);
     if u64::try_from(read.map_err(|error| reason(&error))?).unwrap_or(u64::MAX) > limits.bytes {
         return Err(TableFault::Bytes { bound: limits.bytes });
@@ -164,6 +165,7 @@ fn of_csv(
             return Err(too_long());
         }
         if !more.map_err(|error| reason(&error))? {
+            check_rows(path, rows).map_err(TableFault::Read)?;
             return Ok(columns);
         }
         for ((column, place), (name, _)) in columns.iter_mut().zip(&places).zip(names) {
@@ -189,7 +191,7 @@ fn of_csv(
 /// # Errors
 /// The operating system's reason, or a dialect that is not read.
 pub(crate) fn reader(path: &Path, bytes: u64) -> Result<CsvReader, TableFault> {
-    let mut file = File::open(path).map_err(|error| reason(&error))?;
+    let mut file = open(path).map_err(|error| reason(&error))?;
     let mut head = Vec::new();
     let read = (&mut file).take(HEAD.min(bytes)).read_to_end(&mut head);
     let read = u64::try_from(read.map_err(|error| reason(&error))?).unwrap_or(u64::MAX);

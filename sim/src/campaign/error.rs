@@ -69,7 +69,12 @@ pub enum CampaignError {
     /// A journal is of another campaign, or no journal.
     OtherPlan(PathBuf),
     /// Another program writes to a journal.
-    Locked(PathBuf),
+    Locked {
+        /// The journal.
+        path: PathBuf,
+        /// Which program, and what to do.
+        source: std::io::Error,
+    },
     /// A journal cannot be read or written.
     Io {
         /// The file.
@@ -137,12 +142,9 @@ impl fmt::Display for CampaignError {
                  folder by --out, or discard it with --force",
                 path.display()
             ),
-            Self::Locked(path) => write!(
-                f,
-                "{} is in use by another program; wait for its end, or choose another folder by --out",
-                path.display()
-            ),
-            Self::Io { path, source } => write!(f, "{}: {source}", path.display()),
+            Self::Locked { path, source } | Self::Io { path, source } => {
+                write!(f, "{}: {source}", path.display())
+            }
         }
     }
 }
@@ -152,7 +154,7 @@ impl std::error::Error for CampaignError {
         match self {
             Self::Scenario(source) => Some(source),
             Self::Record(source) => Some(source),
-            Self::Io { source, .. } => Some(source),
+            Self::Locked { source, .. } | Self::Io { source, .. } => Some(source),
             _ => None,
         }
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::{CampaignError, Row};
-use crate::record::partial::Partial;
+use crate::record::partial::{Reservation, in_use};
 
 const MAGIC: &[u8] = b"precess-journal-1\n";
 /// Bytes of an error's text that are kept.
@@ -50,7 +50,7 @@ impl Journal {
         header.extend(u32::try_from(fields).unwrap_or(u32::MAX).to_le_bytes());
         let mut file = match File::options().read(true).write(true).open(path) {
             Ok(file) => file,
-            Err(error) if error.kind() == ErrorKind::NotFound => made(path, &header).map_err(io)?,
+            Err(error) if error.kind() == ErrorKind::NotFound => made(path, &header)?,
             Err(error) => return Err(io(error)),
         };
         lock(&file, path)?;
@@ -61,7 +61,7 @@ impl Journal {
         }
         if !is_ours {
             fs::remove_file(path).map_err(io)?;
-            file = made(path, &header).map_err(io)?;
+            file = made(path, &header)?;
             lock(&file, path)?;
             file.seek(SeekFrom::End(0)).map_err(io)?;
         }
@@ -101,23 +101,30 @@ impl Journal {
     }
 }
 
-/// A file with a header, whole from the start.
-fn made(path: &Path, header: &[u8]) -> std::io::Result<File> {
-    let mut partial = Partial::create(path)?;
-    partial.write_all(header)?;
-    partial.finish()?;
-    File::options().read(true).write(true).open(path)
+/// A file with a header, whole from the start; that of another program, if it made one in the meantime.
+fn made(path: &Path, header: &[u8]) -> Result<File, CampaignError> {
+    let failed = |source: std::io::Error| match source.kind() {
+        ErrorKind::ResourceBusy => CampaignError::Locked { path: path.to_owned(), source },
+        _ => CampaignError::Io { path: path.to_owned(), source },
+    };
+    let reservation = Reservation::new(path).map_err(failed)?;
+    if !path.exists() {
+        let mut partial = reservation.begin().map_err(failed)?;
+        partial.write_all(header).and_then(|()| partial.finish()).map_err(failed)?;
+    }
+    File::options().read(true).write(true).open(path).map_err(failed)
 }
 
 fn lock(file: &File, path: &Path) -> Result<(), CampaignError> {
+    let path = || path.to_owned();
     match file.try_lock() {
         // File systems without locks: two programs are then for the user to avoid.
         Ok(()) => Ok(()),
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(()),
-        Err(TryLockError::WouldBlock) => Err(CampaignError::Locked(path.to_owned())),
-        Err(TryLockError::Error(source)) => {
-            Err(CampaignError::Io { path: path.to_owned(), source })
+        Err(TryLockError::WouldBlock) => {
+            Err(CampaignError::Locked { path: path(), source: in_use(file) })
         }
+        Err(TryLockError::Error(source)) => Err(CampaignError::Io { path: path(), source }),
     }
 }
 
@@ -247,6 +254,24 @@ mod tests {
         }
     }
 
+    /// As campaigns do that are started at the same instant: one has the journal, the others are told so.
+    #[test]
+    fn of_several_that_make_a_journal_one_has_it() {
+        for _ in 0..50 {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("a.journal");
+            let opened: Vec<_> = std::thread::scope(|scope| {
+                let open = || Journal::open(&path, &PLAN, 2, false);
+                let threads: Vec<_> = (0..4).map(|_| scope.spawn(open)).collect();
+                threads.into_iter().map(|thread| thread.join().expect("it ends")).collect()
+            });
+            assert_eq!(opened.iter().filter(|opened| opened.is_ok()).count(), 1, "{opened:?}");
+            for error in opened.iter().filter_map(|opened| opened.as_ref().err()) {
+                assert!(matches!(error, CampaignError::Locked { .. }), "{error}");
+            }
+        }
+    }
+
     #[test]
     fn a_journal_of_another_plan_or_in_use_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -257,7 +282,7 @@ mod tests {
         let (held, found) = Journal::open(&path, &PLAN, 2, false).expect("opened");
         assert_eq!(found.len(), 3);
         let error = Journal::open(&path, &PLAN, 2, true).expect_err("in use");
-        assert!(matches!(error, CampaignError::Locked(_)), "{error}");
+        assert!(matches!(error, CampaignError::Locked { .. }), "{error}");
         drop(held);
         let (_, found) = Journal::open(&path, &[8; 32], 2, true).expect("discarded");
         assert!(found.is_empty());

@@ -11,7 +11,8 @@ use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::{Set, print};
+use super::outputs::Outputs;
+use super::{Set, note, print};
 use crate::file::from_file;
 
 /// The program that derives, beside this one or on the path.
@@ -62,13 +63,14 @@ impl Bake {
         let description = scenario.description(self.unlock).map_err(|error| other(&error))?;
         let text = description.write().map_err(|error| other(&error))?;
         if self.description {
-            print(&text);
+            print(&text)?;
             return Ok(Exit::Success);
         }
         for left in scenario.not_described() {
-            eprintln!("note: {left} is not part of the kernels; add it to torques and forces");
+            note(&format!("note: {left} is not part of the kernels; add it to torques and forces"));
         }
         let out = self.out.clone().unwrap_or_else(|| self.file.with_file_name(&description.name));
+        let _reserved = Outputs::of_folder(&out)?;
         self.derive(&text, &out)
     }
 

@@ -8,7 +8,7 @@ use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, units};
 
 use super::exit::Exit;
 use super::table::{aligned, six};
-use super::{Files, Form, advice, print, sources};
+use super::{CommandError, Files, Form, advice, note, print, sources};
 use crate::engine::device_of;
 use crate::evaluation::Evaluator;
 use crate::file::from_file;
@@ -27,7 +27,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    pub(super) fn execute(&self) -> Exit {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let overrides = self.files.overrides.overrides();
         let mut failed = false;
         for path in &self.files.files {
@@ -35,24 +35,24 @@ impl Check {
                 Ok((scenario, mut reports)) => {
                     reports.all.extend(advice::initial(&scenario).iter().map(Into::into));
                     if self.format == Form::Json {
-                        print(&(reports.json() + "\n"));
+                        print(&(reports.json() + "\n"))?;
                         continue;
                     }
-                    print(&properties(&scenario));
+                    print(&properties(&scenario))?;
                     if !reports.all.is_empty() {
-                        print(&format!("\n{reports}"));
+                        print(&format!("\n{reports}"))?;
                     }
                 }
                 Err(errors) => {
                     failed = true;
                     match self.format {
-                        Form::Json => print(&(errors.json() + "\n")),
-                        Form::Text => eprint!("{errors}"),
+                        Form::Json => print(&(errors.json() + "\n"))?,
+                        Form::Text => note(&errors.to_string()),
                     }
                 }
             }
         }
-        if failed { Exit::Error } else { Exit::Success }
+        Ok(if failed { Exit::Error } else { Exit::Success })
     }
 }
 

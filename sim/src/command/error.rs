@@ -25,6 +25,15 @@ pub enum CommandError {
     Record(RecordError),
     /// A file that is there and that may not be replaced.
     Exists(PathBuf),
+    /// A file that the command reads and would replace.
+    Input(PathBuf),
+    /// An error after which files are left.
+    Leaving {
+        /// What ended the command.
+        error: Box<CommandError>,
+        /// What it has written until then.
+        files: Vec<PathBuf>,
+    },
     /// A file that cannot be read or written.
     Io {
         /// The file or folder.
@@ -32,6 +41,8 @@ pub enum CommandError {
         /// The operating system's reason.
         source: std::io::Error,
     },
+    /// Standard output that cannot be written.
+    Output(std::io::Error),
     /// Anything else, in a sentence with its remedy.
     Other(String),
 }
@@ -48,7 +59,21 @@ impl fmt::Display for CommandError {
                 "error: {} exists; choose another place, or replace it with --force",
                 path.display()
             ),
+            Self::Input(path) => write!(
+                f,
+                "error: {} is read by this command, which would replace it; write to another name",
+                path.display()
+            ),
+            Self::Leaving { error, files } => {
+                write!(f, "{error}\nleft in place:")?;
+                let mut names = files.iter().map(|path| path.display());
+                names.try_for_each(|name| write!(f, " {name}"))?;
+                f.write_str("; remove what you do not need")
+            }
             Self::Io { path, source } => write!(f, "error: {}: {source}", path.display()),
+            Self::Output(source) => {
+                write!(f, "error: standard output: {source}; what was printed is not complete")
+            }
             Self::Other(text) => write!(f, "error: {text}"),
         }
     }
@@ -60,9 +85,17 @@ impl std::error::Error for CommandError {
             Self::Scenario(source) | Self::ScenarioJson(source) => Some(source),
             Self::Run { source, .. } => Some(source),
             Self::Record(source) => Some(source),
-            Self::Io { source, .. } => Some(source),
-            Self::Exists(_) | Self::Other(_) => None,
+            Self::Io { source, .. } | Self::Output(source) => Some(source),
+            Self::Leaving { error, .. } => Some(error),
+            Self::Exists(_) | Self::Input(_) | Self::Other(_) => None,
         }
+    }
+}
+
+impl CommandError {
+    /// The error of a command that leaves files; itself where it leaves none.
+    pub(super) fn leaving(self, files: Vec<PathBuf>) -> Self {
+        if files.is_empty() { self } else { Self::Leaving { error: Box::new(self), files } }
     }
 }
 

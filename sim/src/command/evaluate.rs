@@ -57,7 +57,7 @@ impl Evaluate {
                 })
                 .collect();
             let text = serde_json::to_string_pretty(&object).unwrap_or_default();
-            print(&(text + "\n"));
+            print(&(text + "\n"))?;
             return Ok(Exit::Success);
         }
         let mut rows = Vec::new();
@@ -76,7 +76,7 @@ impl Evaluate {
                 frame,
             ]);
         }
-        print(aligned(&rows).trim_start_matches('\n'));
+        print(aligned(&rows).trim_start_matches('\n'))?;
         Ok(Exit::Success)
     }
 }

@@ -2,6 +2,22 @@
 
 use std::process::ExitCode;
 
+/// The code of a program that a second Ctrl-C ended.
+pub(super) const INTERRUPTED: u8 = 130;
+/// The code of a program that a second SIGTERM ended.
+#[cfg(unix)]
+pub(super) const TERMINATED: u8 = 143;
+
+/// The codes of every command, as its help and `docs/commands.md` have them.
+pub(super) const TABLE: &str = "\
+Exit codes:
+  0    complete; every requirement that there is was evaluated and is met
+  1    an error: nothing was computed, or what was could not be written
+  2    a requirement is violated, results differ, a fitted model does not hold, or a run ended before its time
+  3    a requirement could not be evaluated, and none is violated
+  64   the command line is wrong
+  130  ended at once by a second Ctrl-C; 143 by a second SIGTERM. The first ends a run early, with results that say so";
+
 /// How a command ended. The order is that of weight: of several files the heaviest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
@@ -10,7 +26,7 @@ pub(super) enum Exit {
     /// A requirement could not be evaluated: nothing was measured. None is violated.
     #[expect(dead_code, reason = "requirements without data are told apart in the next change")]
     NotEvaluated,
-    /// A requirement is violated, a fitted model does not hold, or a run ended before its time.
+    /// A requirement is violated, results differ, a fitted model does not hold, or a run ended before its time.
     Violated,
     /// An error: nothing was computed, or what was could not be written.
     Error,

@@ -13,7 +13,7 @@ use precess_dynamics::{Coupled, MAX_JOINTS, Passive, Strut, Suspension};
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::may_write;
+use super::outputs::{Outputs, name_of};
 use super::{Set, print};
 use crate::file::from_file;
 use crate::scenario::{Scenario, members};
@@ -68,17 +68,13 @@ impl Export {
             .to
             .clone()
             .unwrap_or_else(|| options.file.with_file_name(format!("{}.table", scenario.name)));
-        let name = to.file_name().map(|name| name.to_string_lossy().into_owned());
-        let folder = to.parent().map(PathBuf::from).unwrap_or_default();
-        may_write(&folder, &name.into_iter().collect::<Vec<_>>(), options.force)?;
-        std::fs::write(&to, &bytes)
-            .map_err(|source| CommandError::Io { path: to.clone(), source })?;
+        Outputs::of_files(&[&to], options.force)?.write(&[(name_of(&to), &bytes)])?;
         print(&format!(
             "{}: {} bytes, {} devices\n",
             to.display(),
             bytes.len(),
             scenario.names.len()
-        ));
+        ))?;
         Ok(Exit::Success)
     }
 }

@@ -11,8 +11,8 @@ use indicatif::ProgressBar;
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::outputs::Outputs;
 use super::print;
-use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
@@ -55,7 +55,8 @@ impl FitCommand {
                 (example::DESCRIPTION.to_owned(), example::TOML.to_owned()),
                 (example::SAMPLES.to_owned(), example::samples()),
             ];
-            return write(folder, &files, self.force);
+            print(&write(folder, &files, self.force)?)?;
+            return Ok(Exit::Success);
         }
         let Some(path) = &self.file else { return Ok(Exit::Error) };
         // Silent where the output is no terminal.
@@ -95,35 +96,29 @@ impl FitCommand {
             of_spectra: !file.waterfall.is_empty(),
         };
         files.extend(report.files().map_err(|error| CommandError::Other(error.to_string()))?);
-        print(&format!("{}\n\n{}\n", file.title, table(&fitted)));
-        let ended = write(&self.out, &files, self.force)?;
+        let paths = write(&self.out, &files, self.force)?;
+        print(&format!("{}\n\n{}\n{paths}", file.title, table(&fitted)))?;
         if fitted.holds() {
-            return Ok(ended);
+            return Ok(Exit::Success);
         }
         let old = [format!("{name}-device.toml"), format!("{name}-sources.toml")];
         for path in old.map(|file| self.out.join(file)).iter().filter(|path| path.exists()) {
-            print(&format!("{} is of an earlier fit\n", path.display()));
+            print(&format!("{} is of an earlier fit\n", path.display()))?;
         }
-        print("the model does not hold: no device and no sources are written\n");
+        print("the model does not hold: no device and no sources are written\n")?;
         Ok(Exit::Violated)
     }
 }
 
+/// Writes files; their paths, a line each.
 fn write(
     folder: &std::path::Path,
     files: &[(String, String)],
     force: bool,
-) -> Result<Exit, CommandError> {
-    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    may_write(folder, &names, force)?;
-    std::fs::create_dir_all(folder)
-        .map_err(|source| CommandError::Io { path: folder.to_owned(), source })?;
-    for (name, text) in files {
-        let path = folder.join(name);
-        write_whole(&path, text)?;
-        print(&format!("{}\n", path.display()));
-    }
-    Ok(Exit::Success)
+) -> Result<String, CommandError> {
+    let paths = Outputs::reserve(folder, &[], force)?.write(files)?;
+    let lines: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
+    Ok(lines.join("\n") + "\n")
 }
 
 /// A row: name, value, interval, unit.

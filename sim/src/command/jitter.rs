@@ -9,9 +9,10 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{may_write, progress_bar, write_whole};
+use super::outputs::Outputs;
+use super::run::progress_bar;
 use super::table::{aligned, six};
-use super::{Threads, as_toml, print};
+use super::{Threads, as_toml, note, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
@@ -31,9 +32,7 @@ Examples:
   precess jitter budget.toml --set budget.phases=worst --set hub.mass='900 kg'
       keys of the budget have the prefix budget., others are of the scenario
   precess jitter budget.toml --compare '3000 rpm' --compare '4200 rpm'
-      beside it, runs of the coupled equations at two speeds
-
-The exit code is 0 where every requirement is met, 2 where one is not, 1 on an error.";
+      beside it, runs of the coupled equations at two speeds";
 
 /// A line this near to a natural frequency, of its damping ratio, is at resonance.
 const RESONANCE: f64 = 20.0;
@@ -103,8 +102,8 @@ impl Jitter {
         let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
         check_budget_names(&self.file, &of_budget, &scenario).map_err(CommandError::Scenario)?;
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
-        // Before the work, too.
-        may_write(&self.out, &[format!("{stem}.html")], self.force)?;
+        // Before the work, too; not kept, since an interrupt during the work would leave it.
+        drop(Outputs::reserve(&self.out, &[format!("{stem}.html")], self.force)?);
         let prepared = Prepared::new(&scenario, &budget).map_err(|error| match error {
             PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
             PrepareError::Model(error) => {
@@ -116,7 +115,7 @@ impl Jitter {
         warnings.extend(prepared.left_out.iter().cloned());
         warnings.extend(self.compared_outside(&budget));
         for warning in &warnings {
-            eprintln!("warning: {warning}");
+            note(&format!("warning: {warning}"));
         }
         let found = self.find(&scenario, &budget, prepared)?;
         let mut text = std::fs::read_to_string(&self.file)
@@ -146,16 +145,10 @@ impl Jitter {
         for (name, svg) in report.figures().map_err(|error| other(&error))? {
             files.push((format!("{stem}-{name}.svg"), svg));
         }
-        let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
-        may_write(&self.out, &names, self.force)?;
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
-        for (name, text) in &files {
-            write_whole(&self.out.join(name), text)?;
-        }
-        print(&summary(&budget, &found));
+        Outputs::reserve(&self.out, &[], self.force)?.write(&files)?;
+        print(&summary(&budget, &found))?;
         let folder = self.out.display();
-        print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1));
+        print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;
         let met = found.assessed.iter().all(|of| of.margin.is_met());
         Ok(Exit::of_met(met))
     }

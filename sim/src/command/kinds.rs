@@ -50,7 +50,7 @@ fn described() -> impl Iterator<Item = Described> {
 impl Kinds {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let Some(name) = &self.kind else {
-            print(&table());
+            print(&table())?;
             return Ok(Exit::Success);
         };
         let Some(kind) = described().find(|kind| kind.name == name) else {
@@ -58,7 +58,7 @@ impl Kinds {
             let message = format!("no kind is named `{name}`; there are {}", known.join(", "));
             return Err(CommandError::Other(message));
         };
-        print(&kind.detail());
+        print(&kind.detail())?;
         Ok(Exit::Success)
     }
 }

@@ -15,6 +15,7 @@ mod fit;
 mod jitter;
 mod kinds;
 mod new;
+mod outputs;
 mod plot;
 mod result;
 mod run;
@@ -23,16 +24,18 @@ mod sources;
 mod spectrum;
 mod structure;
 mod table;
+mod terminal;
 
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
 
 pub use error::CommandError;
 
 use exit::Exit;
+use terminal::{note, notes_are_written, print};
 
 use campaign::{montecarlo, sweep};
 
@@ -65,7 +68,7 @@ enum Command {
     #[command(after_help = "Example:\n  precess evaluate bus.toml --format json")]
     Evaluate(evaluate::Evaluate),
     /// Print the differences of two results (CSV), of two folders of them, or of two scenario files
-    #[command(after_help = "Example:\n  precess compare a/bus.csv b/bus.csv")]
+    #[command(after_help = compare::HELP)]
     Compare(compare::Compare),
     /// Run scenario files and write only the figures, as SVG
     #[command(after_help = "Example:\n  precess plot bus.toml --out figures")]
@@ -172,27 +175,38 @@ impl Cli {
     /// Executes the command line of this process: prints help or what is wrong with it, or executes the command.
     #[must_use]
     pub fn execute_arguments() -> ExitCode {
-        match Self::try_parse() {
+        let mut command = with_exit_codes(Self::command());
+        let parsed = command.try_get_matches_from_mut(std::env::args_os());
+        let parsed = parsed.and_then(|matches| Self::from_arg_matches(&matches));
+        match parsed.map_err(|error| error.format(&mut command)) {
             Ok(cli) => cli.execute(),
             Err(error) => {
-                // Help and version go to standard output, which may be closed; what is wrong to standard error.
-                let _ = error.print();
-                if error.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() }
+                // Help and version go to standard output, what is wrong to standard error.
+                let printed = error.print().and_then(|()| std::io::stdout().flush());
+                match printed {
+                    _ if error.use_stderr() => Exit::Usage.into(),
+                    Err(found) if found.kind() != ErrorKind::BrokenPipe => {
+                        note(&CommandError::Output(found).to_string());
+                        Exit::Error.into()
+                    }
+                    _ => Exit::Success.into(),
+                }
             }
         }
     }
 
     /// Executes the command.
     fn execute(self) -> ExitCode {
+        crate::opened::remember();
         let done = match self.command {
             Command::New(new) => new.execute(),
-            Command::Check(check) => Ok(check.execute()),
+            Command::Check(check) => check.execute(),
             Command::Run(run) => run.execute(),
             Command::Evaluate(evaluate) => evaluate.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Plot(plot) => plot.execute(),
             Command::Spectrum(spectrum) => spectrum.execute(),
-            Command::Schema => Ok(schema::execute()),
+            Command::Schema => schema::execute(),
             Command::Kinds(kinds) => kinds.execute(),
             Command::Bake(bake) => bake.execute(),
             Command::Structure(structure) => structure.execute(),
@@ -204,19 +218,20 @@ impl Cli {
             Command::Export(export) => export.execute(),
         };
         match done {
-            Ok(exit) => exit.into(),
+            Ok(exit) if notes_are_written() => exit.into(),
+            Ok(_) => Exit::Error.into(),
             Err(error) => {
-                eprintln!("{}", error.to_string().trim_end());
+                note(&error.to_string());
                 Exit::Error.into()
             }
         }
     }
 }
 
-/// Prints to standard output; a reader that has gone away is no error.
-fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+/// A command whose help, and that of all its commands, ends with the table of exit codes.
+fn with_exit_codes(command: clap::Command) -> clap::Command {
+    let help = command.get_after_help().map_or_else(String::new, |help| format!("{help}\n\n"));
+    command.after_help(help + exit::TABLE).mut_subcommands(with_exit_codes)
 }
 
 #[cfg(test)]
@@ -234,7 +249,6 @@ mod tests {
 
     #[test]
     fn every_command_is_declared_without_conflict() {
-        use clap::CommandFactory as _;
         Cli::command().debug_assert();
     }
 }

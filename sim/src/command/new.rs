@@ -31,7 +31,7 @@ impl New {
             );
             return Err(CommandError::Other(message));
         };
-        print(&text);
+        print(&text)?;
         Ok(Exit::Success)
     }
 }

@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{files, may_write, read_all, watch_interrupts, with_progress, write_whole};
-use super::{Files, print};
+use super::outputs::Outputs;
+use super::run::{files, interrupted, read_all, watch_interrupts, with_progress};
+use super::{Files, note, print};
 use crate::record::Between;
 use crate::report::Report;
 use crate::scenario::Scenario;
@@ -45,11 +46,11 @@ pub(super) fn time(text: &str) -> Result<f64, String> {
 impl Plot {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
+        let mut earlier = Vec::new();
         for (scenario, _) in &scenarios {
-            may_write(&self.out, &self.earlier(scenario)?, self.force)?;
+            earlier.extend(self.earlier(scenario)?);
         }
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
+        let mut outputs = Outputs::reserve(&self.out, &earlier, self.force)?;
         watch_interrupts();
         for (scenario, _) in &scenarios {
             let mut report = Report::new(scenario, &[]);
@@ -57,10 +58,14 @@ impl Plot {
             let mut part = Between::new(interval, &mut report);
             with_progress(scenario, interval[1], &mut part)?;
             let figures = report.figures().map_err(|e| CommandError::Other(e.to_string()))?;
-            for (of, svg) in &figures {
-                let path = self.out.join(format!("{}-{of}.svg", scenario.name));
-                write_whole(&path, svg)?;
-                print(&format!("{}\n", path.display()));
+            let name = |of: String| format!("{}-{of}.svg", scenario.name);
+            let figures: Vec<_> = figures.into_iter().map(|(of, svg)| (name(of), svg)).collect();
+            for path in outputs.write(&figures)? {
+                print(&format!("{}\n", path.display()))?;
+            }
+            if interrupted() {
+                note("interrupted: the figures are of a shorter run");
+                return Ok(Exit::Violated);
             }
         }
         Ok(Exit::Success)

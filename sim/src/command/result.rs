@@ -1,11 +1,14 @@
 //! Results that `run` wrote, read again: [`Rows`] of a CSV file one by one, and [`Signals`], some columns of a CSV or NPZ
 //! file with their sampling rate.
 
-use std::fs::File;
+use std::io::{BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::error::CommandError;
+use super::note;
 use crate::nearest::nearest;
+use crate::opened::open;
+use crate::record::extent::{Extent, comments};
 use crate::spectra::float;
 use crate::structure::npz::Members;
 use crate::tables::{CsvReader, reader, remark};
@@ -22,8 +25,8 @@ pub(super) struct Rows {
     pub(super) units: Vec<String>,
     path: PathBuf,
     record: csv::StringRecord,
-    /// Whether no row is read yet.
-    is_first: bool,
+    extent: Extent,
+    count: u64,
 }
 
 /// Columns of a result.
@@ -47,14 +50,28 @@ pub(super) struct Signal {
 
 impl Rows {
     pub(super) fn open(path: &Path) -> Result<Self, CommandError> {
+        let failure = |source| CommandError::Io { path: path.to_owned(), source };
         let wrong = |text: String| wrong(path, &text);
+        let ending = path.extension();
+        if ending.is_some_and(|ending| {
+            ["npz", "parquet"].iter().any(|of| ending.eq_ignore_ascii_case(of))
+        }) {
+            return Err(wrong("not a CSV file; name the CSV result of the run".to_owned()));
+        }
+        let comments = comments(&mut BufReader::new(open(path).map_err(failure)?));
+        let comments = comments.map_err(failure)?;
+        let extent = Extent::of_comments(comments.iter().map(String::as_str));
+        if extent == Extent::NotEnded {
+            let path = path.display();
+            note(&format!("warning: {path}: the run that writes it has not ended, or was killed"));
+        }
         let mut reader = reader(path, u64::MAX).map_err(|fault| wrong(fault.to_string()))?;
         let head = reader.headers().map_err(|error| wrong(error.to_string()))?;
         let names: Vec<_> = head.iter().map(str::to_owned).collect();
         check_names(path, &names)?;
-        let units = units(path, names.len());
-        let record = csv::StringRecord::new();
-        Ok(Self { reader, names, units, path: path.to_owned(), record, is_first: true })
+        let units = units(&comments, names.len());
+        let (path, record) = (path.to_owned(), csv::StringRecord::new());
+        Ok(Self { reader, names, units, path, record, extent, count: 0 })
     }
 
     /// The next row, if there is one.
@@ -63,16 +80,21 @@ impl Rows {
         let more =
             self.reader.read_record(&mut self.record).map_err(|error| wrong(error.to_string()))?;
         row.clear();
-        let is_first = std::mem::take(&mut self.is_first);
         for text in &self.record {
             let number = text.parse::<f64>();
             row.push(number.map_err(|_| {
                 let line = self.record.position().map_or(0, csv::Position::line);
-                let remark = remark(text, &self.record, is_first);
+                let remark = remark(text, &self.record, self.count == 0);
                 wrong(format!("line {line}: `{text}` is no number{remark}"))
             })?);
         }
-        Ok(more)
+        if more {
+            self.count += 1;
+            return Ok(true);
+        }
+        let missing = self.extent.missing(&self.path, self.count);
+        let missing = missing.map_err(|error| wrong(error.to_string()))?;
+        missing.map_or(Ok(false), |text| Err(wrong(text)))
     }
 }
 
@@ -85,7 +107,7 @@ impl Signals {
         [from, to]: [f64; 2],
     ) -> Result<Self, CommandError> {
         let (places, [all, units], mut values) =
-            if path.extension().is_some_and(|extension| extension == "npz") {
+            if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
                 of_npz(path, names)?
             } else {
                 of_csv(path, names)?
@@ -124,9 +146,11 @@ fn of_csv(path: &Path, names: &[String]) -> Result<Read, CommandError> {
 
 fn of_npz(path: &Path, names: &[String]) -> Result<Read, CommandError> {
     let failure = |source| CommandError::Io { path: path.to_owned(), source };
-    let bytes = std::fs::read(path).map_err(failure)?;
+    let mut bytes = Vec::new();
+    open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failure)?;
     let wrong = |text: &dyn std::fmt::Display| wrong(path, &text.to_string());
-    let members = Members::of(&bytes).map_err(|error| wrong(&error))?;
+    let members = Members::of(&bytes)
+        .map_err(|error| wrong(&format!("it was cut, or is no NPZ file: {error}")))?;
     let texts = |name: &str| {
         let array = members.needed(name).map_err(|error| wrong(&error))?;
         array.texts().map_err(|fault| wrong(&format!("{name}: {fault}")))
@@ -222,16 +246,13 @@ fn wrong(path: &Path, text: &str) -> CommandError {
 }
 
 /// The units of a result's columns, from its metadata; empty where there are none.
-fn units(path: &Path, count: usize) -> Vec<String> {
-    use std::io::{BufRead as _, BufReader};
-    let Ok(file) = File::open(path) else { return vec![String::new(); count] };
-    let lines = BufReader::new(file).lines().map_while(Result::ok);
-    let comments = lines.take_while(|line| line.starts_with('#'));
+fn units(comments: &[String], count: usize) -> Vec<String> {
     let columns = comments
+        .iter()
         .skip_while(|line| !line.starts_with("# columns:"))
         .skip(1)
         .take_while(|line| line.starts_with("#   "));
-    let unit = |line: String| {
+    let unit = |line: &String| {
         let (_, rest) = line.split_once(" [")?;
         rest.split_once(']').map(|(unit, _)| unit.to_owned())
     };

@@ -4,7 +4,6 @@
 //! their name when they are complete. The report is written last.
 
 use std::collections::BTreeSet;
-use std::io::{BufRead as _, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,11 +13,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::advice::{self, advice};
 use super::error::CommandError;
-use super::exit::Exit;
-use super::{Files, print};
+#[cfg(unix)]
+use super::exit::TERMINATED;
+use super::exit::{Exit, INTERRUPTED};
+use super::outputs::Outputs;
+use super::terminal::visible;
+use super::{Files, note, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
-use crate::record::partial::Partial;
+use crate::record::partial::Reservation;
 use crate::record::{Csv, Many, Npz, Recorder, Verdict};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
@@ -30,8 +33,7 @@ Examples:
   precess run scenarios/*.toml --out results --set run.duration='2 s'
       two seconds of each
 
-The exit code is 0 where every run was complete and met its requirements, 2 where one did not, 1 on an
-error. Ctrl-C ends a run early: what was computed is complete, and says so; a second one ends at once.";
+Ctrl-C or SIGTERM ends a run early: what was computed is complete, and says so; a second one ends at once.";
 
 /// The options of `run`.
 #[derive(Debug, Args)]
@@ -49,21 +51,25 @@ pub(super) struct Run {
     no_report: bool,
 }
 
-/// How often Ctrl-C was pressed.
+/// How often Ctrl-C was pressed, or SIGTERM was received.
 static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 
 impl Run {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
-        for (scenario, _) in &scenarios {
-            may_write(&self.out, &self.names(scenario), self.force)?;
+        if !cfg!(feature = "parquet")
+            && scenarios.iter().any(|(of, _)| of.output.formats.contains(&Format::Parquet))
+        {
+            return Err(without_parquet());
         }
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
+        let names: Vec<_> =
+            scenarios.iter().flat_map(|(scenario, _)| self.names(scenario)).collect();
+        let mut outputs = Outputs::reserve(&self.out, &names, self.force)?;
         watch_interrupts();
         let mut met = true;
         for (scenario, reports) in &scenarios {
-            met &= self.run(scenario, reports)?;
+            let done = self.run(scenario, reports, &mut outputs);
+            met &= done.map_err(|error| error.leaving(outputs.left(&self.names(scenario))))?;
             if INTERRUPTS.load(Ordering::Relaxed) > 0 {
                 break;
             }
@@ -73,12 +79,7 @@ impl Run {
 
     /// The files of a scenario.
     fn names(&self, scenario: &Scenario) -> Vec<String> {
-        let mut names: Vec<_> = scenario
-            .output
-            .formats
-            .iter()
-            .map(|format| format!("{}.{}", scenario.name, extension(*format)))
-            .collect();
+        let mut names: Vec<_> = results(scenario).collect();
         if !self.no_report {
             names.push(format!("{}.html", scenario.name));
         }
@@ -86,11 +87,18 @@ impl Run {
     }
 
     /// Runs one; whether it was complete and met its requirements.
-    fn run(&self, scenario: &Scenario, reports: &Diagnostics) -> Result<bool, CommandError> {
+    fn run(
+        &self,
+        scenario: &Scenario,
+        reports: &Diagnostics,
+        outputs: &mut Outputs,
+    ) -> Result<bool, CommandError> {
         let mut files = Vec::new();
         for format in &scenario.output.formats {
-            let path = self.out.join(format!("{}.{}", scenario.name, extension(*format)));
-            files.push(recorder(*format, &path)?);
+            let name = format!("{}.{}", scenario.name, extension(*format));
+            if let Some(reservation) = outputs.take(&name) {
+                files.push(recorder(*format, reservation)?);
+            }
         }
         let mut warnings: Vec<_> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
@@ -109,21 +117,29 @@ impl Run {
             warnings.push(advice.to_string());
         }
         if !self.no_report {
-            let path = self.out.join(format!("{}.html", scenario.name));
             let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
-            write_whole(&path, &page)?;
+            let page = [(format!("{}.html", scenario.name), page)];
+            // The results are complete, and stay.
+            let results = || results(scenario).map(|name| self.out.join(name)).collect();
+            outputs.write(&page).map_err(|error| error.leaving(results()))?;
         }
         let files: Vec<_> = self
             .names(scenario)
             .iter()
             .map(|name| self.out.join(name).display().to_string())
             .collect();
-        print(&report.summary(&outcome, &files));
+        print(&report.summary(&outcome, &files))?;
         for warning in &warnings {
-            eprintln!("warning: {warning}");
+            note(&format!("warning: {warning}"));
         }
         Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
     }
+}
+
+/// The names of a scenario's results.
+fn results(scenario: &Scenario) -> impl Iterator<Item = String> {
+    let formats = scenario.output.formats.iter();
+    formats.map(|format| format!("{}.{}", scenario.name, extension(*format)))
 }
 
 /// Reads all files, or reports what is wrong with all of them.
@@ -149,7 +165,7 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
                 if let Some(CommandError::Scenario(earlier)) =
                     failed.replace(CommandError::Scenario(errors))
                 {
-                    eprintln!("{earlier}");
+                    note(&earlier.to_string());
                 }
             }
         }
@@ -157,7 +173,7 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
     failed.map_or(Ok(scenarios), Err)
 }
 
-/// Runs a scenario up to a time, s, or Ctrl-C, with a progress bar, which a pipe does not get.
+/// Runs a scenario up to a time, s, or an interrupt, with a progress bar, which a pipe does not get.
 pub(super) fn with_progress(
     scenario: &Scenario,
     until: f64,
@@ -196,24 +212,30 @@ pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
     {
         bar.set_style(style);
     }
-    bar.set_message(what.to_owned());
+    bar.set_message(visible(what).into_owned());
     bar
 }
 
-/// Whether Ctrl-C was pressed.
+/// Whether Ctrl-C was pressed, or SIGTERM was received.
 pub(super) fn interrupted() -> bool {
     INTERRUPTS.load(Ordering::Relaxed) > 0
 }
 
-/// The first Ctrl-C ends the run, the second the program.
+/// The first Ctrl-C or SIGTERM ends the run, the second the program.
 pub(super) fn watch_interrupts() {
-    const INTERRUPTED: i32 = 130;
-    // Where no handler can be set, Ctrl-C ends the program, and leaves `.partial` files.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
-            std::process::exit(INTERRUPTED);
-        }
-    });
+    // Where no handler can be set, either ends the program, and leaves `.partial` files.
+    let _ = ctrlc::set_handler(|| interrupt(INTERRUPTED));
+    #[cfg(unix)]
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM]) {
+        std::thread::spawn(move || signals.forever().for_each(|_| interrupt(TERMINATED)));
+    }
+}
+
+/// Counts an interrupt; the second ends the program with a code.
+fn interrupt(code: u8) {
+    if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
+        std::process::exit(code.into());
+    }
 }
 
 fn extension(format: Format) -> &'static str {
@@ -228,19 +250,24 @@ fn extension(format: Format) -> &'static str {
     feature = "parquet",
     expect(clippy::unnecessary_wraps, reason = "an error only without the feature")
 )]
-fn recorder(format: Format, path: &Path) -> Result<Box<dyn Recorder>, CommandError> {
+fn recorder(format: Format, reservation: Reservation) -> Result<Box<dyn Recorder>, CommandError> {
     match format {
-        Format::Csv => Ok(Box::new(Csv::new(path))),
-        Format::Npz => Ok(Box::new(Npz::new(path))),
+        Format::Csv => Ok(Box::new(Csv::reserved(reservation))),
+        Format::Npz => Ok(Box::new(Npz::reserved(reservation))),
         #[cfg(feature = "parquet")]
-        Format::Parquet => Ok(Box::new(crate::record::Parquet::new(path))),
+        Format::Parquet => Ok(Box::new(crate::record::Parquet::reserved(reservation))),
         #[cfg(not(feature = "parquet"))]
-        Format::Parquet => Err(CommandError::Other(
-            "this program was built without Parquet; build it with `--features parquet`, or record \
-             csv or npz"
-                .to_owned(),
-        )),
+        Format::Parquet => Err(without_parquet()),
     }
+}
+
+/// The error of a format that this program does not have.
+fn without_parquet() -> CommandError {
+    CommandError::Other(
+        "this program was built without Parquet; install it by `cargo install --path sim --features parquet`, or \
+         record csv or npz"
+            .to_owned(),
+    )
 }
 
 /// The names of the files in a folder that have an extension.
@@ -254,47 +281,4 @@ pub(super) fn files(folder: &Path, extension: &str) -> Result<BTreeSet<String>, 
         }
     }
     Ok(names)
-}
-
-/// Asks on a terminal whether results may be replaced; refuses elsewhere.
-pub(super) fn may_write(folder: &Path, names: &[String], force: bool) -> Result<(), CommandError> {
-    if folder.is_file() {
-        let message = format!("{} is a file; name a folder", folder.display());
-        return Err(CommandError::Other(message));
-    }
-    let Some(path) = names.iter().map(|name| folder.join(name)).find(|path| path.exists()) else {
-        return Ok(());
-    };
-    if path.is_dir() {
-        return Err(CommandError::Exists(path));
-    }
-    if force {
-        return Ok(());
-    }
-    let stdin = std::io::stdin();
-    if !stdin.is_terminal() || !std::io::stderr().is_terminal() {
-        return Err(CommandError::Exists(path));
-    }
-    eprint!("{} exists. Replace it and the results beside it? [y/N] ", path.display());
-    let _ = std::io::stderr().flush();
-    let mut answer = String::new();
-    let read = stdin.lock().read_line(&mut answer);
-    if read.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {
-        Ok(())
-    } else {
-        Err(CommandError::Exists(path))
-    }
-}
-
-/// Writes a text under its name once it is on the disk.
-pub(super) fn write_whole(path: &Path, text: &str) -> Result<(), CommandError> {
-    write_bytes(path, text.as_bytes())
-}
-
-/// Writes a file under its name once it is on the disk.
-pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
-    let failure = |source| CommandError::Io { path: path.to_owned(), source };
-    let mut partial = Partial::create(path).map_err(failure)?;
-    partial.write_all(bytes).map_err(failure)?;
-    partial.finish().map_err(failure)
 }

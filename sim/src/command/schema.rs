@@ -1,14 +1,14 @@
 //! `schema`: the JSON Schema of scenario files.
 
 use super::exit::Exit;
-use super::print;
+use super::{CommandError, print};
 
 /// The schema, as published.
 pub(crate) const SCHEMA: &str = include_str!("../../schema/scenario-1.json");
 
-pub(super) fn execute() -> Exit {
-    print(SCHEMA);
-    Exit::Success
+pub(super) fn execute() -> Result<Exit, CommandError> {
+    print(SCHEMA)?;
+    Ok(Exit::Success)
 }
 
 #[cfg(test)]

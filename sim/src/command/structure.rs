@@ -7,10 +7,9 @@ use clap::{Args, Subcommand};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::outputs::{Outputs, name_of};
 use super::print;
-use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
-use crate::record::partial::Partial;
 use crate::report::mode_shapes::mode_shapes;
 use crate::structure::{ReadError, Structure, bytes_of, from_file, npz, op4};
 
@@ -76,17 +75,18 @@ impl Show {
         if self.shapes.is_none()
             && let Some(text) = self.matrices()?
         {
-            print(&text);
+            print(&text)?;
             return Ok(Exit::Success);
         }
+        if let Some(path) = self.shapes.as_ref().filter(|path| ending_of(path) != "svg") {
+            return Err(unknown_ending(path, "a picture (.svg)"));
+        }
         let structure = read(&self.file)?;
-        print(&shown(&structure));
+        print(&shown(&structure))?;
         if let Some(path) = &self.shapes {
-            let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-            let folder = path.parent().map(PathBuf::from).unwrap_or_default();
-            may_write(&folder, &name.into_iter().collect::<Vec<_>>(), self.force)?;
-            write_whole(path, &mode_shapes(&structure))?;
-            print(&format!("\n{}\n", path.display()));
+            let file = (name_of(path), mode_shapes(&structure));
+            Outputs::of_files(&[path], self.force)?.write(&[file])?;
+            print(&format!("\n{}\n", path.display()))?;
         }
         Ok(Exit::Success)
     }
@@ -109,6 +109,19 @@ impl Show {
     }
 }
 
+/// The ending of a file's name, in small letters.
+fn ending_of(path: &Path) -> String {
+    path.extension().map_or_else(String::new, |ending| ending.to_string_lossy().to_lowercase())
+}
+
+/// The error of a file whose name ends in no format that is written.
+fn unknown_ending(path: &Path, formats: &str) -> CommandError {
+    CommandError::Other(format!(
+        "{}: the ending of the name says the format, {formats}; write another ending",
+        path.display()
+    ))
+}
+
 impl Convert {
     fn execute(&self) -> Result<Exit, CommandError> {
         let structure = read(&self.file)?;
@@ -117,29 +130,24 @@ impl Convert {
             CommandError::Other(error.in_file(&to).to_string())
         };
         let mut files = Vec::new();
-        if to.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("op4")) {
+        let ending = ending_of(&to);
+        if ending == "op4" {
             let name = to.file_name().unwrap_or_default().to_string_lossy();
             let (bytes, table) = op4::of_structure(&structure, &name).map_err(failed)?;
             files.extend([(to.clone(), bytes), (to.with_extension("toml"), table.into_bytes())]);
-        } else {
+        } else if ending == "npz" {
             files.push((to.clone(), npz::write(&structure).map_err(failed)?));
+        } else {
+            return Err(unknown_ending(&to, "NPZ (.npz) or op4 (.op4)"));
         }
-        let folder = to.parent().map(PathBuf::from).unwrap_or_default();
-        let names = files.iter().filter_map(|(path, _)| path.file_name());
-        let names: Vec<_> = names.map(|name| name.to_string_lossy().into_owned()).collect();
-        may_write(&folder, &names, self.force)?;
-        for (path, bytes) in &files {
-            let failure = |source| CommandError::Io { path: path.clone(), source };
-            let mut file = Partial::create(path).map_err(failure)?;
-            std::io::Write::write_all(&mut file, bytes).map_err(failure)?;
-            file.finish().map_err(failure)?;
-        }
+        let paths: Vec<_> = files.iter().map(|(path, _)| path.as_path()).collect();
+        let mut outputs = Outputs::of_files(&paths, self.force)?;
+        let files: Vec<_> = files.iter().map(|(path, bytes)| (name_of(path), bytes)).collect();
+        outputs.write(&files)?;
         let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
-        print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()));
+        print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()))?;
         if !structure.initial.is_empty() {
-            print(
-                "modal coordinates and rates at the start are not in it: write them in the scenario\n",
-            );
+            print("modal coordinates and rates at the start are not in it: write them in the scenario\n")?;
         }
         Ok(Exit::Success)
     }

@@ -6,13 +6,13 @@
 //! [Overrides](super::overrides) come last.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Node, TEXT_MAX, Table, Value, parse};
 use crate::nearest::did_you_mean_file;
+use crate::opened::open;
 
 /// Files based on files based on files: no deeper than this.
 const DEPTH_MAX: usize = 16;
@@ -104,7 +104,7 @@ fn load(
 /// The bytes of a file, no more than it takes to see that there are too many: a device has no end.
 fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(TEXT_MAX as u64 + 1).read_to_end(&mut bytes)?;
+    open(path)?.take(TEXT_MAX as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

@@ -1,10 +1,11 @@
 //! Checks of the recorders: files read back, what a killed program leaves, buckets, statistics.
 
 use std::fs;
+use std::io::Write as _;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::partial::partial_name;
+use super::partial::{Partial, partial_name};
 use super::{Csv, Decimate, Header, Many, Npz, Recorder, Samples, Statistics};
 use crate::engine::checks::turning_panel;
 use crate::engine::{End, Outcome, Steps, run};
@@ -81,12 +82,46 @@ fn csv_reads_back_and_says_what_it_is() {
     for line in [
         "# name: check",
         "# sha256 of the scenario: 8a",
+        &format!("# samples: {} (finished) ", rows.len()),
         "#   panel.phi_dot [rad/s] rate of the panel",
         "#   duration = 2",
     ] {
         let line = line.trim_end_matches("8a");
         assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
     }
+}
+
+/// Threads that write one name, again and again: one has it at a time, and the file is always of one of them, whole.
+#[test]
+fn a_name_is_written_by_one_at_a_time() {
+    const LENGTH: usize = 100_000;
+    let folder = folder();
+    let path = folder.path().join("a");
+    let whole = || match fs::read(&path) {
+        Ok(bytes) => bytes.len() == LENGTH && bytes.iter().all(|byte| Some(byte) == bytes.first()),
+        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+    };
+    let written = std::sync::atomic::AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for id in 0_u8..4 {
+            let (path, written, whole) = (&path, &written, &whole);
+            scope.spawn(move || {
+                for _ in 0..100 {
+                    match Partial::create(path) {
+                        Ok(mut partial) => {
+                            partial.write_all(&vec![id; LENGTH]).expect("written");
+                            partial.finish().expect("renamed");
+                            written.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                        }
+                        Err(error) => assert_eq!(error.kind(), std::io::ErrorKind::ResourceBusy),
+                    }
+                    assert!(whole(), "a mixture");
+                }
+            });
+        }
+    });
+    assert!(written.into_inner() > 0 && whole());
+    assert!(!partial_name(&path).exists());
 }
 
 #[test]

@@ -4,19 +4,33 @@
 //! column with its unit, frame and meaning, the text of the scenario. Then a row with the names of
 //! the columns, then the samples. A number has the fewest digits that read back the same; `NaN`,
 //! `inf` and `-inf` are written so.
+//!
+//! The line `# samples: 2001 (finished)` has the number of rows and how the run ended. It is written at the end over one
+//! of the same length that says [not counted](NOT_ENDED): a file that was cut has fewer rows.
 
-use std::io::{self, Write};
+use std::io::{self, Seek as _, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::partial::Partial;
+use super::partial::{Partial, Reservation, begin};
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
+
+/// The line with the number of samples begins so.
+pub const COUNT: &str = "# samples: ";
+/// What it has until the run has ended.
+pub const NOT_ENDED: &str = "not counted, the run has not ended";
+/// Its length without the end of the line; the reason of an end that is longer is cut.
+const COUNT_BYTES: usize = 120;
 
 /// Writes a CSV file.
 pub struct Csv {
     path: PathBuf,
+    reserved: Option<Reservation>,
     file: Option<Partial>,
     columns: usize,
+    samples: u64,
+    /// Where the line with the number of samples begins, bytes.
+    count_at: u64,
     /// The text of one row.
     line: Vec<u8>,
 }
@@ -25,7 +39,15 @@ impl Csv {
     /// A file to be written; nothing is until the run begins.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), file: None, columns: 0, line: Vec::new() }
+        let (path, line) = (path.to_owned(), Vec::new());
+        Self { path, reserved: None, file: None, columns: 0, samples: 0, count_at: 0, line }
+    }
+
+    /// A file whose name is reserved.
+    #[must_use]
+    pub fn reserved(reservation: Reservation) -> Self {
+        let empty = Self::new(reservation.path());
+        Self { reserved: Some(reservation), ..empty }
     }
 
     fn write(&mut self) -> Result<(), RecordError> {
@@ -37,10 +59,13 @@ impl Csv {
 
 impl Recorder for Csv {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
-        self.file = Some(Partial::create(&self.path).map_err(RecordError::io(&self.path))?);
+        let file = begin(self.reserved.take(), &self.path);
+        self.file = Some(file.map_err(RecordError::io(&self.path))?);
         self.columns = header.columns.len();
+        self.samples = 0;
         self.line.clear();
-        head(header, &mut self.line).map_err(RecordError::io(&self.path))?;
+        let count_at = head(header, &mut self.line).map_err(RecordError::io(&self.path))?;
+        self.count_at = u64::try_from(count_at).unwrap_or(0);
         self.write()
     }
 
@@ -57,23 +82,42 @@ impl Recorder for Csv {
         if let Some(last) = self.line.last_mut() {
             *last = b'\n';
         }
+        self.samples += 1;
         self.write()
     }
 
-    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
-        let Some(file) = self.file.take() else { return Ok(()) };
-        file.finish().map_err(RecordError::io(&self.path))
+    fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError> {
+        let Some(mut file) = self.file.take() else { return Ok(()) };
+        let counted =
+            count_line(&format!("{} ({})", self.samples, one_line(&outcome.end.to_string())));
+        let written = file.seek(SeekFrom::Start(self.count_at));
+        let written = written.and_then(|_| file.write_all(&counted)).and_then(|()| file.finish());
+        written.map_err(RecordError::io(&self.path))
     }
 }
 
-/// The lines before the samples.
-fn head(header: &Header, to: &mut Vec<u8>) -> io::Result<()> {
+/// The line with the number of samples, as long before the end of a run as after it.
+fn count_line(text: &str) -> Vec<u8> {
+    let mut line = format!("{COUNT}{text}").into_bytes();
+    line.resize(COUNT_BYTES, b' ');
+    // Not within a letter of more than one byte.
+    let length = line.utf8_chunks().next().map_or(0, |whole| whole.valid().len());
+    line.truncate(length);
+    line.resize(COUNT_BYTES, b' ');
+    line.push(b'\n');
+    line
+}
+
+/// Writes the lines before the samples; where the line with their number begins, bytes.
+fn head(header: &Header, to: &mut Vec<u8>) -> io::Result<usize> {
     writeln!(to, "# precess {}", header.version)?;
     writeln!(to, "# name: {}", header.name)?;
     writeln!(to, "# title: {}", one_line(&header.title))?;
     if let Some(sha256) = &header.sha256 {
         writeln!(to, "# sha256 of the scenario: {sha256}")?;
     }
+    let count_at = to.len();
+    to.extend(count_line(NOT_ENDED));
     writeln!(to, "# columns: name [unit] (frame) meaning")?;
     for column in &header.columns {
         write!(to, "#   {} [{}]", column.name, column.unit)?;
@@ -89,9 +133,28 @@ fn head(header: &Header, to: &mut Vec<u8>) -> io::Result<()> {
         }
     }
     let names: Vec<&str> = header.columns.iter().map(|column| column.name.as_str()).collect();
-    writeln!(to, "{}", names.join(","))
+    writeln!(to, "{}", names.join(","))?;
+    Ok(count_at)
 }
 
+/// A text in one line, without characters that a terminal obeys.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.replace(char::is_control, "\u{fffd}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_with_the_count_has_one_length_and_is_text() {
+        for text in
+            [NOT_ENDED.to_owned(), "0 (finished)".to_owned(), "é".repeat(200), "aé".repeat(200)]
+        {
+            let line = count_line(&text);
+            assert_eq!(line.len(), COUNT_BYTES + 1);
+            assert!(String::from_utf8(line).is_ok_and(|line| line.ends_with('\n')), "{text}");
+        }
+    }
 }

@@ -13,13 +13,14 @@ use npyz::{DType, TypeStr, WriteOptions, WriterBuilder};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use super::partial::Partial;
+use super::partial::{Partial, Reservation, begin};
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
 
 /// Writes an NPZ file.
 pub struct Npz {
     path: PathBuf,
+    reserved: Option<Reservation>,
     header: Option<Header>,
     spool: Option<Partial>,
     rows: u64,
@@ -30,7 +31,15 @@ impl Npz {
     /// A file to be written; nothing is until the run begins.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), header: None, spool: None, rows: 0, line: Vec::new() }
+        let (path, line) = (path.to_owned(), Vec::new());
+        Self { path, reserved: None, header: None, spool: None, rows: 0, line }
+    }
+
+    /// A file whose name is reserved.
+    #[must_use]
+    pub fn reserved(reservation: Reservation) -> Self {
+        let empty = Self::new(reservation.path());
+        Self { reserved: Some(reservation), ..empty }
     }
 
     /// The path of the rows in progress, without `.partial`.
@@ -43,6 +52,7 @@ impl Npz {
 
 impl Recorder for Npz {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        // Two programs that write one archive have one spool: without a reservation its lock keeps them apart.
         let path = self.spool_path();
         self.spool = Some(Partial::create(&path).map_err(RecordError::io(&path))?);
         self.header = Some(header.clone());
@@ -68,20 +78,21 @@ impl Recorder for Npz {
         let (Some(mut spool), Some(header)) = (self.spool.take(), self.header.take()) else {
             return Ok(());
         };
-        let assembled = assemble(&self.path, &mut spool, self.rows, &header, outcome);
+        let file = begin(self.reserved.take(), &self.path);
+        let assembled =
+            file.and_then(|file| assemble(file, &mut spool, self.rows, &header, outcome));
         assembled.and_then(|()| spool.discard()).map_err(RecordError::io(&self.path))
     }
 }
 
 /// Makes the archive from the rows.
 fn assemble(
-    path: &Path,
+    mut file: Partial,
     spool: &mut Partial,
     rows: u64,
     header: &Header,
     outcome: &Outcome,
 ) -> io::Result<()> {
-    let mut file = Partial::create(path)?;
     let mut archive = ZipWriter::new(&mut file);
     let columns = &header.columns;
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();

@@ -15,7 +15,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::partial::Partial;
+use super::partial::{Partial, Reservation, begin};
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
 
@@ -27,6 +27,7 @@ const GROUP_ROWS: usize = 1 << 17;
 /// Writes a Parquet file.
 pub struct Parquet {
     path: PathBuf,
+    reserved: Option<Reservation>,
     writer: Option<SerializedFileWriter<Partial>>,
     /// The rows of the group, column by column.
     columns: Vec<Vec<f64>>,
@@ -37,7 +38,15 @@ impl Parquet {
     /// A file to be written; nothing is until the run begins.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), writer: None, columns: Vec::new(), group: GROUP_ROWS }
+        let (path, columns) = (path.to_owned(), Vec::new());
+        Self { path, reserved: None, writer: None, columns, group: GROUP_ROWS }
+    }
+
+    /// A file whose name is reserved.
+    #[must_use]
+    pub fn reserved(reservation: Reservation) -> Self {
+        let empty = Self::new(reservation.path());
+        Self { reserved: Some(reservation), ..empty }
     }
 
     fn failure(&self) -> impl FnOnce(ParquetError) -> RecordError + use<> {
@@ -69,7 +78,8 @@ impl Parquet {
 
 impl Recorder for Parquet {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
-        let file = Partial::create(&self.path).map_err(RecordError::io(&self.path))?;
+        let file = begin(self.reserved.take(), &self.path);
+        let file = file.map_err(RecordError::io(&self.path))?;
         let count = header.columns.len();
         self.group = (GROUP_BYTES / (8 * count.max(1))).clamp(1, GROUP_ROWS);
         self.columns = vec![Vec::new(); count];

@@ -1,11 +1,11 @@
 //! A structure from a file of any format that is known.
 
-use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
 use super::{Fault, Structure, StructureError, flex42, npz, op4};
 use crate::file::{Diagnostics, structure_from_toml};
+use crate::opened::open;
 
 /// Longer files are not read, bytes.
 pub const MOST_BYTES: usize = 1 << 30;
@@ -16,7 +16,7 @@ pub const MOST_BYTES: usize = 1 << 30;
 /// [`Fault::Io`], [`Fault::Large`].
 pub fn bytes_of(path: &Path) -> Result<Vec<u8>, StructureError> {
     let mut bytes = Vec::new();
-    let read = File::open(path)
+    let read = open(path)
         .and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes))
         .map_err(|source| StructureError::from(Fault::Io(source)).in_file(path))?;
     if read > MOST_BYTES {

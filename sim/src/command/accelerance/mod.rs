@@ -12,8 +12,8 @@ use nalgebra::Complex;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{may_write, write_whole};
-use super::{print, structure};
+use super::outputs::Outputs;
+use super::{note, print, structure};
 use crate::names::file_names;
 use crate::report::response::Response;
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
@@ -139,14 +139,8 @@ impl AcceleranceCommand {
             table.name = format!("{stem}-{name}");
         }
         let files: Vec<_> = tables.iter().flat_map(|table| table.files(&frequencies)).collect();
-        let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-        may_write(&self.out, &names, self.force)?;
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
-        for (name, text) in &files {
-            let path = self.out.join(name);
-            write_whole(&path, text)?;
-            print(&format!("{}\n", path.display()));
+        for path in Outputs::reserve(&self.out, &[], self.force)?.write(&files)? {
+            print(&format!("{}\n", path.display()))?;
         }
         Ok(Exit::Success)
     }
@@ -222,11 +216,11 @@ impl AcceleranceCommand {
         };
         let values: Result<Vec<_>, _> = frequencies.iter().map(at).collect();
         if structure.has_devices.is_none() {
-            eprintln!(
+            note(&format!(
                 "warning: {} does not say whether its model has the devices' mass (`has_devices`); taken as \
                  without",
                 self.file.display()
-            );
+            ));
         }
         Ok(Table {
             name: format!("transmission {node}"),
@@ -248,10 +242,10 @@ fn dynamic_mass(devices: &MountedDevices, node: &str, frequencies: &[f64]) -> Re
         frequencies.iter().map(|f| averaged.periodic(TAU * f)).collect();
     let left_out = left_out?;
     let most = left_out.iter().copied().fold(0.0, f64::max);
-    eprintln!(
+    note(&format!(
         "note: {names}: averaging over a turn leaves out at most {most:.1e} of the inertia, at the frequency \
          plus and minus one and two times the rates"
-    );
+    ));
     Ok(Table {
         name: format!("dynamic mass {node}"),
         title: format!("Dynamic mass at {node}: {names}"),

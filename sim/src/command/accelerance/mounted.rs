@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use nalgebra::Vector3;
 
 use crate::command::error::CommandError;
+use crate::command::note;
 use crate::file::from_file;
 use crate::scenario::{Scenario, members};
 use crate::structure::averaged::AveragedDevices;
@@ -75,7 +76,7 @@ impl DeviceOptions {
         };
         let joints = SteadyJoints::new(&scenario, &chosen, motor, self.gimbals == Gimbals::Sprung);
         for (name, rate) in &joints.stopped {
-            eprintln!("warning: {name} is {rate} at first; taken as at rest");
+            note(&format!("warning: {name} is {rate} at first; taken as at rest"));
         }
         let members = members(&scenario.devices);
         let on_mount: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
@@ -89,9 +90,9 @@ impl DeviceOptions {
             let origin = member.bodies().first().map_or([0.0; 3], |body| body.origin);
             let arm = (Vector3::from(origin) - mount).norm();
             if arm > ARM_MAX {
-                eprintln!(
+                note(&format!(
                     "warning: {name}: {arm:.3} m from node `{node}`; taken as a rigid arm between them"
-                );
+                ));
             }
         }
         let failed = |fault| CommandError::Other(format!("{}: {names}: {fault}", path.display()));

@@ -9,9 +9,10 @@ use std::sync::Mutex;
 use clap::Args;
 
 use super::error::CommandError;
+use super::outputs::Outputs;
 use super::plot::time;
-use super::run::{interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
-use super::{Set, Threads};
+use super::run::{interrupted, progress_bar, watch_interrupts};
+use super::{Set, Threads, note};
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };
@@ -67,7 +68,7 @@ impl CampaignOptions {
         let (mut scenario, reports) =
             template.scenario(&overrides).map_err(CommandError::Scenario)?;
         for warning in &reports.all {
-            eprintln!("warning: {}", warning.message);
+            note(&format!("warning: {}", warning.message));
         }
         let columns =
             if self.column.is_empty() { vec!["omega".to_owned()] } else { self.column.clone() };
@@ -89,14 +90,16 @@ impl CampaignOptions {
         Ok(Prepared { template, overrides, scenario, selection, fields })
     }
 
-    /// Rejects results that are there. Beside a journal it is the table that counts: it is written last, so without it the other
-    /// files are of a campaign that was ended while it wrote them.
-    pub(super) fn may_write(&self, stem: &str, names: &[String]) -> Result<(), CommandError> {
-        let table = format!("{stem}.csv");
+    /// Reserves the results, and rejects those that are there. Beside a journal it is the table that counts: it is written
+    /// last, so without it the other files are of a campaign that was ended while it wrote them.
+    pub(super) fn reserve(&self, stem: &str, names: &[String]) -> Result<Outputs, CommandError> {
+        let table = [format!("{stem}.csv")];
+        let mut outputs = Outputs::reserve(&self.out, &table, self.force)?;
         if self.out.join(format!("{stem}.journal")).is_file() {
-            return may_write(&self.out, &[table], self.force);
+            outputs.replace();
         }
-        may_write(&self.out, names, self.force)
+        outputs.add(names)?;
+        Ok(outputs)
     }
 
     pub(super) fn out(&self) -> &Path {
@@ -112,13 +115,11 @@ impl CampaignOptions {
     ) -> Result<Option<Finished>, CommandError> {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
         readable(prepared, plan)?;
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
         let path = self.out.join(format!("{stem}.journal"));
+        watch_interrupts();
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
         let opened =
             Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
-        watch_interrupts();
         let threads = self.threads.count();
         let bar = Mutex::new(progress_bar(plan.samples.len(), "samples"));
         let show = |done: usize| {
@@ -134,17 +135,18 @@ impl CampaignOptions {
             fields: prepared.fields.len(),
             threads,
         };
-        let finished = execute(&execution, opened, &show, &interrupted).map_err(other)?;
+        let finished = execute(&execution, opened, &show, &interrupted);
+        let finished = finished.map_err(|error| other(error).leaving(vec![path.clone()]))?;
         if let Ok(bar) = bar.lock() {
             bar.finish_and_clear();
         }
         if !finished.is_complete() {
             let done = finished.rows.iter().flatten().count();
-            eprintln!(
+            note(&format!(
                 "{done} of {} samples are complete, in {}; the same command continues with the others",
                 plan.samples.len(),
                 path.display()
-            );
+            ));
             return Ok(None);
         }
         Ok(Some(finished))
@@ -156,8 +158,8 @@ impl CampaignOptions {
         prepared: &Prepared,
         plan: &Plan,
         finished: &Finished,
-        stem: &str,
-        texts: &[(String, String)],
+        (stem, texts): (&str, Vec<(String, String)>),
+        outputs: &mut Outputs,
     ) -> Result<(), CommandError> {
         let head = format!(
             "precess {} {stem}\nscenario: {}, {}\nresults are in SI units, keys in their own",
@@ -165,15 +167,16 @@ impl CampaignOptions {
             prepared.scenario.name,
             prepared.scenario.title,
         );
-        for (name, text) in texts {
-            write_bytes(&self.out.join(name), text.as_bytes())?;
-        }
+        let mut files: Vec<_> =
+            texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
         let path = self.out.join(format!("{stem}.npz"));
         let archive = table::npz(&head, plan, &prepared.fields, finished)
             .map_err(|source| CommandError::Io { path: path.clone(), source })?;
-        write_bytes(&path, &archive)?;
+        files.push((format!("{stem}.npz"), archive));
         let text = table::csv(&head, plan, &prepared.fields, finished);
-        write_bytes(&self.out.join(format!("{stem}.csv")), &text)
+        files.push((format!("{stem}.csv"), text));
+        let journal = self.out.join(format!("{stem}.journal"));
+        outputs.write(&files).map(drop).map_err(|error| error.leaving(vec![journal]))
     }
 }
 

@@ -28,7 +28,7 @@ Examples:
       one sample in each equally probable part of every key; and derivatives about the middle of the plan
 
 More samples keep the earlier ones (not of a Latin hypercube): raise --samples, add --force, and only the new
-ones are run. The exit code is 0 where every sample meets every requirement, 2 where not, 1 on an error.";
+ones are run.";
 
 /// Percentiles that are estimated.
 const PERCENTILES: [f64; 4] = [0.05, 0.5, 0.95, 0.99];
@@ -82,7 +82,7 @@ impl MonteCarlo {
         if self.sensitivities {
             names.push(format!("{beside}.csv"));
         }
-        self.options.may_write(&stem, &names)?;
+        let mut outputs = self.options.reserve(&stem, &names)?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
             return Ok(Exit::Violated);
         };
@@ -104,11 +104,12 @@ impl MonteCarlo {
             let planes = planes(&prepared, &plan, &finished);
             texts.push((format!("{beside}.csv"), derivatives_csv(&found, &planes)));
         }
-        self.options.write(&prepared, &plan, &finished, &stem, &texts)?;
+        let count = texts.len() + 1;
+        self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
         let (text, met) = summary(&prepared, &plan, &finished, &correlations, &found);
-        print(&text);
+        print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {} more\n", texts.len() + 1));
+        print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
         Ok(Exit::of_met(met))
     }
 }
@@ -136,7 +137,7 @@ impl MonteCarlo {
         let slopes = match exact {
             Ok(found) => found.slopes,
             Err(reason) => {
-                print(&format!("derivatives are central differences: {reason}\n"));
+                print(&format!("derivatives are central differences: {reason}\n"))?;
                 Vec::new()
             }
         };

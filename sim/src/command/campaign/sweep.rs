@@ -31,8 +31,7 @@ Examples:
       a map over two keys
 
 A sweep that is ended, even by kill -9, is continued by the same command: finished samples are in its
-journal. The exit code is 0 where every requirement is met by every sample, 2 where not, or where a sample
-failed, 1 on an error.";
+journal. A sample that failed violates every requirement.";
 
 /// The options of `sweep`.
 #[derive(Debug, Args)]
@@ -57,16 +56,17 @@ impl Sweep {
         let plan = Plan::of_axes(&self.over).map_err(|error| other(&error))?;
         let prepared = self.options.prepare()?;
         let stem = format!("{}-sweep", prepared.scenario.name);
-        self.options.may_write(&stem, &self.names(&prepared, &stem))?;
+        let mut outputs = self.options.reserve(&stem, &self.names(&prepared, &stem))?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
             return Ok(Exit::Violated);
         };
         let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
-        self.options.write(&prepared, &plan, &finished, &stem, &pictures)?;
+        let count = pictures.len() + 1;
+        self.options.write(&prepared, &plan, &finished, (&stem, pictures), &mut outputs)?;
         let (text, met) = self.summary(&prepared, &plan, &finished);
-        print(&text);
+        print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {} more\n", pictures.len() + 1));
+        print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
         Ok(Exit::of_met(met))
     }
 

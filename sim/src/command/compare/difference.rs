@@ -12,6 +12,15 @@ use crate::command::result::Rows;
 pub(super) struct Differences {
     pub(super) columns: Vec<Difference>,
     pub(super) samples: u64,
+    /// Names of columns that only the first has, and only the second.
+    pub(super) only: [Vec<String>; 2],
+}
+
+impl Differences {
+    /// Whether a column differs, or only one result has it.
+    pub(super) fn any(&self) -> bool {
+        self.columns.iter().any(|of| of.differs) || self.only.iter().any(|only| !only.is_empty())
+    }
 }
 
 /// The difference of one column over all samples.
@@ -28,6 +37,8 @@ pub(super) struct Difference {
     square: f64,
     /// Largest magnitude of the column in each.
     pub(super) largest: [f64; 2],
+    /// Whether the difference is larger than its tolerance.
+    pub(super) differs: bool,
 }
 
 impl Difference {
@@ -52,6 +63,10 @@ pub(super) fn differences(a: &Path, b: &Path) -> Result<Differences, CommandErro
             });
         }
     }
+    let missing = |of: &[String], other: &[String]| -> Vec<String> {
+        of.iter().filter(|name| !other.contains(*name)).cloned().collect()
+    };
+    let only = [missing(&a.names, &b.names), missing(&b.names, &a.names)];
     let (mut row_a, mut row_b) = (Vec::new(), Vec::new());
     let mut samples = 0;
     loop {
@@ -76,8 +91,10 @@ pub(super) fn differences(a: &Path, b: &Path) -> Result<Differences, CommandErro
         }
         for d in &mut columns {
             let [of_a, of_b] = [value(&row_a, d.places[0]), value(&row_b, d.places[1])];
-            let off = (of_a - of_b).abs();
-            if off > d.peak || off.is_nan() {
+            // Infinities and numbers that are none differ from others, and not from themselves.
+            let is_same = of_a == of_b || (of_a.is_nan() && of_b.is_nan());
+            let off = if is_same { 0.0 } else { (of_a - of_b).abs() };
+            if off > d.peak || (off.is_nan() && !d.peak.is_nan()) {
                 (d.peak, d.time) = (off, time_a);
             }
             d.square += off * off;
@@ -86,5 +103,5 @@ pub(super) fn differences(a: &Path, b: &Path) -> Result<Differences, CommandErro
         }
         samples += 1;
     }
-    Ok(Differences { columns, samples })
+    Ok(Differences { columns, samples, only })
 }

@@ -8,9 +8,9 @@ use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::outputs::Outputs;
 use super::plot::time;
 use super::result::{Signal, Signals};
-use super::run::{may_write, write_whole};
 use super::{Form, print};
 use crate::names::file_names;
 use crate::pointing::{PointingError, exposure_of_history};
@@ -143,19 +143,11 @@ impl Spectrum {
             let svg = figure.file().map_err(|error| CommandError::Other(error.to_string()))?;
             files.push((format!("{}-spectrum-{slug}.svg", analysis.name), svg));
         }
-        let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-        may_write(&self.out, &names, self.force)?;
-        std::fs::create_dir_all(&self.out)
-            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
-        let mut paths = Vec::new();
-        for (name, text) in &files {
-            let path = self.out.join(name);
-            write_whole(&path, text)?;
-            paths.push(path.display().to_string());
-        }
+        let paths = Outputs::reserve(&self.out, &[], self.force)?.write(&files)?;
+        let paths: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
         match self.format {
-            Form::Text => print(&format!("{}\n{}\n", text(&analysis), paths.join("\n"))),
-            Form::Json => print(&(json(&analysis, &paths) + "\n")),
+            Form::Text => print(&format!("{}\n{}\n", text(&analysis), paths.join("\n")))?,
+            Form::Json => print(&(json(&analysis, &paths) + "\n"))?,
         }
         Ok(Exit::Success)
     }

@@ -20,7 +20,12 @@ pub(super) fn output(keys: &Keys<'_>, settings: Option<&Settings>) -> Option<Out
     }
     let output = keys.table("output")?;
     let rate = output.quantity("rate", Measure::FREQUENCY).unwrap_or(default.rate);
-    let columns = words(&output, "columns").unwrap_or_default();
+    let columns = words(&output, "columns");
+    if columns.as_ref().is_some_and(Vec::is_empty) {
+        let help = "name columns, or leave the key out for all but the loads";
+        output.error("columns", "`columns` names no column", help);
+    }
+    let columns = columns.unwrap_or_default();
     let formats = words(&output, "formats").map_or(default.formats, |words| {
         let of = [("csv", Format::Csv), ("npz", Format::Npz), ("parquet", Format::Parquet)];
         let mut formats = Vec::new();

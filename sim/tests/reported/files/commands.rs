@@ -1,0 +1,212 @@
+//! Every command of the command line, with arguments by which it does its work in a moment.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use clap::CommandFactory as _;
+use precess::command::Cli;
+
+const HUB: &str = "[hub]\nmass = \"96 kg\"\ninertia = \"20, 20, 20 kg m^2\"\n";
+/// Its title would rename the window of a terminal, and clear it.
+const WHEEL: &str = r#"format = 1
+base = "hub.toml"
+name = "wheel"
+title = "A wheel \u001b]0;title\u0007 \u009b2J"
+[[device]]
+name = "rw"
+kind = "reaction_wheel"
+mount = { spin_axis = [0, 0, 1] }
+imbalance = { static = "10 g cm", dynamic = "0 g cm^2" }
+[device.wheel]
+mass = "4 kg"
+inertia = "288, 150, 150 kg cm^2"
+rate = "3000 rpm"
+[[wrench]]
+on = "hub"
+force.x = { table = "push.csv", column = "f", unit = "N", interpolation = "hold" }
+[run]
+duration = "0.2 s"
+[output]
+rate = "2 kHz"
+[[requirement]]
+name = "micro-g"
+quantity = "acceleration"
+statistic = "peak"
+limit = "200 mm/s^2"
+"#;
+const BUDGET: &str = r#"format = 1
+title = "A budget \u001b[2J"
+scenario = "wheel.toml"
+[speed]
+from = "600 rpm"
+to = "6000 rpm"
+count = 5
+[[line_of_sight]]
+name = "los"
+node = "hub"
+boresight = [0, 0, 1]
+[[requirement]]
+name = "rms"
+metric = "rms"
+limit = "1 mrad"
+"#;
+const PLAN: &str = "format = 1\n[[vary]]\nkey = \"hub.mass\"\ndistribution = \"uniform\"\nfrom = \"90 kg\"\n\
+                    to = \"100 kg\"\n";
+
+/// A command with its arguments.
+pub(super) struct Case {
+    /// As it is called: `structure show`.
+    pub(super) name: String,
+    /// The arguments after it. Files that it writes are in [`Case::out`].
+    pub(super) arguments: Vec<String>,
+    /// The files that it reads.
+    pub(super) inputs: Vec<PathBuf>,
+    /// The folder into which it writes; none of a command that writes none.
+    pub(super) out: Option<PathBuf>,
+    /// Where it is executed.
+    pub(super) folder: PathBuf,
+}
+
+impl Case {
+    /// The command with its arguments, in its folder.
+    pub(super) fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
+        command.current_dir(&self.folder).args(self.name.split(' ')).args(&self.arguments);
+        command
+    }
+
+    pub(super) fn output(&self) -> Output {
+        self.command().output().expect("the command starts")
+    }
+
+    /// The folder of its files, empty.
+    pub(super) fn empty_out(&self) -> &Path {
+        let out = self.out.as_ref().expect("a command that writes");
+        let _ = fs::remove_dir_all(out);
+        fs::create_dir_all(out).expect("a folder");
+        out
+    }
+}
+
+/// The text of standard error.
+pub(super) fn error_of(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The names of all commands that do something, `structure show`, from the declaration of the command line.
+pub(super) fn names() -> BTreeSet<String> {
+    fn walk(command: &clap::Command, before: &str, names: &mut BTreeSet<String>) {
+        for command in command.get_subcommands() {
+            let name = format!("{before}{}", command.get_name());
+            if command.has_subcommands() {
+                walk(command, &format!("{name} "), names);
+            } else {
+                names.insert(name);
+            }
+        }
+    }
+    let mut names = BTreeSet::new();
+    walk(&Cli::command(), "", &mut names);
+    names
+}
+
+/// A case of every command. A new command has to be added here, and whether it writes is asked of its options.
+pub(super) fn cases(folder_name: &str) -> Vec<Case> {
+    let folder = super::super::folder(folder_name);
+    let put = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    for (name, text) in
+        [("hub.toml", HUB), ("wheel.toml", WHEEL), ("budget.toml", BUDGET), ("plan.toml", PLAN)]
+    {
+        put(name, text);
+    }
+    put("push.csv", "time_s,f\n0,0\n1,0\n");
+    let structure =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/imaging-satellite-modes.npz");
+    fs::copy(structure, folder.join("bus.npz")).expect("a file");
+    let of = |name: &str, inputs: &[&str], arguments: &[&str]| {
+        let own = |text: &&str| (*text).to_owned();
+        let writes =
+            arguments.iter().any(|argument| *argument == "out" || argument.starts_with("out/"));
+        Case {
+            name: name.to_owned(),
+            arguments: arguments.iter().map(own).collect(),
+            inputs: inputs.iter().map(|name| folder.join(name)).collect(),
+            out: writes.then(|| folder.join("out")),
+            folder: folder.clone(),
+        }
+    };
+    let scenario: &[&str] = &["wheel.toml", "hub.toml", "push.csv"];
+    let budget: &[&str] = &["budget.toml", "wheel.toml", "hub.toml", "push.csv"];
+    let plan: &[&str] = &["plan.toml", "wheel.toml", "hub.toml", "push.csv"];
+    let before = of("run", scenario, &["wheel.toml", "--out", "results"]).output();
+    assert!(before.status.success(), "{}", error_of(&before));
+    let example = of("fit", &[], &["--example", "table"]).output();
+    assert!(example.status.success(), "{}", error_of(&example));
+    let table = folder.join("table/wheel-measurement.toml");
+    let text = fs::read_to_string(&table).expect("a file");
+    fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
+    let (samples, result) = ("table/wheel-sweep.csv", "results/wheel.csv");
+    let measurement = "table/wheel-measurement.toml";
+    let cases = vec![
+        of("new", &[], &["vscmg"]),
+        of("check", scenario, &["wheel.toml"]),
+        of(
+            "run",
+            scenario,
+            &["wheel.toml", "--out", "out", "--set", "output.formats=[\"csv\", \"npz\"]"],
+        ),
+        of("evaluate", scenario, &["wheel.toml"]),
+        of("compare", &[result], &[result, result]),
+        of("plot", scenario, &["wheel.toml", "--out", "out"]),
+        of("spectrum", &[result], &[result, "--out", "out"]),
+        of("schema", &[], &[]),
+        of("kinds", &[], &["dgvscmg"]),
+        of("bake", scenario, &["wheel.toml", "--set", "title=A wheel", "--out", "out/kernels"]),
+        of("structure show", &["bus.npz"], &["bus.npz", "--shapes", "out/bus.svg"]),
+        of("structure convert", &["bus.npz"], &["bus.npz", "--to", "out/bus.op4"]),
+        of(
+            "accelerance",
+            &["bus.npz"],
+            &["bus.npz", "--at", "camera", "--points", "20", "--out", "out"],
+        ),
+        of("jitter", budget, &["budget.toml", "--out", "out"]),
+        of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
+        of("sweep", scenario, &["wheel.toml", "--over", "hub.mass=90..110 kg:3", "--out", "out"]),
+        of(
+            "montecarlo",
+            plan,
+            &["wheel.toml", "--plan", "plan.toml", "--samples", "4", "--out", "out"],
+        ),
+        of("export table", scenario, &["wheel.toml", "--to", "out/wheel.table"]),
+    ];
+    let listed: BTreeSet<_> = cases.iter().map(|case| case.name.clone()).collect();
+    assert_eq!(listed, names(), "each command has a case");
+    let mut writing = BTreeSet::new();
+    for name in names() {
+        let declared = Cli::command();
+        let command = name
+            .split(' ')
+            .fold(&declared, |command, part| command.find_subcommand(part).expect("a command"));
+        let writes = |argument: &clap::Arg| {
+            matches!(argument.get_id().as_str(), "out" | "to" | "shapes")
+                && argument.get_value_names().is_some_and(|names| {
+                    names.iter().any(|name| matches!(name.as_str(), "FOLDER" | "DIR" | "FILE"))
+                })
+        };
+        if command.get_arguments().any(writes) {
+            writing.insert(name);
+        }
+    }
+    let listed: BTreeSet<_> =
+        cases.iter().filter(|case| case.out.is_some()).map(|case| case.name.clone()).collect();
+    assert_eq!(listed, writing, "each command that writes has a case that writes");
+    cases
+}
+
+/// The cases that write, but `bake`: another program derives and writes its files.
+pub(super) fn writing(folder_name: &str) -> Vec<Case> {
+    let cases = cases(folder_name).into_iter();
+    cases.filter(|case| case.out.is_some() && case.name != "bake").collect()
+}
