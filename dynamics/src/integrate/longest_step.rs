@@ -138,9 +138,6 @@ pub(crate) fn step_limit<T: Scalar>(
     }
     for _ in 0..HALVINGS {
         let middle = half::<T>() * (stable + unstable);
-        if !(stable < middle && middle < unstable) {
-            break;
-        }
         match violated(middle, &mut definite) {
             Some(other) => (unstable, line) = (middle, other),
             None => stable = middle,

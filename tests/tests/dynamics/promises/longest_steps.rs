@@ -12,16 +12,16 @@ use precess_tests::random::{Random, SEED};
 use precess_tests::vibrations::longest_step;
 
 /// Drawn spacecraft of each kind.
-const DRAWN: usize = 40;
+const DRAWN: usize = 12;
 
 /// The named step is at most this much below that of the eigenvalues: an undamped vibration is
 /// limited exactly, but for the rounding of eigenvalues; damped ones by lines that stay below the
-/// limit by 8 %, and between joints of different damping by what a convex set adds.
+/// limit by 8 %, and between joints of different damping by what a convex set adds to them.
 const UNDAMPED: f64 = 1e-5;
-const DAMPED: f64 = 0.45;
+const DAMPED: f64 = 0.15;
 
 /// Steps after which vibrations are compared with those of as many steps before.
-const STEPS: usize = 300;
+const STEPS: usize = 150;
 
 fn diagonal(x: f64, y: f64, z: f64) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::new(x, y, z))
@@ -120,7 +120,7 @@ impl Limits {
             assert!(driven.is_empty(), "{name}: every step is accepted");
             return;
         };
-        let own: Vec<_> = devices.iter().flat_map(|device| device.passive().values()).collect();
+        let own: Vec<_> = devices.map(|device| device.passive()).values().collect();
         let responses = DMatrix::from_fn(driven.len(), driven.len(), |_, _| 0.0);
         let responses = (0..driven.len()).fold(responses, |mut responses, column| {
             let mut inputs = *inputs;
@@ -171,7 +171,7 @@ fn longest_step_is_that_of_the_eigenvalues_for_every_kind() {
     each_kind(&mut limits);
     let Limits { undamped, damped, checked, .. } = limits;
     println!("{checked} spacecraft, short by {undamped:.1e} undamped, {damped:.2} damped at most");
-    assert!(checked > 400, "{checked}");
+    assert!(checked > 150, "{checked}");
 }
 
 /// A spring without damper beside a damper without spring, on a light hub: the second damps the first
@@ -189,7 +189,7 @@ fn damper_of_another_joint_is_not_ones_own() {
         let inputs = Inputs::<[SloshMass; 2]>::none();
         let mut state = State::<[SloshMass; 2]>::at_rest();
         state.devices[0].x = 1e-3;
-        let Some((0, "slosh_mass", longest)) = named(&craft, &state, &inputs) else {
+        let Some((0, "slosh mass", longest)) = named(&craft, &state, &inputs) else {
             panic!("damper {viscous}");
         };
         assert!(longest * w <= 8.0_f64.sqrt() * (1.0 + 1e-9), "{viscous}: {}", longest * w);
@@ -233,7 +233,7 @@ fn error_names_the_stiff_bearing_beside_a_soft_panel() {
     let craft = Spacecraft::new(&hub, &(panel, wheel)).expect("valid");
     let error = craft.step(&state, &inputs, 0.1).expect_err("too long");
     let SolveError::Unstable { device: 1, joint, longest, .. } = error else { panic!("{error}") };
-    assert!(joint.ends_with("slide") || joint.starts_with("tilt"), "{joint}");
+    assert!(joint.contains("slide") || joint.starts_with("tilt"), "{joint}");
     assert!(craft.step(&state, &inputs, 0.999 * longest).is_ok());
     assert!(craft.step(&state, &inputs, 1.001 * longest).is_err());
 }
