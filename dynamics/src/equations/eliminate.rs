@@ -70,7 +70,7 @@ impl<K: Kind> DeviceElimination<'_, K> {
         let pivots = eliminate(&inputs, pose, assembly, gains);
         if environment.impulse {
             if environment.reduction.is_some() {
-                return device.check_definite(index, &pivots, &drives);
+                return Device::<K>::check_definite(index, &pivots, &drives);
             }
         } else if !device.free {
             device.add_stiffness(&joints, &pivots, &drives, assembly);
@@ -99,7 +99,6 @@ impl<K: Kind> Device<K> {
     /// Rejects the first pivot of a driven joint, with what was added to it, that is not above zero.
     #[cold]
     fn check_definite(
-        &self,
         device: usize,
         pivots: &Pivots<K, K::Scalar>,
         drives: &Drives<K>,

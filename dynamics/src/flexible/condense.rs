@@ -143,7 +143,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     }
 
     /// Whether the matrix is positive definite; that of a held hub, without the hub's rows.
-    pub(crate) fn is_definite(mut self, hub_is_free: bool) -> bool {
+    pub(crate) fn is_definite(&mut self, hub_is_free: bool) -> bool {
         let (scaled, reciprocals) = self.factorised();
         let mut pivots = reciprocals.as_ref().iter().take(self.count);
         pivots.all(|reciprocal| *reciprocal > zero() && reciprocal.is_finite())
