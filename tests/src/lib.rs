@@ -12,6 +12,7 @@
 //!   counts
 //!   its operations.
 //! - [`bending`]: structures that bend, for what is measured.
+//! - [`vibrations`]: the longest stable step, from eigenvalues.
 //! - [`wheels`]: a run of three reaction wheels beside Basilisk's.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.
@@ -34,6 +35,7 @@ pub mod random;
 pub mod spatial;
 pub mod stored;
 pub mod table1;
+pub mod vibrations;
 pub mod wheels;
 
 /// The examples of the README and of the pages compile and run.

@@ -11,6 +11,7 @@ use crate::equations::device::{Device, Drives};
 use crate::equations::error::SolveError;
 use crate::equations::gravity::Central;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::mass_reduction::MassReduction;
 use crate::equations::system::check_pivot;
 use crate::model::kind::{Kind, Wrenches};
 use crate::numbers::each::{Each, JointStates};
@@ -58,13 +59,20 @@ impl<K: Kind> DeviceElimination<'_, K> {
         // A copy: numbers whose place another function knows do not stay in registers.
         let mut joints = *joints;
         if environment.impulse {
+            if let Some(reduction) = &environment.reduction {
+                device.reduce(&joints, reduction, &mut drives);
+            }
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
         let (constants, omega) = (&device.constants, expressed_in_b(environment.omega));
         let inputs =
             EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
         let pivots = eliminate(&inputs, pose, assembly, gains);
-        if !(device.free || environment.impulse) {
+        if environment.impulse {
+            if environment.reduction.is_some() {
+                return Device::<K>::check_definite(index, &pivots, &drives);
+            }
+        } else if !device.free {
             device.add_stiffness(&joints, &pivots, &drives, assembly);
         }
         device.check_pivots(index, &pivots, &drives)
@@ -72,6 +80,38 @@ impl<K: Kind> DeviceElimination<'_, K> {
 }
 
 impl<K: Kind> Device<K> {
+    /// Subtracts shares of damping and stiffness from the inertia of the driven joints, (S1).
+    #[cold]
+    fn reduce(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        reduction: &MassReduction<K::Scalar>,
+        drives: &mut Drives<K>,
+    ) {
+        let own = joints.states().zip(self.passive.values());
+        for (drive, ([_, rate], passive)) in drives.values_mut().zip(own) {
+            if drive.driven == one() && !passive.is_none() {
+                drive.held = -reduction.subtracted(passive.damping(rate), passive.stiffness);
+            }
+        }
+    }
+
+    /// Rejects the first pivot of a driven joint, with what was added to it, that is not above zero.
+    #[cold]
+    fn check_definite(
+        device: usize,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        for ((pivot, drive), info) in pivots.values().zip(drives.values()).zip(K::JOINTS) {
+            if let (Some([pivot, _]), true) = (pivot, drive.driven == one()) {
+                let checked = check_pivot(pivot + drive.held, zero());
+                checked.map_err(|small| small.of(Some(device), Some(info.body)))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Adds springs and friction to the stiffness that a step has to resolve.
     #[inline(never)]
     fn add_stiffness(

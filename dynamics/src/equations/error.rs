@@ -158,12 +158,12 @@ pub enum SolveError<T = f64> {
         /// The length of the list.
         found: usize,
     },
-    /// Spring, damper or friction of a joint are too stiff for the step: Runge-Kutta's method of
-    /// fourth order is unstable with them, and would make energy or lose it without end.
+    /// Springs, dampers or friction of the joints are too stiff for the step: Runge-Kutta's method
+    /// of fourth order is unstable with them, and would make energy or lose it without end.
     Unstable {
-        /// Index of the device.
+        /// Index of the device with the joint that has most of the energy of the fastest vibration.
         device: usize,
-        /// The body outboard of the joint.
+        /// The body outboard of that joint.
         joint: &'static str,
         /// The step's length, s.
         dt: T,
@@ -175,15 +175,16 @@ pub enum SolveError<T = f64> {
     ModalMass {
         /// The pivot of the modal mass, 1 where nothing stands on the mounts.
         pivot: T,
-        /// The bound it is not above: 64 epsilons of its diagonal.
+        /// The bound it is not above: 64 epsilons of the mass that was there before any joint was
+        /// eliminated, and of what the rounding of earlier pivots makes of it.
         bound: T,
     },
-    /// A structure vibrates too fast for the step: Runge-Kutta's method of fourth order is unstable
-    /// with it.
+    /// A structure vibrates too fast for the step, with what stands on it: Runge-Kutta's method of
+    /// fourth order is unstable with it. The modes have most of the energy of that vibration.
     UnstableModes {
         /// The step's length, s.
         dt: T,
-        /// The longest step that is stable, s.
+        /// The longest step that is stable at this state, s.
         longest: T,
     },
     /// Modal coordinates, rates or forces are not one per mode, or wrenches not one per mount.

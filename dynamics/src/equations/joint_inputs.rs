@@ -2,6 +2,7 @@
 //! [`Environment`].
 
 use crate::equations::gravity::Central;
+use crate::equations::mass_reduction::MassReduction;
 use crate::model::kind::{Kernels, Kind, Wrenches};
 use crate::model::mode::Mode;
 use crate::numbers::vec3::Vec3;
@@ -41,4 +42,7 @@ pub(crate) struct Environment<T> {
     /// Whether velocities jump: then torques are impulses, no other force matters, and rates count
     /// as zero.
     pub(crate) impulse: bool,
+    /// With impulses: what is subtracted from the mass matrix, which then has to be positive
+    /// definite. Rates are those at which friction is evaluated.
+    pub(crate) reduction: Option<MassReduction<T>>,
 }

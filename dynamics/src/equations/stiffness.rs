@@ -1,5 +1,5 @@
-//! Estimates of the stiffness of springs, dampers and dry friction, from the pivots of an
-//! evaluation; [`stability`](crate::integrate::stability) compares them with the limit of a step.
+//! Bounds of the stiffness of springs, dampers and dry friction, from the pivots of an evaluation;
+//! [`stability`](crate::integrate::stability) compares them with the limit of a step.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -9,10 +9,11 @@ use crate::model::mode::Drive;
 use crate::numbers::real::{Real, Scalar};
 
 /// `damping * dt`, and `spring * dt²`, up to which a step needs no closer look. The stability limit
-/// is eleven times this, and more than thirty times.
+/// is eleven times this, and more than twenty-seven times.
 pub(crate) const ACCEPTED: f64 = 0.25;
 
-/// Estimates of the sums over all joints of `a`, 1/s, and `b`, 1/s², from pivots.
+/// Bounds of the largest `c / m`, 1/s, and `k / m`, 1/s², over all motions, from pivots: sums over
+/// all joints of damping or stiffness times a bound of the joint's response.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stiffness<T> {
     pub(crate) damping: T,
@@ -27,8 +28,12 @@ impl<T: Real> Stiffness<T> {
     }
 
     /// Adds the joints of one device: damping and stiffness of each, its pivot with its diagonal,
-    /// and its mode. How much a joint's response grows because its parents move shows in how far
-    /// their pivots are below their diagonals.
+    /// and its mode.
+    ///
+    /// With R the mass matrix scaled to unit diagonal, the element of `R⁻¹` on the diagonal of a
+    /// joint is a determinant below one over that of R, and `1 / det R` is the product of diagonal
+    /// over pivot of all joints. So no joint's response exceeds that to its own pivot, parents
+    /// held, times this product.
     #[inline(always)]
     pub(crate) fn add<K: Kernels>(
         &mut self,
@@ -37,35 +42,37 @@ impl<T: Real> Stiffness<T> {
         drives: &K::PerJoint<Drive<T>>,
     ) {
         let (mut damping, mut spring) = (self.damping.like(0.0), self.damping.like(0.0));
-        let mut growth = damping;
+        let mut growth = self.damping.like(1.0);
         let joints = K::zip_per_joint(pivots, drives, response::<T>);
         K::zip_per_joint(coefficients, &joints, |[c, k], [response, over_pivot]| {
             (damping, spring) = (damping + c * response, spring + k * response);
-            growth = growth + over_pivot;
+            growth = growth * over_pivot;
             growth
         });
         self.damping = self.damping + damping * growth;
         self.spring = self.spring + spring * growth;
     }
 
-    /// The same where the hub moves: the response grows with it, which shows in the hub's pivots.
+    /// The same where the hub moves: the product goes on with the hub's own pivots.
     #[inline(always)]
     pub(crate) fn on_free_hub(self, pivots: Pivots<T>, (mass, [x, y, z]): Scale<T>) -> Self {
         let [a, b, c, d, e, f] = pivots;
-        let of_mass = mass * (a.recip() + b.recip() + c.recip());
-        let growth = of_mass + x * d.recip() + y * e.recip() + z * f.recip();
-        let growth = growth * growth.like(1.0 / 6.0);
+        let slides = (mass * a.recip()) * (mass * b.recip()) * (mass * c.recip());
+        let growth = slides * (x * d.recip()) * (y * e.recip()) * (z * f.recip());
         Self { damping: self.damping * growth, spring: self.spring * growth }
     }
 }
 
-/// A joint's response to a unit torque, parents held, and diagonal over pivot; zero unless driven.
+/// A joint's response to a unit torque, parents held, and diagonal over pivot; zero and one unless
+/// driven.
 #[inline(always)]
 fn response<T: Real>(pivot: Option<[T; 2]>, drive: Drive<T>) -> [T; 2] {
-    let Some([pivot, diagonal]) = pivot else { return [drive.driven.like(0.0); 2] };
+    let Some([pivot, diagonal]) = pivot else {
+        return [drive.driven.like(0.0), drive.driven.like(1.0)];
+    };
     // As in the kernel: of a joint that is not driven the pivot may be zero.
     let response = drive.driven * (pivot + drive.held).recip();
-    [response, diagonal * response]
+    [response, drive.held + diagonal * response]
 }
 
 impl<T: Scalar> Stiffness<T> {

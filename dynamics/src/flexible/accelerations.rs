@@ -5,8 +5,8 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
-use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
+use crate::flexible::basis::Basis;
 use crate::flexible::block::{Six, combined, joined, parted};
 use crate::flexible::condense::{Condensed, SmallMass};
 use crate::flexible::devices::{
@@ -48,20 +48,18 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         let mut found = self.no_accelerations();
-        match self.solve(state, inputs, &mut found, None) {
+        match self.solve(state, inputs, &mut found) {
             Ok(()) => Ok(found),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
     }
 
-    /// [`Self::accelerations`] without diagnosis. The stiffness of springs and friction of the
-    /// joints is written too, if requested.
+    /// [`Self::accelerations`] without diagnosis.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &FlexibleState<D, S, A>,
         inputs: &FlexibleInputs<D, S>,
         found: &mut FlexibleAccelerations<D, S>,
-        stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_fixed(&state.rigid, &inputs.rigid)?;
         let EvaluationStart { environment, at_b } = evaluation_start(&state.rigid, &inputs.rigid);
@@ -69,14 +67,6 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         let mut stages = self.stages(state, inputs, &environment);
         let mut gains = D::new_data(&self.rigid.devices, &data::Gains);
         self.eliminate(state, inputs, stages.as_mut(), &mut gains)?;
-
-        if let Some(stiffness) = stiffness {
-            *stiffness = Stiffness::none(zero());
-            for MountStage { assembly, .. } in stages.as_ref() {
-                stiffness.damping = stiffness.damping + assembly.stiffness.damping;
-                stiffness.spring = stiffness.spring + assembly.stiffness.spring;
-            }
-        }
 
         let forces = self.modal_forces(state, inputs);
         let mut structure = self.structure(state, inputs, omega);
@@ -105,14 +95,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
         let projected = self.basis.projected(forces);
         let mut condensed = Condensed::new(structure, &self.basis, &projected);
-        let mut scale = self.structure_scale();
-        let mounts = stages.iter().zip(self.mounts.as_ref());
-        for ((stage, constants), coupling) in mounts.zip(self.basis.mounts.as_ref()) {
-            let MountStage { motion, assembly, .. } = stage;
-            scale = magnitudes(scale, assembly.scale(&constants.body));
-            let coupling = coupling.as_ref().get(..self.basis.count).unwrap_or_default();
-            condensed.add(motion, &assembly.system(motion.omega), coupling);
-        }
+        let scale = self.add_mounts_to(&mut condensed, stages, &self.basis);
         let (hub, p) = condensed.solve(given, &scale).map_err(|small| match small {
             SmallMass::Modal(small) => {
                 SolveError::ModalMass { pivot: small.pivot, bound: small.bound }
@@ -123,18 +106,49 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         if !(hub.is_finite() && finite(found.eta_ddot.as_ref())) {
             return Err(overflow());
         }
+        self.substitute_joints(stages, &hub, gains, found);
+        Ok(hub)
+    }
 
+    /// Adds the equations of each mount to those of hub and modal directions; returns what the hub's
+    /// pivots are checked against.
+    pub(crate) fn add_mounts_to(
+        &self,
+        condensed: &mut Condensed<S, D::Scalar>,
+        stages: &[MountStage<D::Scalar>],
+        basis: &Basis<S, D::Scalar>,
+    ) -> Scale<D::Scalar> {
+        let mut scale = self.structure_scale();
+        let mounts = stages.iter().zip(self.mounts.as_ref());
+        for ((stage, constants), coupling) in mounts.zip(basis.mounts.as_ref()) {
+            let MountStage { motion, assembly, .. } = stage;
+            let (mass, moments) = assembly.scale(&constants.body);
+            let of_mount = (mass.abs(), moments.map(Scalar::abs));
+            scale = magnitudes(scale, of_mount);
+            let coupling = coupling.as_ref().get(..basis.count).unwrap_or_default();
+            condensed.add(motion, &assembly.system(motion.omega), of_mount, coupling);
+        }
+        scale
+    }
+
+    /// The accelerations of the joints, from those of hub and modes.
+    pub(crate) fn substitute_joints(
+        &self,
+        stages: &[MountStage<D::Scalar>],
+        hub: &Solution<D::Scalar>,
+        gains: &D::Per<data::Gains>,
+        found: &mut FlexibleAccelerations<D, S>,
+    ) {
         let mut moving = stages.iter().zip(self.mounts.as_ref());
         let accelerations = S::per_mount(&self.mounts, |_| {
             let still = || Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
             moving.next().map_or_else(still, |(stage, constants)| {
-                accelerated(&stage.motion, &hub, constants, found.eta_ddot.as_ref())
+                accelerated(&stage.motion, hub, constants, found.eta_ddot.as_ref())
             })
         });
         let mut substitution = MountBackSubstitution(accelerations.as_ref());
         let data = (gains, &mut found.rigid.devices, &self.on_mount);
         let Ok(()) = D::visit::<Substituted, _>(&self.rigid.devices, data, &mut substitution);
-        Ok(hub)
     }
 
     /// Accelerations to be filled in.

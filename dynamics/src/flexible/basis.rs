@@ -39,8 +39,7 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
         let modes = momenta.as_ref().len();
         let rows = mounts.as_ref().len().saturating_add(1).saturating_mul(6);
         if modes <= rows {
-            let (mounts, momenta) = (mounts.clone(), momenta.clone());
-            return Self { count: modes, residual, directions: None, mounts, momenta };
+            return Self::of_modes(mounts, momenta, residual);
         }
         let none = S::modes(modes, &[zero(); 6]);
         let most = rows.saturating_add(residual);
@@ -67,6 +66,21 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
             basis.add_residual(mounts, mode);
         }
         basis
+    }
+
+    /// Every mode as a direction.
+    pub(crate) fn of_modes(
+        mounts: &S::Mounts<S::Modes<Six<T>>>,
+        momenta: &S::Modes<Six<T>>,
+        residual: usize,
+    ) -> Self {
+        let (mounts, momenta) = (mounts.clone(), momenta.clone());
+        Self { count: momenta.as_ref().len(), residual, directions: None, mounts, momenta }
+    }
+
+    /// Whether every mode is a direction.
+    pub(crate) fn is_of_modes(&self) -> bool {
+        self.directions.is_none()
     }
 
     /// Adds a residual coordinate as a direction; it carries no momentum.

@@ -6,7 +6,9 @@
 //! [ M_pu  M_pp   ] [ p ] = [ h_p ]
 //! ```
 
-use crate::equations::system::{Scale, SmallPivot, Solution, System};
+use crate::equations::system::{
+    Scale, SmallPivot, Solution, System, WELL_SCALED, bound, check_pivot,
+};
 use crate::flexible::basis::Basis;
 use crate::flexible::block::{Block, Six, add_scaled, dot6, joined, parted, sub6, times};
 use crate::flexible::factor::{Right, Rows, back_substitute, factorise};
@@ -27,6 +29,9 @@ pub(crate) struct Condensed<S: ModalStorage, T: Scalar> {
     right: S::Modes<Right<T>>,
     /// The acceleration of a mount for each direction, while it is added.
     moved: S::Modes<Six<T>>,
+    /// What each pivot of `M_pp` is checked against: the mass of its direction before any joint was
+    /// eliminated.
+    scales: S::Modes<T>,
     /// The number of directions.
     count: usize,
 }
@@ -48,9 +53,11 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
         let count = basis.count;
         let mut square = S::square(count, &zero());
         let massive = count.saturating_sub(basis.residual);
-        for (index, row) in S::rows(&mut square, count).enumerate().take(massive) {
+        let mut scales = S::modes(count, &zero());
+        let rows = S::rows(&mut square, count).zip(scales.as_mut()).enumerate();
+        for (index, (row, scale)) in rows.take(massive) {
             if let Some(diagonal) = row.get_mut(index) {
-                *diagonal = one();
+                (*diagonal, *scale) = (one(), one());
             }
         }
         let mut right = S::modes(count, &[zero(); 7]);
@@ -59,11 +66,29 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
             *right = [*a, *b, *c, *d, *e, *f, *force];
         }
         let (hub, force) = (block(structure), joined(structure.h_v, structure.h_w));
-        Self { hub, force, square, right, moved: S::modes(count, &[zero(); 6]), count }
+        let moved = S::modes(count, &[zero(); 6]);
+        Self { hub, force, square, right, moved, scales, count }
     }
 
-    /// Adds the six equations of a mount, `system`, for its coupling with the directions.
-    pub(crate) fn add(&mut self, motion: &MountMotion<T>, system: &System<T>, coupling: &[Six<T>]) {
+    /// Subtracts one number for each direction from the diagonal of `M_pp`.
+    pub(crate) fn reduce(&mut self, numbers: impl Iterator<Item = T>) {
+        let rows = S::rows(&mut self.square, self.count).zip(numbers).enumerate();
+        for (index, (row, number)) in rows {
+            if let Some(diagonal) = row.get_mut(index) {
+                *diagonal = *diagonal - number;
+            }
+        }
+    }
+
+    /// Adds the six equations of a mount, `system`, for its coupling with the directions. `scale` is
+    /// mass and inertia of what stands on it, no joint eliminated.
+    pub(crate) fn add(
+        &mut self,
+        motion: &MountMotion<T>,
+        system: &System<T>,
+        (standing, [x, y, z]): Scale<T>,
+        coupling: &[Six<T>],
+    ) {
         let MountMotion { of_hub, of_shape, bias, .. } = motion;
         let mass = block(system);
         let force = sub6(&joined(system.h_v, system.h_w), &times(&mass, bias));
@@ -74,6 +99,10 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
         let moved = self.moved.as_mut();
         for (moved, column) in moved.iter_mut().zip(coupling) {
             *moved = of_shape.times(column);
+        }
+        for (scale, [a, b, c, d, e, f]) in self.scales.as_mut().iter_mut().zip(moved.iter()) {
+            let slid = *a * *a + *b * *b + *c * *c;
+            *scale = *scale + (standing * slid + x * *d * *d + y * *e * *e + z * *f * *f);
         }
         let lines = S::rows(&mut self.square, self.count).zip(self.right.as_mut());
         for (index, (column, (row, right))) in moved.iter().zip(lines).enumerate() {
@@ -97,35 +126,98 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
         given: Option<Solution<T>>,
         scale: &Scale<T>,
     ) -> Result<Solved<S, T>, SmallMass<T>> {
+        let (scaled, reciprocals) = self.factorised();
+        self.check(&reciprocals).map_err(SmallMass::Modal)?;
+        let hub = match given {
+            Some(hub) => hub,
+            None => self.hub_system(&scaled).solve(scale).map_err(SmallMass::Hub)?,
+        };
+        Ok(self.completed(hub, reciprocals))
+    }
+
+    /// The same without a check of the pivots.
+    pub(crate) fn unchecked(mut self, given: Option<Solution<T>>) -> Solved<S, T> {
+        let (scaled, reciprocals) = self.factorised();
+        let hub = given.unwrap_or_else(|| self.hub_system(&scaled).solved().0);
+        self.completed(hub, reciprocals)
+    }
+
+    /// Whether the matrix is positive definite; that of a held hub, without the hub's rows.
+    pub(crate) fn is_definite(&mut self, hub_is_free: bool) -> bool {
+        let (scaled, reciprocals) = self.factorised();
+        let mut pivots = reciprocals.as_ref().iter().take(self.count);
+        pivots.all(|reciprocal| *reciprocal > zero() && reciprocal.is_finite())
+            && (!hub_is_free || {
+                let (_, pivots) = self.hub_system(&scaled).solved();
+                pivots.into_iter().all(|pivot| pivot > zero())
+            })
+    }
+
+    /// Factorises `M_pp`: `L⁻¹` times the right sides, and the reciprocals of the pivots.
+    fn factorised(&mut self) -> (S::Modes<Right<T>>, S::Modes<T>) {
         let mut scaled = S::modes(self.count, &[zero(); 7]);
-        let mut solved = S::modes(self.count, &zero());
+        let mut reciprocals = S::modes(self.count, &zero());
         let (flat, length) = S::flat(&mut self.square, self.count);
         let mut rows = Rows { flat, length, count: self.count };
-        let right = self.right.as_mut();
-        let factorised = factorise(&mut rows, right, scaled.as_mut(), solved.as_mut());
-        factorised.map_err(SmallMass::Modal)?;
+        factorise(&mut rows, self.right.as_mut(), scaled.as_mut(), reciprocals.as_mut());
+        (scaled, reciprocals)
+    }
 
-        let hub = if let Some(hub) = given {
-            hub
-        } else {
-            let (mut mass, mut force) = (self.hub, self.force);
-            let pairs = scaled.as_ref().iter().zip(right.iter()).take(self.count);
-            for ([a, b, c, d, e, f, _], [p, q, r, s, t, u, h]) in pairs {
-                let (left, own) = ([*a, *b, *c, *d, *e, *f], [*p, *q, *r, *s, *t, *u]);
-                for (row, factor) in mass.iter_mut().zip(left) {
-                    add_scaled(row, -factor, &own);
-                }
-                add_scaled(&mut force, -*h, &left);
+    /// The hub's equations, the directions eliminated.
+    fn hub_system(&self, scaled: &S::Modes<Right<T>>) -> System<T> {
+        let (mut mass, mut force) = (self.hub, self.force);
+        let pairs = scaled.as_ref().iter().zip(self.right.as_ref()).take(self.count);
+        for ([a, b, c, d, e, f, _], [p, q, r, s, t, u, h]) in pairs {
+            let (left, own) = ([*a, *b, *c, *d, *e, *f], [*p, *q, *r, *s, *t, *u]);
+            for (row, factor) in mass.iter_mut().zip(left) {
+                add_scaled(row, -factor, &own);
             }
-            system(&mass, &force).solve(scale).map_err(SmallMass::Hub)?
-        };
+            add_scaled(&mut force, -*h, &left);
+        }
+        system(&mass, &force)
+    }
+
+    /// The accelerations in the directions, once that of the hub is known; in place of `known`.
+    fn completed(mut self, hub: Solution<T>, mut known: S::Modes<T>) -> Solved<S, T> {
         let u = joined(hub.r_b_n_ddot, hub.omega_dot);
-        for (to, [a, b, c, d, e, f, h]) in solved.as_mut().iter_mut().zip(right.iter()) {
+        for (to, [a, b, c, d, e, f, h]) in known.as_mut().iter_mut().zip(self.right.as_ref()) {
             *to = *h - dot6(&[*a, *b, *c, *d, *e, *f], &u);
         }
-        let known = solved.as_mut().get_mut(..self.count).unwrap_or_default();
-        back_substitute(&rows, known);
-        Ok((hub, solved))
+        let (flat, length) = S::flat(&mut self.square, self.count);
+        let rows = Rows { flat, length, count: self.count };
+        back_substitute(&rows, known.as_mut().get_mut(..self.count).unwrap_or_default());
+        (hub, known)
+    }
+
+    /// Rejects a pivot that is rounding.
+    fn check(&mut self, reciprocals: &S::Modes<T>) -> Result<(), SmallPivot<T>> {
+        let share = T::from_f64(WELL_SCALED);
+        let mut pivots = reciprocals.as_ref().iter().zip(self.scales.as_ref()).take(self.count);
+        let well_scaled = pivots.all(|(reciprocal, scale)| {
+            *reciprocal > zero() && share * *scale * *reciprocal < one()
+        });
+        if well_scaled { Ok(()) } else { self.check_pivots(reciprocals) }
+    }
+
+    /// Checks each pivot against its scale, grown by the rounding of those before it, as of the hub:
+    /// pivot k is `v . M v` with `Lᵀ v = e_k`.
+    #[cold]
+    fn check_pivots(&mut self, reciprocals: &S::Modes<T>) -> Result<(), SmallPivot<T>> {
+        let (flat, length) = S::flat(&mut self.square, self.count);
+        let mut direction = S::modes(self.count, &zero());
+        for (index, reciprocal) in reciprocals.as_ref().iter().enumerate().take(self.count) {
+            let count = index.saturating_add(1);
+            let v = direction.as_mut().get_mut(..count).unwrap_or_default();
+            v.fill(zero());
+            if let Some(own) = v.last_mut() {
+                *own = one();
+            }
+            back_substitute(&Rows { flat: &mut *flat, length, count }, v);
+            let terms = v.iter().zip(self.scales.as_ref());
+            let scale = terms.fold(zero(), |sum: T, (v, scale)| sum + *scale * (*v * *v));
+            check_pivot(reciprocal.recip(), bound(scale))?;
+        }
+        Ok(())
     }
 }
 

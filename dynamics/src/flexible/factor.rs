@@ -1,6 +1,5 @@
 //! `L D Lᵀ` of a symmetric positive definite matrix of any size, by rows, without a square root.
 
-use crate::equations::system::{SmallPivot, bound, check_pivot};
 use crate::numbers::real::{Scalar, zero};
 
 /// Right sides: one column per direction of the hub, and the one of the forces.
@@ -17,15 +16,14 @@ pub(crate) struct Rows<'a, T> {
 }
 
 /// Factorises in place: of `rows` only the triangle up to the diagonal is read. Afterwards it has L
-/// below its unit diagonal, `right` has `D⁻¹ L⁻¹` and `scaled` `L⁻¹` times the right sides.
-///
-/// A pivot that is not above 64 epsilons of its diagonal is rejected.
+/// below its unit diagonal, `right` has `D⁻¹ L⁻¹` and `scaled` `L⁻¹` times the right sides,
+/// `reciprocals` those of the pivots. Valid only if each pivot is checked.
 pub(crate) fn factorise<T: Scalar>(
     rows: &mut Rows<'_, T>,
     right: &mut [Right<T>],
     scaled: &mut [Right<T>],
     reciprocals: &mut [T],
-) -> Result<(), SmallPivot<T>> {
+) {
     let Rows { flat, length, count } = rows;
     for index in 0..*count {
         let start = index.saturating_mul(*length);
@@ -43,7 +41,6 @@ pub(crate) fn factorise<T: Scalar>(
             pivot = pivot - factor * *entry;
             *entry = factor;
         }
-        check_pivot(pivot, bound(*diagonal))?;
         let reciprocal = pivot.recip();
         if let Some(to) = reciprocals.get_mut(index) {
             *to = reciprocal;
@@ -59,7 +56,6 @@ pub(crate) fn factorise<T: Scalar>(
         *to = sum;
         *from = sum.map(|number| number * reciprocal);
     }
-    Ok(())
 }
 
 /// `L⁻ᵀ v` in place.

@@ -62,7 +62,16 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     ) -> Result<FlexibleLedger<D::Scalar>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         self.reject_accelerations(state, accelerations)?;
+        self.ledger_of(state, inputs, accelerations)
+    }
 
+    /// [`Self::ledger`] of what is finite, or whose overflow shows in the result.
+    pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        accelerations: &FlexibleAccelerations<D, S>,
+    ) -> Result<FlexibleLedger<D::Scalar>, SolveError<D::Scalar>> {
         let whole = self.sums(state);
         let velocity = rotate(&whole.bn, components(&state.rigid.r_b_n_dot));
         let omega = components(&state.rigid.omega);

@@ -280,7 +280,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             r_b_n_ddot: sub(components(&accelerations.rigid.r_b_n_ddot), at_b(field)),
             omega_dot: components(&accelerations.rigid.omega_dot),
         };
-        let of_b = Environment { omega, central, impulse: false };
+        let of_b = Environment { omega, central, impulse: false, reduction: None };
         let eta_ddot = accelerations.eta_ddot.as_ref();
         let mut mounts = S::per_mount(&self.mounts, |constants| {
             let (motion, environment) = constants.surroundings(state, &of_b);

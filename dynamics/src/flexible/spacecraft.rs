@@ -12,7 +12,7 @@ use crate::flexible::modes_error::ModesError;
 use crate::flexible::mount::MountMotion;
 use crate::flexible::on_mount::OnMount;
 use crate::flexible::residual::check_residual;
-use crate::flexible::stability::Fastest;
+use crate::flexible::stability::OwnLimit;
 use crate::flexible::state::FlexibleState;
 use crate::flexible::storage::ModalStorage;
 use crate::model::parameters::Hub;
@@ -45,8 +45,8 @@ pub struct FlexibleSpacecraft<D: Devices, S: ModalStorage> {
     mass: D::Scalar,
     /// How many of the modes, at the end, are residual coordinates.
     residual: usize,
-    /// What a step has to resolve.
-    pub(crate) fastest: Fastest<D::Scalar>,
+    /// Steps that the structure allows without devices.
+    pub(crate) own_limit: OwnLimit<D::Scalar>,
 }
 
 /// Constants of a mount.
@@ -150,12 +150,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         let shapes = S::per_mount(&mounts, |mount: &MountConstants<S, _>| mount.shapes.clone());
         let basis = Basis::new(&shapes, &momenta, residual);
         let on_mount = on_mount.clone();
-        let fastest = Fastest { free: zero(), held: zero() };
+        let own_limit = OwnLimit { free: zero(), held: zero() };
         let mut craft =
-            Self { rigid, on_mount, passive, momenta, mounts, basis, mass, residual, fastest };
+            Self { rigid, on_mount, passive, momenta, mounts, basis, mass, residual, own_limit };
         craft.damp_residual(modes.damping.as_ref())?;
-        let fastest = craft.fastest(modes.damping.as_ref());
-        Ok(Self { fastest, ..craft })
+        let own_limit = craft.own_limit();
+        Ok(Self { own_limit, ..craft })
     }
 
     /// Mass of structure and devices, kg.
@@ -225,17 +225,25 @@ impl<S: ModalStorage, T: Scalar> MountConstants<S, T> {
             motion = motion.falling(central);
         }
         let central = of_b.central.map(|central| central.turned(&motion.axes));
-        (motion, Environment { omega: motion.omega, central, impulse: of_b.impulse })
+        (
+            motion,
+            Environment {
+                omega: motion.omega,
+                central,
+                impulse: of_b.impulse,
+                reduction: of_b.reduction,
+            },
+        )
     }
 }
 
 /// No body.
-fn nothing<T: Scalar>() -> HubConstants<T> {
+pub(crate) fn nothing<T: Scalar>() -> HubConstants<T> {
     HubConstants { m_b: zero(), first_moment: [zero(); 3], i_b_b: Symmetric::zero() }
 }
 
 /// A body to be subtracted.
-fn negative<T: Scalar>(body: &HubConstants<T>) -> HubConstants<T> {
+pub(crate) fn negative<T: Scalar>(body: &HubConstants<T>) -> HubConstants<T> {
     HubConstants {
         m_b: -body.m_b,
         first_moment: neg(body.first_moment),

@@ -1,99 +1,302 @@
-//! The longest step at which Runge-Kutta's method of fourth order is stable with the modes.
+//! The longest step at which Runge-Kutta's method of fourth order is stable with a structure and
+//! what stands on it: modes, springs, dampers and friction together, with the joints driven,
+//! prescribed or locked as they are and the hub free or held, in the pose at the start of the step.
 //!
-//! The fastest vibration of structure and devices is faster than the fastest mode where a free hub
-//! moves with clamped modes, and slower where devices stand on it. It is found once, undeformed and
-//! at rest with the joints at zero, by power iteration: `x <- M⁻¹ K x`, whose Rayleigh quotients
-//! in the stiffness K rise to the square of the highest frequency.
+//! A step is checked by whether the mass matrix of hub, modes and joints less shares of damping and
+//! stiffness is positive definite ([`longest_step`](crate::integrate::longest_step)). Joints are
+//! eliminated into the equations of their mounts, as in an evaluation. First every mode is taken to
+//! be as fast as the fastest one: then the matrix is that of the modal directions, which a step
+//! that resolves the modes passes. Otherwise every mode is a direction of its own.
+//!
+//! Where no joint has a spring or friction, devices make no vibration faster than it is without
+//! them: their kinetic energy is not below zero. So a step that the structure allows without any
+//! device, [`OwnLimit`], needs no further check.
 
+use crate::attitude::parameterisation::Attitude;
 use crate::attitude::quaternion::Quaternion;
+use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::mass_reduction::MassReduction;
+use crate::equations::system::Solution;
+use crate::flexible::basis::Basis;
+use crate::flexible::block::Six;
+use crate::flexible::condense::Condensed;
+use crate::flexible::devices::MountStage;
 use crate::flexible::inputs::FlexibleInputs;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::FlexibleState;
+use crate::flexible::spacecraft::{FlexibleSpacecraft, negative, nothing};
+use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
 use crate::flexible::storage::ModalStorage;
+use crate::integrate::longest_step::{StepLimit, irregular, is_stable, step_limit};
+use crate::integrate::stability::{ITERATIONS, SlowestRates, largest};
 use crate::model::mode::HubMode;
-use crate::numbers::real::{Real, Scalar, one, two, zero};
+use crate::numbers::each::Each;
+use crate::numbers::real::{Real, Scalar, one, zero};
+use crate::numbers::vec3::zeros;
 use crate::sets::devices::Devices;
+use crate::sets::per_device as data;
+use crate::solve::accelerations::overflow;
 
-/// Iterations: two frequencies that differ by a tenth are told apart to a per mille, closer ones
-/// need not be.
-const ITERATIONS: usize = 40;
+/// Share of [`OwnLimit`] up to which a step is accepted: the deformation moves mass, to first order.
+const UNDEFORMED: f64 = 0.95;
 
-/// The method is stable with an undamped vibration up to `w dt` of `sqrt(8)`, with a critically
-/// damped one up to 2.785; the smaller.
-const STABLE: f64 = 2.785;
+/// First step tried for [`OwnLimit`], times the fastest rate of a mode, and the factor from one to
+/// the next.
+const FIRST: f64 = 2.8;
+const NEXT: f64 = 0.92;
 
-/// Fastest rates on a free hub and on one that is held, 1/s.
+/// How many are tried: down to an eighth.
+const TRIES: usize = 26;
+
+/// Steps that are stable without devices, on a free hub and on one that is held, s; zero where none
+/// was found.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fastest<T> {
+pub(crate) struct OwnLimit<T> {
     pub(crate) free: T,
     pub(crate) held: T,
 }
 
+/// A state at rest whose vibrations are looked at: pose, modes of the joints and of the hub, and
+/// the equations of the mounts with the joints eliminated.
+struct Vibrations<'a, D: Devices, S: ModalStorage, A> {
+    craft: &'a FlexibleSpacecraft<D, S>,
+    posed: FlexibleState<D, S, A>,
+    unforced: FlexibleInputs<D, S>,
+}
+
+/// Equations of the mounts, and the gains of the joints eliminated into them.
+type Reduced<D, S> = (
+    <S as ModalStorage>::Mounts<MountStage<<D as crate::sets::devices::DeviceSet>::Scalar>>,
+    <D as crate::sets::devices::DeviceSet>::Per<data::Gains>,
+);
+
 impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
-    /// The fastest rates: of vibration, and of damping above the critical one, for damping ratios.
-    pub(crate) fn fastest(&self, ratios: &[D::Scalar]) -> Fastest<D::Scalar> {
-        let mut over = one::<D::Scalar>();
-        let mut alone = zero::<D::Scalar>();
-        for ([stiffness, _], ratio) in self.passive.as_ref().iter().zip(ratios) {
-            let frequency = stiffness.sqrt();
-            alone = alone.max(frequency);
-            if frequency > zero() {
-                over = over.max(two::<D::Scalar>() * *ratio);
-            }
-        }
-        let rate = |hub| over * self.vibration(hub).unwrap_or(alone);
-        Fastest { free: rate(HubMode::Free), held: rate(HubMode::Fixed) }
+    /// Steps that are stable without devices.
+    pub(crate) fn own_limit(&self) -> OwnLimit<D::Scalar> {
+        OwnLimit { free: self.own_limit_on(true), held: self.own_limit_on(false) }
     }
 
-    /// The highest frequency, rad/s; none where the equations at rest have no solution.
-    fn vibration(&self, hub: HubMode<D::Scalar>) -> Option<D::Scalar> {
+    fn own_limit_on(&self, hub_is_free: bool) -> D::Scalar {
+        let mut rate = zero::<D::Scalar>();
+        for [stiffness, damping] in self.passive.as_ref() {
+            rate = rate.max(stiffness.sqrt()).max(*damping);
+        }
+        if rate == zero() {
+            return rate.recip();
+        }
+        // Residual coordinates have no mass without devices.
+        if self.massive() < self.modes() {
+            return zero();
+        }
         let state = FlexibleState::<D, S, Quaternion<D::Scalar>>::at_rest_for(self);
-        let mut inputs = FlexibleInputs::none_for(self);
-        inputs.rigid.hub = hub;
-        // What joints with a spring that is not at rest do.
-        let still = self.accelerations(&state, &inputs).ok()?.eta_ddot;
-        let mut shape = S::modes(self.modes(), &one());
-        let mut square = zero();
-        for _ in 0..ITERATIONS {
-            let size = self.strain_of(shape.as_ref());
-            if size <= zero() {
-                return Some(zero());
+        let still = Environment { omega: zeros(), central: None, impulse: true, reduction: None };
+        let stages = S::per_mount(&self.mounts, |mount| {
+            let (motion, environment) = mount.surroundings(&state, &still);
+            let body = mount.contained.as_ref().map_or_else(nothing, negative);
+            MountStage { motion, environment, assembly: Assembly::new(&body, zeros(), zeros()) }
+        });
+        let inputs = FlexibleInputs::none_for(self);
+        let mut dt = D::Scalar::from_f64(FIRST) * rate.recip();
+        for _ in 0..TRIES {
+            let stable = is_stable(dt, |reduction| {
+                self.is_definite(&state, &inputs, stages.as_ref(), reduction, hub_is_free)
+            });
+            if stable {
+                return dt;
             }
-            let over = size.sqrt().recip();
-            let scaled = shape.as_ref().iter().zip(self.passive.as_ref());
-            for (force, (x, [stiffness, _])) in inputs.modal.as_mut().iter_mut().zip(scaled) {
-                *force = *stiffness * (*x * over);
-            }
-            shape = self.accelerations(&state, &inputs).ok()?.eta_ddot;
-            for (x, still) in shape.as_mut().iter_mut().zip(still.as_ref()) {
-                *x = *x - *still;
-            }
-            square = self.strain_of(shape.as_ref()).sqrt();
+            dt = D::Scalar::from_f64(NEXT) * dt;
         }
-        Some(square.sqrt()).filter(|frequency| frequency.is_finite())
+        zero()
     }
 
-    /// Twice the strain energy of a shape.
-    fn strain_of(&self, shape: &[D::Scalar]) -> D::Scalar {
-        let terms = shape.iter().zip(self.passive.as_ref());
-        terms.fold(zero(), |sum, (x, [stiffness, _])| sum + *stiffness * *x * *x)
-    }
-
-    /// Rejects a step that is too long for the fastest vibration.
-    pub(crate) fn check_modes_of_step(
+    /// Rejects a step that is too long for the fastest vibration, at the slowest rates of the
+    /// joints during it.
+    pub(crate) fn check_stability<A: Attitude<D::Scalar>>(
         &self,
+        start: &FlexibleState<D, S, A>,
         inputs: &FlexibleInputs<D, S>,
         dt: D::Scalar,
+        slowest: &SlowestRates<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let rate = match inputs.rigid.hub {
-            HubMode::Free => self.fastest.free,
-            HubMode::Fixed | HubMode::Prescribed { .. } => self.fastest.held,
+        let own = match inputs.rigid.hub {
+            HubMode::Free => self.own_limit.free,
+            HubMode::Fixed | HubMode::Prescribed { .. } => self.own_limit.held,
         };
-        let stable = D::Scalar::from_f64(STABLE);
-        if rate * dt.abs() <= stable {
+        if !self.rigid.passive && dt.abs() <= D::Scalar::from_f64(UNDEFORMED) * own {
             return Ok(());
         }
-        Err(SolveError::UnstableModes { dt, longest: stable * rate.recip() })
+        self.check_vibrations(start, inputs, dt, slowest)
+    }
+
+    #[cold]
+    fn check_vibrations<A: Attitude<D::Scalar>>(
+        &self,
+        start: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+        slowest: &SlowestRates<D>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let mut posed = start.clone();
+        posed.rigid = slowest.at_slowest(&start.rigid);
+        posed.eta_dot.as_mut().fill(zero());
+        let unforced = self.without_forces(inputs);
+        let vibrations = Vibrations { craft: self, posed, unforced };
+        let limit = step_limit(dt, |reduction| vibrations.are_slower(reduction));
+        let Some(limit) = limit else { return Ok(()) };
+        let longest = limit.longest;
+        if longest == zero() {
+            return Err(overflow());
+        }
+        Err(match vibrations.limiting_joint(&limit) {
+            Some((device, joint)) => SolveError::Unstable { device, joint, dt, longest },
+            None => SolveError::UnstableModes { dt, longest },
+        })
+    }
+
+    /// Whether the mass matrix less shares of damping and stiffness is positive definite, for the
+    /// equations of the mounts.
+    fn is_definite<A: Attitude<D::Scalar>>(
+        &self,
+        posed: &FlexibleState<D, S, A>,
+        unforced: &FlexibleInputs<D, S>,
+        stages: &[MountStage<D::Scalar>],
+        reduction: &MassReduction<D::Scalar>,
+        hub_is_free: bool,
+    ) -> bool {
+        let structure = self.structure(posed, unforced, zeros());
+        let definite = |basis: &Basis<S, D::Scalar>, largest: Option<D::Scalar>| {
+            let projected = S::modes(basis.count, &zero());
+            let mut condensed = Condensed::new(&structure, basis, &projected);
+            let massive = basis.count.saturating_sub(basis.residual);
+            let residual = self.reductions(reduction).skip(self.massive());
+            match largest {
+                Some(largest) => {
+                    let same = core::iter::repeat_n(largest, massive);
+                    condensed.reduce(same.chain(residual));
+                }
+                None => condensed.reduce(self.reductions(reduction)),
+            }
+            self.add_mounts_to(&mut condensed, stages, basis);
+            condensed.is_definite(hub_is_free)
+        };
+        if self.basis.is_of_modes() {
+            return definite(&self.basis, None);
+        }
+        let massive = self.reductions(reduction).take(self.massive());
+        let largest = massive.reduce(Scalar::max).unwrap_or_else(zero);
+        if largest < one() && definite(&self.basis, Some(largest)) {
+            return true;
+        }
+        definite(&self.basis_of_modes(), None)
+    }
+
+    /// What is subtracted from the mass of each mode.
+    fn reductions(&self, reduction: &MassReduction<D::Scalar>) -> impl Iterator<Item = D::Scalar> {
+        let reduction = *reduction;
+        let passive = self.passive.as_ref().iter();
+        passive.map(move |[stiffness, damping]| reduction.subtracted(*damping, *stiffness))
+    }
+
+    /// Every mode as a direction.
+    fn basis_of_modes(&self) -> Basis<S, D::Scalar> {
+        let shapes = S::per_mount(&self.mounts, |mount| -> S::Modes<Six<D::Scalar>> {
+            mount.shapes.clone()
+        });
+        Basis::of_modes(&shapes, &self.momenta, self.modes().saturating_sub(self.massive()))
+    }
+}
+
+impl<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, S, A> {
+    /// Whether every vibration is below the limits of a reduction: the reduced mass matrix is
+    /// positive definite.
+    fn are_slower(&self, reduction: &MassReduction<D::Scalar>) -> bool {
+        let Self { craft, posed, unforced } = self;
+        let Ok((stages, _)) = self.reduced(unforced, reduction) else { return false };
+        let free = unforced.rigid.hub == HubMode::Free;
+        craft.is_definite(posed, unforced, stages.as_ref(), reduction, free)
+    }
+
+    /// The joints eliminated into the equations of their mounts, for torques.
+    fn reduced(
+        &self,
+        forces: &FlexibleInputs<D, S>,
+        reduction: &MassReduction<D::Scalar>,
+    ) -> Result<Reduced<D, S>, SolveError<D::Scalar>> {
+        let Self { craft, posed, .. } = self;
+        let reduction = Some(*reduction);
+        let still = Environment { omega: zeros(), central: None, impulse: true, reduction };
+        let mut stages = craft.stages(posed, forces, &still);
+        let mut gains = D::new_data(&craft.rigid.devices, &data::Gains);
+        craft.eliminate(posed, forces, stages.as_mut(), &mut gains)?;
+        Ok((stages, gains))
+    }
+
+    /// Accelerations for torques and modal forces, with the mass matrix reduced.
+    fn response_to(
+        &self,
+        forces: &FlexibleInputs<D, S>,
+        reduction: &MassReduction<D::Scalar>,
+    ) -> Result<FlexibleAccelerations<D, S>, SolveError<D::Scalar>> {
+        let Self { craft, posed, .. } = self;
+        let (stages, gains) = self.reduced(forces, reduction)?;
+        let structure = craft.structure(posed, forces, zeros());
+        let basis = craft.basis_of_modes();
+        let mut condensed = Condensed::new(&structure, &basis, &forces.modal);
+        condensed.reduce(craft.reductions(reduction));
+        craft.add_mounts_to(&mut condensed, stages.as_ref(), &basis);
+        let given = match forces.rigid.hub {
+            HubMode::Free => None,
+            HubMode::Fixed | HubMode::Prescribed { .. } => {
+                Some(Solution { r_b_n_ddot: zeros(), omega_dot: zeros() })
+            }
+        };
+        let mut found = craft.no_accelerations();
+        let (hub, eta_ddot) = condensed.unchecked(given);
+        found.eta_ddot = eta_ddot;
+        craft.substitute_joints(stages.as_ref(), &hub, &gains, &mut found);
+        Ok(found)
+    }
+
+    /// The joint that has most of the energy of the vibration that limits a step; none where the
+    /// modes have more than all joints.
+    fn limiting_joint(&self, limit: &StepLimit<D::Scalar>) -> Option<(usize, &'static str)> {
+        let (craft, reduction) = (self.craft, &limit.reduction);
+        let mut forces = self.unforced.clone();
+        let of_joints = || craft.rigid.weights(&self.posed.rigid, reduction);
+        let stiffness = reduction.stiffness.max(zero());
+        let taken = MassReduction { stiffness, ..*reduction };
+        let of_modes = || craft.reductions(&taken);
+        let mut irregular = irregular::<D::Scalar>();
+        let motors = forces.rigid.motors.values_mut().zip(of_joints());
+        let modal = forces.modal.as_mut().iter_mut().zip(of_modes());
+        for ((force, weight), number) in motors.chain(modal).zip(&mut irregular) {
+            *force = weight.sqrt() * number;
+        }
+        for _ in 0..ITERATIONS {
+            let Ok(found) = self.response_to(&forces, reduction) else { break };
+            let mut energy = zero::<D::Scalar>();
+            let joints = found.rigid.devices.values().zip(of_joints());
+            let motors = forces.rigid.motors.values_mut().zip(joints);
+            let modes = found.eta_ddot.as_ref().iter().copied().zip(of_modes());
+            let modal = forces.modal.as_mut().iter_mut().zip(modes);
+            for (force, (acceleration, weight)) in motors.chain(modal) {
+                *force = weight * acceleration;
+                energy = energy + *force * acceleration;
+            }
+            let over = energy.sqrt().recip();
+            let motors = forces.rigid.motors.values_mut();
+            motors.chain(forces.modal.as_mut()).for_each(|force| *force = *force * over);
+        }
+        let energy = |(force, weight): (D::Scalar, D::Scalar)| {
+            if weight > zero() { force * force * weight.recip() } else { zero() }
+        };
+        let sum = |sum: D::Scalar, energy| sum + energy;
+        let joints = || forces.rigid.motors.values().zip(of_joints()).map(energy);
+        let modes = forces.modal.as_ref().iter().copied().zip(of_modes()).map(energy);
+        if modes.fold(zero(), sum) > joints().fold(zero(), sum) {
+            return None;
+        }
+        let most = largest(joints().zip(craft.rigid.joints()));
+        most.map(|(_, (device, info))| (device, info.body))
     }
 }

@@ -4,12 +4,11 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
-use crate::equations::stiffness::Stiffness;
 use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
 use crate::flexible::storage::ModalStorage;
-use crate::integrate::stability::PassiveStep;
+use crate::integrate::stability::SlowestRates;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
@@ -29,9 +28,10 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     ///
     /// The attitude is normalised at the end of the step; joint angles are not wrapped.
     ///
-    /// Stability is checked for the fastest vibration of structure and
-    /// devices ([`SolveError::UnstableModes`]), and for springs, dampers and friction of the joints
-    /// on the rigid structure ([`SolveError::Unstable`]).
+    /// Stability is checked for the fastest vibration of structure and devices together, in the
+    /// pose at the start of the step: [`SolveError::UnstableModes`] where its energy is mostly that
+    /// of the modes, [`SolveError::Unstable`], which names the joint, where it is that of springs,
+    /// dampers and friction of the joints.
     ///
     /// # Errors
     ///
@@ -43,9 +43,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         inputs: &FlexibleInputs<D, S>,
         dt: D::Scalar,
     ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
-        self.stepped(state, inputs, dt, |_, stage, found, stiffness| {
-            self.solve(stage, inputs, found, stiffness)
-        })
+        self.stepped(state, inputs, dt, |_, stage, found| self.solve(stage, inputs, found))
     }
 
     /// [`Self::step`], with the work of each source during the step: what the ledger calls power,
@@ -61,9 +59,9 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         dt: D::Scalar,
     ) -> Result<FlexibleStepped<D, S, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
-            self.solve(stage, inputs, found, stiffness)?;
-            work = work.plus_scaled(weight, &self.ledger(stage, inputs, found)?.whole.power);
+        let next = self.stepped(state, inputs, dt, |weight, stage, found| {
+            self.solve(stage, inputs, found)?;
+            work = work.plus_scaled(weight, &self.ledger_of(stage, inputs, found)?.whole.power);
             Ok(())
         })?;
         if work.is_finite() {
@@ -74,7 +72,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     }
 
     /// One step; `evaluate` gets the weight of a stage in the sum of slopes, s, and its state, and
-    /// writes accelerations and, if there are springs or friction, stiffness.
+    /// writes accelerations.
     fn stepped<A: Attitude<D::Scalar>>(
         &self,
         state: &FlexibleState<D, S, A>,
@@ -84,7 +82,6 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             D::Scalar,
             &FlexibleState<D, S, A>,
             &mut FlexibleAccelerations<D, S>,
-            Option<&mut Stiffness<D::Scalar>>,
         ) -> Result<(), SolveError<D::Scalar>>,
     ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
@@ -93,9 +90,39 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
-        self.check_modes_of_step(inputs, dt)?;
-        self.advance(state, inputs, dt, evaluate)
-            .map_err(|failure| self.diagnosis(state, inputs, failure))
+        let mut slowest = SlowestRates::new(&self.rigid, &state.rigid);
+        let next = self.advance(state, inputs, dt, &mut slowest, evaluate);
+        next.and_then(|next| self.check_stability(state, inputs, dt, &slowest).map(|()| next))
+            .map_err(|failure| self.cause_of_step(state, inputs, dt, failure))
+    }
+
+    /// What to report for a failed step: a step that is too long may lead to states that have no
+    /// solution, or overflow.
+    #[cold]
+    fn cause_of_step<A: Attitude<D::Scalar>>(
+        &self,
+        start: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+        failure: SolveError<D::Scalar>,
+    ) -> SolveError<D::Scalar> {
+        let cause = self.diagnosis(start, inputs, failure);
+        match cause {
+            SolveError::Singular { .. }
+            | SolveError::ModalMass { .. }
+            | SolveError::Overflow { .. } => {
+                let begins = self.solve(start, inputs, &mut self.no_accelerations()).is_ok();
+                let slowest = SlowestRates::new(&self.rigid, &start.rigid);
+                let stable = begins.then(|| self.check_stability(start, inputs, dt, &slowest));
+                match stable {
+                    Some(Err(
+                        unstable @ (SolveError::Unstable { .. } | SolveError::UnstableModes { .. }),
+                    )) => unstable,
+                    _ => cause,
+                }
+            }
+            cause => cause,
+        }
     }
 
     fn advance<A: Attitude<D::Scalar>>(
@@ -103,11 +130,11 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         start: &FlexibleState<D, S, A>,
         inputs: &FlexibleInputs<D, S>,
         dt: D::Scalar,
+        slowest: &mut SlowestRates<D>,
         mut evaluate: impl FnMut(
             D::Scalar,
             &FlexibleState<D, S, A>,
             &mut FlexibleAccelerations<D, S>,
-            Option<&mut Stiffness<D::Scalar>>,
         ) -> Result<(), SolveError<D::Scalar>>,
     ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
@@ -120,11 +147,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         let attitude = stage.rigid.attitude;
         let mut sum = FlexibleState::<D, S, A>::at_rest_for(self);
         let mut rates = [(zero(), attitude.rate(&start.rigid.omega)); 4];
-        let mut passive = self.rigid.passive.then(|| PassiveStep::new(&self.rigid, &start.rigid));
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
         for ((weight, offset), rate) in stages.into_iter().zip(&mut rates) {
-            let stiffness = passive.as_mut().map(|passive| passive.stage(&stage.rigid));
-            evaluate(weight, &stage, &mut found, stiffness)
+            if self.rigid.passive {
+                slowest.pass(&stage.rigid);
+            }
+            evaluate(weight, &stage, &mut found)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
             *rate = (weight, stage.rigid.attitude.rate(&stage.rigid.omega));
             let (craft, scales) = (&self.rigid, [weight, offset]);
@@ -141,13 +169,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         if self.reject_modal(&next).is_err() {
             return Err(SolveError::Overflow { what: Quantity::ModalAcceleration });
         }
-        match passive {
-            Some(passive) => {
-                passive.check(&self.rigid, &start.rigid, &next.rigid, &inputs.rigid, dt)?;
-                Ok(next)
-            }
-            None => Ok(next),
-        }
+        slowest.pass(&next.rigid);
+        Ok(next)
     }
 }
 

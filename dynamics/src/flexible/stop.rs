@@ -60,23 +60,29 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         Ok(FlexibleStopped { state: next, energy_lost })
     }
 
+    /// The same modes of the joints and of the hub, and nothing that acts.
+    pub(crate) fn without_forces(&self, inputs: &FlexibleInputs<D, S>) -> FlexibleInputs<D, S> {
+        let (still, mut unforced) = (zeros(), inputs.clone());
+        unforced.rigid.gravity = Gravity::None;
+        (unforced.rigid.force, unforced.rigid.torque_b) = (vector(still), vector(still));
+        unforced.rigid.motors = D::new_data(&self.rigid.devices, &data::Motors);
+        unforced.rigid.bodies = None;
+        unforced.modal.as_mut().fill(zero());
+        unforced.mounts.as_mut().fill(Wrench::none());
+        unforced
+    }
+
     fn jump<A: Attitude<D::Scalar>>(
         &self,
         state: &FlexibleState<D, S, A>,
         inputs: &FlexibleInputs<D, S>,
     ) -> Jump<FlexibleState<D, S, A>, D::Scalar> {
-        let still = zeros();
-        let mut impulses = inputs.clone();
-        impulses.rigid.gravity = Gravity::None;
-        (impulses.rigid.force, impulses.rigid.torque_b) = (vector(still), vector(still));
-        impulses.rigid.motors = D::new_data(&self.rigid.devices, &data::Motors);
-        impulses.rigid.bodies = None;
-        impulses.modal.as_mut().fill(zero());
-        impulses.mounts.as_mut().fill(Wrench::none());
+        let (still, impulses) = (zeros(), self.without_forces(inputs));
         let mut posed = state.clone();
         posed.eta_dot.as_mut().fill(zero());
 
-        let environment = Environment { omega: still, central: None, impulse: true };
+        let environment =
+            Environment { omega: still, central: None, impulse: true, reduction: None };
         let mut stages = self.stages(&posed, &impulses, &environment);
         let mut gains = D::new_data(&self.rigid.devices, &data::Gains);
         self.eliminate(&posed, &impulses, stages.as_mut(), &mut gains)?;

@@ -4,6 +4,7 @@
 
 pub(crate) mod energy_lost;
 pub(crate) mod follow;
+pub(crate) mod longest_step;
 pub(crate) mod rk4;
 pub(crate) mod stability;
 pub(crate) mod stop;

@@ -97,7 +97,31 @@ impl<D: Devices> Spacecraft<D> {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         self.advance(state, inputs, dt, evaluate)
-            .map_err(|failure| self.diagnosis(state, inputs, failure))
+            .map_err(|failure| self.cause_of_step(state, inputs, dt, failure))
+    }
+
+    /// What to report for a failed step: a step that is too long may lead to states that have no
+    /// solution, or overflow.
+    #[cold]
+    fn cause_of_step<A: Attitude<D::Scalar>>(
+        &self,
+        start: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+        failure: SolveError<D::Scalar>,
+    ) -> SolveError<D::Scalar> {
+        let cause = self.diagnosis(start, inputs, failure);
+        match cause {
+            SolveError::Singular { .. } | SolveError::Overflow { .. } if self.passive => {
+                let begins = self.solve(start, inputs, &mut self.no_accelerations(), None).is_ok();
+                let stable = begins.then(|| self.check_stability(start, inputs, dt));
+                match stable {
+                    Some(Err(unstable @ SolveError::Unstable { .. })) => unstable,
+                    _ => cause,
+                }
+            }
+            cause => cause,
+        }
     }
 
     fn advance<A: Attitude<D::Scalar>>(

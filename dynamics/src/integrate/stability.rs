@@ -1,33 +1,32 @@
-//! The longest step at which Runge-Kutta's method of fourth order is stable with the springs,
-//! dampers and dry friction of the joints.
+//! Whether a step is short enough for the springs, dampers and dry friction of the joints.
 //!
-//! A joint with the responses `a = c m`, 1/s, and `b = k m`, 1/s², of its damping c and stiffness k
-//! (m its acceleration for a unit torque) moves as `q'' + a q' + b q = 0`. A step multiplies its
-//! modes by `R(z) = 1 + z + z²/2 + z³/6 + z⁴/24` with `z = λ dt`, `λ² + a λ + b = 0`, and is stable
-//! while `|R(z)| <= 1`: up to 2.785 on the real axis (friction), to 2.828 on the imaginary one
-//! (springs).
-//!
-//! Two estimates of the responses. [`Stiffness`] costs some operations per joint and comes from
-//! the pivots of an evaluation; a step that is far below the limit by it is accepted. Otherwise the
-//! responses are computed, by one impulsive evaluation per joint.
+//! Two checks. [`Stiffness`] costs some operations per joint and bounds the responses from the
+//! pivots of an evaluation; a step that is far below the limit by it is accepted. Otherwise the
+//! limit is that of the whole system in the pose at the start of the step, with its joints driven,
+//! prescribed or locked as they are and the hub free or held: [`step_limit`].
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
+use crate::equations::mass_reduction::MassReduction;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
+use crate::integrate::longest_step::{StepLimit, irregular, step_limit};
+use crate::model::kind::JointInfo;
 use crate::model::mode::HubMode;
 use crate::model::passive::Passive;
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Scalar, half, one, zero};
+use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::zeros;
 use crate::sets::devices::{Devices, Passives};
 use crate::sets::per_device as data;
+use crate::solve::accelerations::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
-/// Largest magnitude of `λ dt` tried; RK4 is unstable there in every direction.
-const BEYOND: f64 = 3.5;
+/// Inverse iterations for the vibration that limits a step: the first leaves of others some 1e-7 of
+/// what an irregular direction has of them.
+pub(crate) const ITERATIONS: usize = 3;
 
 /// How a joint's rate has gone during a step: where it began, and its smallest magnitude, zero once
 /// it has changed its sign.
@@ -44,37 +43,63 @@ fn rests<T: Scalar>([first, smallest]: Slowest<T>, passive: &Passive<T>) -> bool
     first != zero() && smallest == zero() && passive.coulomb > zero()
 }
 
-/// Stiffness of springs and friction during a step.
-pub(crate) struct PassiveStep<D: Devices> {
-    /// Of the present stage.
-    stiffness: Stiffness<D::Scalar>,
-    /// Of those before it.
-    largest: Stiffness<D::Scalar>,
-    slowest: D::Per<data::PerJoint<Slowest<D::Scalar>>>,
-}
+/// Rates of the joints during a step.
+pub(crate) struct SlowestRates<D: Devices>(D::Per<data::PerJoint<Slowest<D::Scalar>>>);
 
-impl<D: Devices> PassiveStep<D> {
+impl<D: Devices> SlowestRates<D> {
     /// At the start.
     pub(crate) fn new<A>(craft: &Spacecraft<D>, start: &State<D, A>) -> Self {
         let mut slowest = D::new_data(&craft.devices, &data::PerJoint([zero(); 2]));
         for (slowest, [_, rate]) in slowest.values_mut().zip(start.devices.states()) {
             *slowest = [rate, rate.abs()];
         }
+        Self(slowest)
+    }
+
+    /// At another stage, or at the end.
+    pub(crate) fn pass<A>(&mut self, stage: &State<D, A>) {
+        for (slowest, [_, rate]) in self.0.values_mut().zip(stage.devices.states()) {
+            *slowest = pass(*slowest, rate);
+        }
+    }
+
+    /// Whether friction of a joint has to be resolved near rest.
+    fn rests(&self, craft: &Spacecraft<D>) -> bool {
+        let mut joints = self.0.values().zip(D::list::<Passives>(&craft.devices));
+        joints.any(|(slowest, passive)| rests(slowest, &passive))
+    }
+
+    /// The state with these rates: those at which friction is stiffest.
+    pub(crate) fn at_slowest<A: Clone>(&self, start: &State<D, A>) -> State<D, A> {
+        let mut posed = start.clone();
+        for ([_, rate], [_, slowest]) in posed.devices.states_mut().zip(self.0.values()) {
+            *rate = slowest;
+        }
+        posed
+    }
+}
+
+/// Stiffness of springs and friction during a step.
+pub(crate) struct PassiveStep<D: Devices> {
+    /// Of the present stage.
+    stiffness: Stiffness<D::Scalar>,
+    /// Of those before it.
+    largest: Stiffness<D::Scalar>,
+    slowest: SlowestRates<D>,
+}
+
+impl<D: Devices> PassiveStep<D> {
+    /// At the start.
+    pub(crate) fn new<A>(craft: &Spacecraft<D>, start: &State<D, A>) -> Self {
         let none = Stiffness::none(zero());
-        Self { stiffness: none, largest: none, slowest }
+        Self { stiffness: none, largest: none, slowest: SlowestRates::new(craft, start) }
     }
 
     /// Before an evaluation: where it leaves its stiffness.
     pub(crate) fn stage<A>(&mut self, stage: &State<D, A>) -> &mut Stiffness<D::Scalar> {
         self.largest = self.largest.max(self.stiffness);
-        self.pass(stage);
+        self.slowest.pass(stage);
         &mut self.stiffness
-    }
-
-    fn pass<A>(&mut self, stage: &State<D, A>) {
-        for (slowest, [_, rate]) in self.slowest.values_mut().zip(stage.devices.states()) {
-            *slowest = pass(*slowest, rate);
-        }
     }
 
     /// Rejects a step that was unstable.
@@ -87,67 +112,97 @@ impl<D: Devices> PassiveStep<D> {
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
         self.stage(next);
-        let mut joints = self.slowest.values().zip(D::list::<Passives>(&craft.devices));
-        let rests = joints.any(|(slowest, passive)| rests(slowest, &passive));
-        if self.largest.accepts(dt) && !rests {
+        if self.largest.accepts(dt) && !self.slowest.rests(craft) {
             return Ok(());
         }
-        craft.check_stability(start, inputs, dt, &self.slowest)
+        craft.check_stability(&self.slowest.at_slowest(start), inputs, dt)
     }
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Rejects a step that spring, damper or friction of a joint makes unstable.
+    /// Rejects a step that spring, damper or friction of a joint makes unstable, in this pose; the
+    /// rates are those at which friction is evaluated.
     #[cold]
-    fn check_stability<A: Attitude<D::Scalar>>(
+    pub(crate) fn check_stability<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        posed: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        slowest: &D::Per<data::PerJoint<Slowest<D::Scalar>>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let mut coefficients =
-            D::new_data(&self.devices, &data::PerJoint([zero::<D::Scalar>(); 2]));
-        let joints = D::list::<Passives>(&self.devices).zip(slowest.values());
-        for (entry, (passive, [_, slowest])) in coefficients.values_mut().zip(joints) {
-            *entry = [passive.damping(slowest), passive.stiffness];
+        let mut scratch = D::new_data(&self.devices, &data::Gains);
+        let motors = D::new_data(&self.devices, &data::Motors);
+        let definite = |reduction: &MassReduction<D::Scalar>| {
+            let reduction = Some(*reduction);
+            let found =
+                self.eliminate_for_impulses(posed, &motors, inputs, reduction, &mut scratch);
+            found.is_ok_and(|assembly| match inputs.hub {
+                HubMode::Free => {
+                    let (_, pivots) = assembly.system(zeros()).solved();
+                    pivots.into_iter().all(|pivot| pivot > zero())
+                }
+                HubMode::Fixed | HubMode::Prescribed { .. } => true,
+            })
+        };
+        let Some(limit) = step_limit(dt, definite) else { return Ok(()) };
+        if limit.longest == zero() {
+            return Err(overflow());
         }
-        for (joint, ([c, k], (device, info))) in
-            coefficients.values().zip(self.joints()).enumerate()
-        {
-            if c == zero() && k == zero() {
-                continue;
-            }
-            let column = self.response_to(state, inputs, joint)?;
-            let each = || coefficients.values().zip(column.values());
-            let a = each().fold(zero(), |sum, ([c, _], m)| sum + c * m.abs());
-            let b = each().fold(zero(), |sum, ([_, k], m)| sum + k * m.abs());
-            let longest = longest(a, b);
-            if dt.abs() > longest {
-                return Err(SolveError::Unstable { device, joint: info.body, dt, longest });
-            }
-        }
-        Ok(())
+        let (device, info) = self.limiting_joint(posed, inputs, &limit).ok_or_else(overflow)?;
+        Err(SolveError::Unstable { device, joint: info.body, dt, longest: limit.longest })
     }
 
-    /// Accelerations of all joints for a unit torque at one of them, nothing else acting.
+    /// The joint that has most of the energy of the vibration that limits a step.
+    fn limiting_joint<A: Attitude<D::Scalar>>(
+        &self,
+        posed: &State<D, A>,
+        inputs: &Inputs<D>,
+        limit: &StepLimit<D::Scalar>,
+    ) -> Option<(usize, &'static JointInfo)> {
+        let mut motors = D::new_data(&self.devices, &data::Motors);
+        let weights = || self.weights(posed, &limit.reduction);
+        for ((motor, weight), number) in motors.values_mut().zip(weights()).zip(irregular()) {
+            *motor = weight.sqrt() * number;
+        }
+        for _ in 0..ITERATIONS {
+            let Ok(found) = self.response_to(posed, inputs, &motors, &limit.reduction) else {
+                break;
+            };
+            next_torques::<D>(&mut motors, weights(), &found);
+        }
+        let energies = motors.values().zip(weights()).map(|(torque, weight)| {
+            if weight > zero() { torque * torque * weight.recip() } else { zero() }
+        });
+        largest(energies.zip(self.joints())).map(|(_, joint)| joint)
+    }
+
+    /// Of each joint, what a reduction takes from its inertia; of a share that it adds, nothing.
+    pub(crate) fn weights<A>(
+        &self,
+        posed: &State<D, A>,
+        reduction: &MassReduction<D::Scalar>,
+    ) -> impl Iterator<Item = D::Scalar> {
+        let stiffness = reduction.stiffness.max(zero());
+        let taken = MassReduction { stiffness, ..*reduction };
+        let joints = D::list::<Passives>(&self.devices).zip(posed.devices.states());
+        joints.map(move |(passive, [_, rate])| {
+            taken.subtracted(passive.damping(rate), passive.stiffness)
+        })
+    }
+
+    /// Accelerations of all joints for torques, with the mass matrix reduced.
     fn response_to<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        posed: &State<D, A>,
         inputs: &Inputs<D>,
-        joint: usize,
+        motors: &D::Per<data::Motors>,
+        reduction: &MassReduction<D::Scalar>,
     ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
-        let still = zeros();
-        let mut at_rest = state.clone();
-        at_rest.devices.states_mut().for_each(|[_, rate]| *rate = zero());
-        let mut motors = D::new_data(&self.devices, &data::Motors);
-        if let Some(torque) = motors.values_mut().nth(joint) {
-            *torque = one();
-        }
+        let (still, reduction) = (zeros(), Some(*reduction));
         let mut scratch = D::new_data(&self.devices, &data::Gains);
-        let assembly = self.eliminate_for_impulses(&at_rest, &motors, inputs, &mut scratch)?;
+        let assembly =
+            self.eliminate_for_impulses(posed, motors, inputs, reduction, &mut scratch)?;
         let hub = match inputs.hub {
-            HubMode::Free => assembly.solve(still, &self.body)?,
+            HubMode::Free => assembly.system(still).solved().0,
             HubMode::Fixed | HubMode::Prescribed { .. } => {
                 Solution { r_b_n_ddot: still, omega_dot: still }
             }
@@ -156,72 +211,30 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-/// The longest stable step of `q'' + a q' + b q = 0`, s; infinite where both are zero, zero for
-/// NaN.
-fn longest<T: Scalar>(a: T, b: T) -> T {
-    // λ = -a/2 ± sqrt(a²/4 - b), over a size that keeps the squares in range.
-    let size = a.max(b.sqrt());
-    if !(size.is_finite() && b.is_finite()) {
-        return zero();
+/// Torques of an inverse iteration after one with these accelerations: weight times acceleration,
+/// over the root of the energy.
+fn next_torques<D: Devices>(
+    motors: &mut D::Per<data::Motors>,
+    weights: impl Iterator<Item = D::Scalar>,
+    found: &D::Per<data::Accelerations>,
+) {
+    let mut energy = zero::<D::Scalar>();
+    for ((motor, weight), acceleration) in motors.values_mut().zip(weights).zip(found.values()) {
+        *motor = weight * acceleration;
+        energy = energy + *motor * acceleration;
     }
-    if size == zero() {
-        return size.recip();
-    }
-    let (a, b) = (a * size.recip(), b * size.recip() * size.recip());
-    let middle = half::<T>() * a;
-    let square = middle * middle - b;
-    let [x, y] = if square < zero() {
-        [-middle, (-square).sqrt()]
-    } else {
-        [-(middle + square.sqrt()), zero()]
-    };
-    let (mut stable, mut unstable) =
-        (zero::<T>(), T::from_f64(BEYOND) * (x * x + y * y).sqrt().recip());
-    // The region is star-shaped about the origin: one crossing, halved to the last bit of an f64.
-    for _ in 0..54 {
-        let dt = half::<T>() * (stable + unstable);
-        if amplification(x * dt, y * dt) <= one() {
-            stable = dt;
-        } else {
-            unstable = dt;
-        }
-    }
-    stable * size.recip()
+    let size = energy.sqrt().recip();
+    motors.values_mut().for_each(|motor| *motor = *motor * size);
 }
 
-/// `|R(x + i y)|²`.
-fn amplification<T: Scalar>(x: T, y: T) -> T {
-    let (mut re, mut im) = (one::<T>(), zero::<T>());
-    for divisor in [4.0, 3.0, 2.0, 1.0] {
-        let by = T::from_f64(divisor).recip();
-        (re, im) = (one::<T>() + (re * x - im * y) * by, (re * y + im * x) * by);
-    }
-    re * re + im * im
+/// The entry of the largest number.
+pub(crate) fn largest<T: Scalar, V>(entries: impl Iterator<Item = (T, V)>) -> Option<(T, V)> {
+    entries.reduce(|most, entry| if entry.0 > most.0 { entry } else { most })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn limits_are_those_of_the_method() {
-        // Friction only: the real root of R(z) = 1. A spring only: sqrt 8.
-        assert!((longest(10.0, 0.0) - 0.278_529_356_340_528).abs() < 1e-12);
-        assert!((longest(0.0, 100.0) - 0.282_842_712_474_619).abs() < 1e-6);
-        // Critical damping has both roots at half the damping.
-        assert!((longest(2.0, 1.0) - 2.785_293_563_405_28).abs() < 1e-6);
-        assert_eq!(longest(0.0, 0.0), f64::INFINITY);
-        assert_eq!(longest(f64::NAN, 1.0), 0.0);
-        assert!(longest(1e200, 1e300) > 0.0 && longest(1e-200, 1e-300) < f64::INFINITY);
-    }
-
-    #[test]
-    fn every_damping_of_a_spring_has_a_limit_between_two_and_a_half_and_three() {
-        for damping in 0..200 {
-            let limit = longest(f64::from(damping) * 0.01, 1.0);
-            assert!((2.5..3.0).contains(&limit), "{damping}: {limit}");
-        }
-    }
 
     #[test]
     fn smallest_rate_is_zero_where_the_joint_reversed() {

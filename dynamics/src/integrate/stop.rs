@@ -10,6 +10,7 @@ use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::mass_reduction::MassReduction;
 use crate::equations::system::Solution;
 use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
 use crate::model::mode::HubMode;
@@ -86,7 +87,7 @@ impl<D: Devices> Spacecraft<D> {
         let (still, motors) = (zeros(), D::new_data(&self.devices, &data::Motors));
         check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         let mut scratch = D::new_data(&self.devices, &data::Gains);
-        let assembly = self.eliminate_for_impulses(state, &motors, inputs, &mut scratch)?;
+        let assembly = self.eliminate_for_impulses(state, &motors, inputs, None, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
@@ -103,15 +104,17 @@ impl<D: Devices> Spacecraft<D> {
         Ok(jumped(state, inputs, &bn, &hub, &jumps))
     }
 
-    /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors.
+    /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors;
+    /// with shares of damping and stiffness subtracted from the mass matrix, if any.
     pub(super) fn eliminate_for_impulses<A>(
         &self,
         state: &State<D, A>,
         motors: &D::Per<data::Motors>,
         inputs: &Inputs<D>,
+        reduction: Option<MassReduction<D::Scalar>>,
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<Assembly<D::Scalar>, SolveError<D::Scalar>> {
-        let environment = Environment { omega: zeros(), central: None, impulse: true };
+        let environment = Environment { omega: zeros(), central: None, impulse: true, reduction };
         let given = JointInputs { motors, modes: &inputs.modes, bodies: None };
         let mut assembly = Assembly::new(&self.body, zeros(), zeros());
         let by = Arithmetic::unfused();

@@ -5,6 +5,7 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::mass_reduction::MassReduction;
 use crate::equations::system::{WELL_SCALED, bound, check_pivot};
 use crate::isolation::elimination::{Eliminated, Gains, eliminate};
 use crate::isolation::kernels::moved_second_moment;
@@ -15,11 +16,9 @@ use crate::isolation::set::Carrier;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
-use crate::model::passive::Passive;
 use crate::numbers::each::{Each, JointStates, filled};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::zeros;
-use crate::sets::devices::{List, Passives};
 
 /// A platform whose carried devices are to be eliminated.
 pub(crate) struct Carrying<'a, T: Scalar> {
@@ -72,6 +71,10 @@ impl<'a, T: Scalar> Carrying<'a, T> {
         let eliminated = eliminate(motion, motion.field(self.base), assembly, &drives);
         let body = assembly.body();
         base.add(&eliminated.share);
+        if self.base.reduction.is_some() {
+            self.check_definite(&eliminated, &drives)?;
+            return Ok(eliminated.gains);
+        }
         if !self.base.impulse {
             self.add_stiffness(&eliminated, &drives, base);
         }
@@ -93,6 +96,9 @@ impl<'a, T: Scalar> Carrying<'a, T> {
         let Self { carrier, joints, pose, .. } = self;
         let mut drives = carrier.device.drives(joints, given, self.base.impulse, self.device)?;
         if self.base.impulse {
+            if let Some(reduction) = &self.base.reduction {
+                self.reduce(reduction, &mut drives);
+            }
             return Ok(drives);
         }
         if given.bodies.is_some() {
@@ -109,6 +115,48 @@ impl<'a, T: Scalar> Carrying<'a, T> {
         Ok(drives)
     }
 
+    /// Damping and stiffness of each joint's own spring and friction, and of those with the
+    /// diagonals that bound the suspension in this pose.
+    fn coefficients(&self) -> impl Iterator<Item = [[T; 2]; 2]> {
+        let [damping, stiffness] = self.carrier.suspension.diagonals(Some(&self.pose));
+        let joints = self.carrier.device.passive.values().zip(self.joints.states());
+        joints.zip(damping.into_iter().zip(stiffness)).map(|((passive, [_, rate]), (c, k))| {
+            let own: [T; 2] = [passive.damping(rate), passive.stiffness];
+            [own, [own[0] + c, own[1] + k]]
+        })
+    }
+
+    /// Subtracts shares of damping and stiffness from the inertia of the driven joints, (S1): at
+    /// least what those of the suspension are. Of a share that is added, what it has at most.
+    #[cold]
+    fn reduce(&self, reduction: &MassReduction<T>, drives: &mut PerJoint<Drive<T>>) {
+        let added = reduction.stiffness < zero();
+        for (drive, [own, with_suspension]) in drives.values_mut().zip(self.coefficients()) {
+            let [damping, most] = with_suspension;
+            let [_, least] = own;
+            if drive.driven == one() {
+                drive.held = -reduction.subtracted(damping, if added { least } else { most });
+            }
+        }
+    }
+
+    /// Rejects the first pivot of a driven joint, with what was added to it, that is not above zero.
+    #[cold]
+    fn check_definite(
+        &self,
+        eliminated: &Eliminated<T>,
+        drives: &PerJoint<Drive<T>>,
+    ) -> Result<(), SolveError<T>> {
+        let joints = eliminated.pivots.values().zip(drives.values()).zip(Platform::<T>::JOINTS);
+        for (([pivot, _], drive), info) in joints {
+            if drive.driven == one() {
+                let checked = check_pivot(pivot + drive.held, zero());
+                checked.map_err(|small| small.of(Some(self.device), Some(info.body)))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Adds springs and friction, of the platform's joints and of the carried ones, to the stiffness
     /// that a step has to resolve.
     fn add_stiffness(
@@ -117,10 +165,7 @@ impl<'a, T: Scalar> Carrying<'a, T> {
         drives: &PerJoint<Drive<T>>,
         base: &mut Assembly<T>,
     ) {
-        let entries = Passives::of_platform(self.carrier).zip(self.joints.states());
-        let entries = entries.map(|(passive, [_, rate]): (Passive<T>, _)| {
-            [passive.damping(rate), passive.stiffness]
-        });
+        let entries = self.coefficients().map(|[_, with_suspension]| with_suspension);
         let coefficients = filled(PerJoint::all([zero(); 2]), entries);
         let pivots = Platform::<T>::pivots(eliminated);
         base.stiffness.add::<Platform<T>>(&coefficients, &pivots, drives);
@@ -128,7 +173,7 @@ impl<'a, T: Scalar> Carrying<'a, T> {
         let mut growth = one::<T>();
         for ([pivot, diagonal], drive) in eliminated.pivots.values().zip(drives.values()) {
             if drive.driven == one() {
-                growth = growth.max(diagonal * pivot.recip());
+                growth = growth * (diagonal * pivot.recip());
             }
         }
         let carried = &self.assembly.stiffness;

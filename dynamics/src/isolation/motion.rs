@@ -174,7 +174,7 @@ impl<T: Scalar> Motion<T> {
     /// central field, `G p`, is not in it: (I5).
     pub(crate) fn environment(&self, base: &Environment<T>) -> Environment<T> {
         let central = base.central.as_ref().map(|central| central.turned(&self.axes));
-        Environment { omega: self.omega, central, impulse: base.impulse }
+        Environment { omega: self.omega, central, impulse: base.impulse, reduction: base.reduction }
     }
 
     /// (I5), the field `G p` of a central one that is uniform on the platform: at P less that at B,

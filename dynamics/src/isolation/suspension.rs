@@ -139,14 +139,15 @@ impl<T: Scalar> Suspension<T> {
         forces
     }
 
-    /// Diagonals, damping and stiffness, that bound the matrices with every coordinate zero: less
-    /// the matrix they are positive semidefinite. What a step has to resolve is estimated by them.
-    pub(crate) fn diagonals(&self) -> [Six<T>; 2] {
+    /// Diagonals, damping and stiffness, that bound the matrices in a pose, or with every coordinate
+    /// zero: less the matrix they are positive semidefinite. What a step has to resolve is bounded
+    /// by them. Without the share of the struts' forces, which turn with them.
+    pub(crate) fn diagonals(&self, pose: Option<&Pose<T>>) -> [Six<T>; 2] {
         let mut damping = self.coupled.map_or([[zero(); 6]; 6], |coupled| coupled.damping.data.0);
         let mut stiffness =
             self.coupled.map_or([[zero(); 6]; 6], |coupled| coupled.stiffness.data.0);
         for strut in self.struts.iter().flatten() {
-            let slope = strut.slope();
+            let slope = pose.map_or_else(|| strut.slope(), |pose| strut.stretched(pose).slope);
             for ((c, k), along) in damping.iter_mut().zip(&mut stiffness).zip(slope) {
                 add_scaled(c, strut.damping * along, &slope);
                 add_scaled(k, strut.stiffness * along, &slope);

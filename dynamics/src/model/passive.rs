@@ -14,9 +14,10 @@ use crate::numbers::real::{Scalar, half, reciprocal_in_two, zero};
 /// below. It never sticks: a joint that must not move is [locked](crate::Mode::Locked).
 ///
 /// A step of Runge-Kutta's method must resolve what is stiff. With `J` the inertia that the joint
-/// moves, `dt` is at most `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and
-/// `2.785 J q_c' / u_c` for dry friction where the joint comes to rest or reverses: at a rate of
-/// 1e-4 rad/s, a torque of 1e-3 N m and 1e-3 kg m², 0.28 ms.
+/// moves, on the whole spacecraft and with the springs of other joints, `dt` is at most
+/// `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and `2.785 J q_c' / u_c` for dry
+/// friction where the joint comes to rest or reverses: at a rate of 1e-4 rad/s, a torque of
+/// 1e-3 N m and 1e-3 kg m², 0.28 ms.
 /// [`Spacecraft::step`](crate::Spacecraft::step) rejects a longer one with
 /// [`SolveError::Unstable`](crate::SolveError::Unstable), which has the longest stable one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -189,7 +189,7 @@ impl<D: Devices> Spacecraft<D> {
             omega_dot: components(&accelerations.omega_dot),
         };
         let central = field.and_then(|field| field.central);
-        let environment = Environment { omega, central, impulse: false };
+        let environment = Environment { omega, central, impulse: false, reduction: None };
         let given = inputs.of_joints();
         let mut devices = D::new_data(&self.devices, &data::Loads);
         let mut totals = LoadSums::none();

@@ -250,7 +250,7 @@ impl<T: Scalar> List<T> for Passives {
 
     /// With the diagonals that bound its suspension.
     fn of_platform(platform: &Carrier<T>) -> impl Iterator<Item = Passive<T>> {
-        let [damping, stiffness] = platform.suspension.diagonals();
+        let [damping, stiffness] = platform.suspension.diagonals(None);
         let joints = platform.device.passive.values().zip(damping.into_iter().zip(stiffness));
         joints.map(|(passive, (c, k))| Passive {
             viscous: passive.viscous + c,

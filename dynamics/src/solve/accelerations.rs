@@ -299,8 +299,12 @@ pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
 ) -> EvaluationStart<D::Scalar> {
-    let environment =
-        Environment { omega: components(&state.omega), central: None, impulse: false };
+    let environment = Environment {
+        omega: components(&state.omega),
+        central: None,
+        impulse: false,
+        reduction: None,
+    };
     let mut start = EvaluationStart { environment, at_b: zeros() };
     if !matches!(inputs.gravity, Gravity::None) {
         let field = inputs.gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n);

@@ -15,6 +15,7 @@ pub mod draw;
 pub mod energy;
 pub mod finite;
 pub mod limits;
+pub mod longest_steps;
 pub mod motion;
 pub mod number;
 pub mod progress;

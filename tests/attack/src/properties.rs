@@ -7,8 +7,8 @@ use proptest::prop_oneof;
 
 use super::draw::Profile;
 use super::{
-    Case, Verdict, derivatives, energy, finite, limits, motion, residual, runs, same, shapes,
-    singular, typed_errors,
+    Case, Verdict, derivatives, energy, finite, limits, longest_steps, motion, residual, runs,
+    same, shapes, singular, typed_errors,
 };
 
 /// A promise.
@@ -237,6 +237,14 @@ pub const PROPERTIES: &[Property] = &[
         function: "energy::locked_stays_locked",
         draw: real,
         check: energy::locked_stays_locked,
+    },
+    Property {
+        name: "longest-step-holds",
+        statement: "the longest step that an error names is accepted, and no vibration grows with it",
+        cases: 200,
+        function: "longest_steps::longest_step_holds",
+        draw: runs::cases,
+        check: longest_steps::longest_step_holds,
     },
     Property {
         name: "runs-conserve-or-refuse",

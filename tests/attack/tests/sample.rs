@@ -47,6 +47,7 @@ sample! {
     kinetic_energy_is_not_negative: "kinetic-energy-is-not-negative", 5000;
     stop_conserves: "stop-conserves", 500;
     locked_stays_locked: "locked-stays-locked", 200;
+    longest_step_holds: "longest-step-holds", 100;
     runs_conserve_or_refuse: "runs-conserve-or-refuse", 100;
     errors_are_typed: "errors-are-typed", 500;
     central_gravity: "central-gravity", 2000;

@@ -14,4 +14,5 @@ mod platform;
 mod points;
 mod reference;
 mod residual;
+mod steps;
 mod stop;

@@ -8,12 +8,12 @@ use precess_tests::counted::{Counted, count};
 /// Modes and operations.
 const MODES: [(usize, u64); 7] = [
     (0, 6_395),
-    (6, 13_791),
-    (20, 43_275),
-    (40, 83_885),
-    (80, 95_565),
-    (160, 118_925),
-    (200, 130_605),
+    (6, 14_175),
+    (20, 44_555),
+    (40, 85_805),
+    (80, 97_485),
+    (160, 120_845),
+    (200, 132_525),
 ];
 
 /// Modes from which on the elimination is that of the thirty directions in which mounts and hub move them, six each.

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Gravity, Hub, HubMode,
-    ListedModes, ModalMount, ModalPoint, Mode, Modes, ModesError, ResidualFault, SloshMass,
-    SolveError,
+    ListedModes, ModalMount, ModalPoint, Mode, Modes, ModesError, ReactionWheel, ResidualFault,
+    SloshMass, SolveError,
 };
 use precess_tests::bounds::{ACCELERATIONS_WORST, BACKWARD_EPSILONS, LIMITS, POWER_EPSILONS};
 use precess_tests::random::Random;
@@ -169,7 +169,7 @@ fn mass_on_a_residual_coordinate_is_a_damped_oscillator() {
     assert!((moved - COMPLIANCE.sqrt() * state.eta[0]).abs() <= LIMITS * moved);
     match craft.step(&state, &inputs, 1.0) {
         Err(SolveError::UnstableModes { longest, .. }) => {
-            assert!((longest * w / 2.785 - 1.0).abs() < 1e-9, "{longest}");
+            assert!((longest * w / 8.0_f64.sqrt() - 1.0).abs() < 1e-9, "{longest}");
         }
         found => panic!("{found:?}"),
     }
@@ -268,4 +268,50 @@ fn residual_coordinates_that_have_no_place_are_errors() {
     );
     let found = compliance(&|entries| entries[19] = -1.0);
     assert_eq!(found, (1, ResidualFault::Negative { pivot: -1.0 }));
+}
+
+/// A mount of residual flexibility has no inertia about the axis of a wheel that its motor drives, in
+/// any orientation: what is left of it there is rounding of what the wheel has.
+#[test]
+fn mount_without_inertia_about_a_free_spin_axis_is_rejected_in_every_orientation() {
+    let diagonal = |a, b, c| Matrix3::from_diagonal(&Vector3::new(a, b, c));
+    let hub = Hub { m_b: 100.0, r_bc_b: Vector3::zeros(), i_b_bc: diagonal(20.0, 18.0, 15.0) };
+    for k in 0..200 {
+        let turn = Vector3::new(0.3 + 0.01 * f64::from(k), -0.7, 0.011 * f64::from(k));
+        let mount = *nalgebra::Rotation3::from_scaled_axis(turn).matrix();
+        let position = Vector3::new(0.4, 0.1, 0.2);
+        let bare = ReactionWheel::bare_wheel(3.0, diagonal(0.02, 0.01, 0.01));
+        let wheel = ReactionWheel { mount, r_w_b: position, ..bare };
+        let point = ModalPoint { position, translation: vec![], rotation: vec![] };
+        let mut modes: Modes<ListedModes> = Modes {
+            frequencies: vec![],
+            damping: vec![],
+            linear: vec![],
+            angular: vec![],
+            mounts: vec![ModalMount { point, contained: None }],
+        };
+        // 0.1 um/N, 10 urad/(N m).
+        let mut compliance = [0.0; 36];
+        for (number, entry) in compliance.iter_mut().step_by(7).enumerate() {
+            *entry = if number < 3 { 1e-7 } else { 1e-5 };
+        }
+        let residual = modes.add_residual(&mut [], &compliance).expect("a compliance");
+        let craft =
+            FlexibleSpacecraft::with_residual(&hub, &modes, residual, &vec![wheel], &vec![0])
+                .expect("valid");
+        let mut inputs: FlexibleInputs<Vec<ReactionWheel>, ListedModes> =
+            FlexibleInputs::none_for(&craft);
+        inputs.rigid.motors[0].u_w = 0.1;
+        let mut state: FlexibleState<Vec<ReactionWheel>, ListedModes> =
+            FlexibleState::at_rest_for(&craft);
+        state.rigid.devices[0].spin = 100.0;
+        let found = craft.accelerations(&state, &inputs);
+        let Err(SolveError::ModalMass { pivot, bound }) = found else { panic!("{k}: {found:?}") };
+        assert!(pivot <= bound && bound < 1e-16, "{k}: {pivot} {bound}");
+        // The wheel locked, every direction has its inertia.
+        inputs.rigid.modes[0] = precess_dynamics::reaction_wheel::PerJoint::all(Mode::Locked);
+        state.rigid.devices[0].spin = 0.0;
+        let found = craft.accelerations(&state, &inputs).expect("a solution");
+        assert!(found.eta_ddot.iter().all(|eta| eta.abs() < 1e-9), "{k}: {found:?}");
+    }
 }

@@ -3,6 +3,7 @@
 
 mod finite;
 mod inputs;
+mod longest_steps;
 mod services;
 mod singular;
 mod steps;
