@@ -20,7 +20,7 @@ pub mod parquet;
 pub mod partial;
 mod samples;
 pub mod statistics;
-mod welch;
+pub(crate) mod welch;
 
 pub use between::Between;
 pub use columns::{Column, Columns};
