@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use precess_dynamics::{ParameterError, Part};
 
-use super::super::diagnostic::{Diagnostic, Diagnostics, Severity};
+use super::super::diagnostic::{Diagnostic, Diagnostics, Severity, Span};
 use super::super::document::Node;
 use super::places;
 use crate::scenario::{Scenario, ScenarioError};
@@ -36,19 +36,22 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
             None => reports.error_anywhere(message, ""),
         }
     }
+    for (source, message) in scenario.fundamental_warnings() {
+        let span = places::of_harmonic(root, source);
+        reports.all.push(warning(span, format!("source.{source}: {message}"), ""));
+    }
     if let Ok(spacecraft) = scenario.spacecraft() {
-        for warning in spacecraft.warnings() {
-            let span = places::of_warning(root, &warning, &tables);
+        for found in spacecraft.warnings() {
+            let span = places::of_warning(root, &found, &tables);
             let help = "check moments and products of inertia and their units; it is run as given";
-            reports.all.push(Diagnostic {
-                severity: Severity::Warning,
-                span,
-                message: named(&warning.to_string(), names),
-                label: String::new(),
-                help: help.to_owned(),
-            });
+            reports.all.push(warning(span, named(&found.to_string(), names), help));
         }
     }
+}
+
+fn warning(span: Option<Span>, message: String, help: &str) -> Diagnostic {
+    let (severity, label) = (Severity::Warning, String::new());
+    Diagnostic { severity, span, message, label, help: help.to_owned() }
 }
 
 /// What is wrong with the dynamic imbalance of a wheel whose moments of inertia by themselves are those of a body.
