@@ -2,13 +2,14 @@
 
 use std::process::ExitCode;
 
+use crate::pointing::RequirementState;
+
 /// How a command ended. The order is that of weight: of several files the heaviest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
     /// Complete; every requirement that there is was evaluated and is met.
     Success,
     /// A requirement could not be evaluated: nothing was measured. None is violated.
-    #[expect(dead_code, reason = "requirements without data are told apart in the next change")]
     NotEvaluated,
     /// A requirement is violated, a fitted model does not hold, or a run ended before its time.
     Violated,
@@ -19,9 +20,19 @@ pub(super) enum Exit {
 }
 
 impl Exit {
-    /// Of requirements that are met or violated.
+    /// Of requirements of a budget that are met or violated.
     pub(super) fn of_met(met: bool) -> Self {
         if met { Self::Success } else { Self::Violated }
+    }
+
+    /// Of requirements: the heaviest counts.
+    pub(super) fn of_states<'a>(states: impl IntoIterator<Item = &'a RequirementState>) -> Self {
+        let of = |state: &RequirementState| match state {
+            RequirementState::Met => Self::Success,
+            RequirementState::Violated => Self::Violated,
+            RequirementState::NotEvaluated(_) => Self::NotEvaluated,
+        };
+        states.into_iter().map(of).max().unwrap_or(Self::Success)
     }
 
     /// The code: that of `sysexits.h` for usage.

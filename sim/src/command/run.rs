@@ -4,6 +4,7 @@
 //! their name when they are complete. The report is written last.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::io::{BufRead as _, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,7 @@ use super::{Files, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
 use crate::record::partial::Partial;
-use crate::record::{Csv, Many, Npz, Recorder, Verdict};
+use crate::record::{Csv, Many, Npz, Recorder};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
 
@@ -30,8 +31,10 @@ Examples:
   precess run scenarios/*.toml --out results --set run.duration='2 s'
       two seconds of each
 
-The exit code is 0 where every run was complete and met its requirements, 2 where one did not, 1 on an
-error. Ctrl-C ends a run early: what was computed is complete, and says so; a second one ends at once.";
+Where the scenario has crossings, their times are printed, and written to NAME-events.csv.
+
+The exit code is 0 where every run was complete and met its requirements, 2 where one did not, 3 where one
+could not be evaluated and none is violated, 1 on an error. Ctrl-C ends a run early: what was computed is complete, and says so; a second one ends at once.";
 
 /// The options of `run`.
 #[derive(Debug, Args)]
@@ -61,14 +64,14 @@ impl Run {
         std::fs::create_dir_all(&self.out)
             .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
         watch_interrupts();
-        let mut met = true;
+        let mut exit = Exit::Success;
         for (scenario, reports) in &scenarios {
-            met &= self.run(scenario, reports)?;
+            exit = exit.max(self.run(scenario, reports)?);
             if INTERRUPTS.load(Ordering::Relaxed) > 0 {
                 break;
             }
         }
-        Ok(Exit::of_met(met))
+        Ok(exit)
     }
 
     /// The files of a scenario.
@@ -79,14 +82,17 @@ impl Run {
             .iter()
             .map(|format| format!("{}.{}", scenario.name, extension(*format)))
             .collect();
+        if !scenario.crossings.is_empty() {
+            names.push(format!("{}-events.csv", scenario.name));
+        }
         if !self.no_report {
             names.push(format!("{}.html", scenario.name));
         }
         names
     }
 
-    /// Runs one; whether it was complete and met its requirements.
-    fn run(&self, scenario: &Scenario, reports: &Diagnostics) -> Result<bool, CommandError> {
+    /// Runs one; how it ended, and what became of its requirements.
+    fn run(&self, scenario: &Scenario, reports: &Diagnostics) -> Result<Exit, CommandError> {
         let mut files = Vec::new();
         for format in &scenario.output.formats {
             let path = self.out.join(format!("{}.{}", scenario.name, extension(*format)));
@@ -108,6 +114,10 @@ impl Run {
             report.warn(advice.to_string());
             warnings.push(advice.to_string());
         }
+        if !scenario.crossings.is_empty() {
+            let path = self.out.join(format!("{}-events.csv", scenario.name));
+            write_whole(&path, &events_csv(&outcome))?;
+        }
         if !self.no_report {
             let path = self.out.join(format!("{}.html", scenario.name));
             let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
@@ -122,8 +132,22 @@ impl Run {
         for warning in &warnings {
             eprintln!("warning: {warning}");
         }
-        Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
+        let of_run = if outcome.end.is_complete() { Exit::Success } else { Exit::Violated };
+        let of_requirements = Exit::of_states(report.verdicts().iter().map(|of| &of.state));
+        Ok(of_run.max(of_requirements))
     }
+}
+
+/// Crossings, stops and changes: a row for each, with its time, s, in the digits that read back the same.
+fn events_csv(outcome: &Outcome) -> String {
+    let mut text = String::from("time_s,event\n");
+    let mut digits = zmij::Buffer::new();
+    for event in &outcome.events {
+        text.push_str(digits.format(event.time));
+        // RFC 4180: quotation marks are doubled.
+        let _ = writeln!(text, ",\"{}\"", event.text.replace('"', "\"\""));
+    }
+    text
 }
 
 /// Reads all files, or reports what is wrong with all of them.

@@ -14,6 +14,7 @@ mod error;
 mod histories;
 mod load_columns;
 mod many;
+pub mod no_data;
 pub mod npz;
 #[cfg(feature = "parquet")]
 pub mod parquet;

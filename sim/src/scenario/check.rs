@@ -45,9 +45,10 @@ impl Statistic {
         }
     }
 
-    /// The key of a file with what [`Self::check`] rejects.
-    fn key(&self) -> &'static str {
+    /// The key of a file that says what it is of: what [`Self::check`] rejects, or what has no data.
+    pub(crate) fn key(&self) -> &'static str {
         match self {
+            Self::BandRms(_) => "band",
             Self::Displacement(_) | Self::Smear(_) | Self::Jitter(_) => "exposure",
             Self::Index { index: Index::Ape, .. } => "level",
             Self::Index { .. } => "window",
@@ -163,6 +164,16 @@ impl Scenario {
                 errors.push(range(
                     &format!("requirement.{}.{key}", requirement.name),
                     format!("the window {from} s to {to} s is not within the run's {duration} s"),
+                ));
+            }
+            let limit = requirement.limit;
+            if !(limit >= 0.0 && limit.is_finite()) {
+                errors.push(range(
+                    &format!("requirement.{}.limit", requirement.name),
+                    format!(
+                        "the limit {} is not 0 or above: what it limits is a magnitude, which is never negative",
+                        requirement.written
+                    ),
                 ));
             }
             if let Err(error) = requirement.statistic.check(rate) {
