@@ -20,11 +20,6 @@ pub(super) enum Exit {
 }
 
 impl Exit {
-    /// Of requirements of a budget that are met or violated.
-    pub(super) fn of_met(met: bool) -> Self {
-        if met { Self::Success } else { Self::Violated }
-    }
-
     /// Of requirements: the heaviest counts.
     pub(super) fn of_states<'a>(states: impl IntoIterator<Item = &'a RequirementState>) -> Self {
         let of = |state: &RequirementState| match state {
