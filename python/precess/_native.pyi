@@ -254,7 +254,9 @@ class NativeResult:
     @property
     def verdicts(
         self,
-    ) -> list[tuple[str, str, float | None, float, tuple[str, float], bool, bool]]: ...
+    ) -> list[
+        tuple[str, str, float | None, float, tuple[str, float], bool, str, str | None]
+    ]: ...
     @property
     def outcome(self) -> _Outcome: ...
     @staticmethod
@@ -287,6 +289,7 @@ class NativeBudget:
             tuple[list[float], int],
             tuple[list[tuple[int, float]], float],
             list[list[float]],
+            tuple[str, str | None],
         ]
     ]: ...
 
@@ -395,7 +398,7 @@ def estimate_percentile(
     sorted: Sequence[float], share: float, level: float
 ) -> tuple[float, float, float] | None: ...
 def estimate_probability(
-    met: int, count: int, level: float
+    met: int, count: int, level: float, unknown: int
 ) -> tuple[float, float, float] | None: ...
 def rank_correlation(x: Sequence[float], y: Sequence[float]) -> float | None: ...
 def xla_functions() -> list[tuple[str, int]]: ...

@@ -81,6 +81,23 @@ class OfRows:
         """The names of the numbers."""
         return tuple(self._rows.units)
 
+    def states(self, requirement: str) -> list[str]:
+        """What became of a requirement in each sample, in their order: ``"met"``, ``"violated"``, ``"not evaluated"`` where the
+        run has no data for it, or ``"failed"`` where there was no run."""
+        if requirement not in self.limits:
+            raise KeyError(f"no requirement `{requirement}`; there are {', '.join(self.limits)}")
+        limit = self.limits[requirement]
+
+        def state(sample: int, number: float) -> str:
+            if sample in self._rows.errors:
+                return "failed"
+            if np.isnan(number):
+                return "not evaluated"
+            return "met" if number <= limit else "violated"
+
+        numbers = self._rows.column(f"requirement {requirement}")
+        return [state(sample, float(number)) for sample, number in enumerate(numbers)]
+
 
 def evaluate(
     scenario: Scenario | StrPath,

@@ -45,6 +45,10 @@ class Limit:
         Shares of the mean square there, largest first; ``noise`` is that of broadband noise.
     keep_out : list of (float, float)
         Speeds at which the limit is violated, rad/s.
+    state : str
+        ``"met"``, ``"violated"`` or ``"not evaluated"``: no line and no noise has a share in the metric at any speed.
+    reason : str or None
+        Why it is not evaluated.
     """
 
     name: str
@@ -57,6 +61,8 @@ class Limit:
     shares: dict[Contributor, float]
     noise: float
     keep_out: list[tuple[float, float]]
+    state: str
+    reason: str | None
 
     @property
     def value(self) -> float:
@@ -65,14 +71,15 @@ class Limit:
 
     @property
     def met(self) -> bool:
-        """Whether it is met at every speed."""
-        return self.value <= self.limit
+        """Whether it is met at every speed: one that is not evaluated is neither met nor violated."""
+        return self.state == "met"
 
     def __repr__(self) -> str:
         unit, size = self.unit
-        verdict = "met" if self.met else "violated"
+        if self.reason is not None:
+            return f"<{self.name!r} of {self.sight}: not evaluated: {self.reason}>"
         return (
-            f"<{self.name!r} of {self.sight}: {self.value / size:.4g} of {self.limit / size:.4g} {unit}, {verdict}>"
+            f"<{self.name!r} of {self.sight}: {self.value / size:.4g} of {self.limit / size:.4g} {unit}, {self.state}>"
         )
 
 
@@ -86,7 +93,7 @@ class Budget:
         self.left_out: list[str] = native.left_out
         self.limits = [self._limit(*facts) for facts in native.requirements]
 
-    def _limit(self, facts: Any, swept: Any, parts: Any, keep_out: Any) -> Limit:
+    def _limit(self, facts: Any, swept: Any, parts: Any, keep_out: Any, verdict: Any) -> Limit:
         name, sight, metric, limit, unit, size = facts
         values, worst = swept
         shares, noise = parts
@@ -94,7 +101,7 @@ class Budget:
         speed = float(self.speeds[worst])
         ranges = [(lower, upper) for lower, upper in keep_out]
         return Limit(
-            name, sight, metric, limit, (unit, size), np.array(values), speed, by, noise, ranges
+            name, sight, metric, limit, (unit, size), np.array(values), speed, by, noise, ranges, *verdict
         )
 
     @property

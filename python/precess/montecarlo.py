@@ -65,12 +65,18 @@ class Samples(OfRows):
         return Estimate(found[0], found[1:])
 
     def probability(self, requirement: str, level: float = 0.95) -> Estimate:
-        """The probability that a requirement is met, by Clopper and Pearson. A sample that failed meets none."""
+        """The probability that a requirement is met, by Clopper and Pearson. A sample that failed meets none.
+
+        Where samples that were run could not evaluate it, the value is NaN, and the interval is from that with none of
+        them meeting it to that with all of them.
+        """
         if requirement not in self.limits:
             raise KeyError(f"no requirement `{requirement}`; there are {', '.join(self.limits)}")
-        met = self[f"requirement {requirement}"] <= self.limits[requirement]
         level = _wanted.share("level", level)
-        found = _native.estimate_probability(int(met.sum()), len(self), level)
+        numbers = self[f"requirement {requirement}"]
+        met = int((numbers <= self.limits[requirement]).sum())
+        unknown = int(np.isnan(numbers).sum()) - len(self.errors)
+        found = _native.estimate_probability(met, len(self), level, unknown)
         if found is None:
             raise ValueError("there are no samples")
         return Estimate(found[0], found[1:])

@@ -44,7 +44,10 @@ class Drift:
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement and what became of it. ``value`` and ``limit`` are SI; ``unit`` is the shown one."""
+    """A requirement and what became of it. ``value`` and ``limit`` are SI; ``unit`` is the shown one.
+
+    ``state`` is ``"met"``, ``"violated"`` or ``"not evaluated"``: nothing was measured, for the ``reason``.
+    """
 
     name: str
     quantity: str
@@ -52,7 +55,13 @@ class Requirement:
     limit: float
     unit: tuple[str, float]
     complete: bool
-    met: bool
+    state: str
+    reason: str | None
+
+    @property
+    def met(self) -> bool:
+        """Whether it is met: one that is not evaluated is neither met nor violated."""
+        return self.state == "met"
 
 
 class Result:

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use precess::campaign::{
-    Axis, Plan, Selection, central_differences, draw, keep_out as bands, percentile, probability,
-    run_reduced, spearman, tangents,
+    Axis, Plan, Selection, central_differences, draw, keep_out as bands, percentile,
+    probability_between, run_reduced, spearman, tangents,
 };
 use precess::engine::SIDE_BY_SIDE;
 use precess::file::{Template, variations_from_toml};
@@ -128,14 +128,16 @@ pub(crate) fn estimate_percentile(
     percentile(&sorted, share, level).map(|of| (of.value, of.interval[0], of.interval[1]))
 }
 
-/// A probability by `met` of `count` trials, and its interval.
+/// A probability by `met` of `count` trials, and its interval; NaN where it is not known of `unknown` trials whether they are.
 #[pyfunction]
 pub(crate) fn estimate_probability(
     met: usize,
     count: usize,
     level: f64,
+    unknown: usize,
 ) -> Option<(f64, f64, f64)> {
-    probability(met, count, level).map(|of| (of.value, of.interval[0], of.interval[1]))
+    let successes = [met, met.saturating_add(unknown)];
+    probability_between(successes, count, level).map(|of| (of.value, of.interval[0], of.interval[1]))
 }
 
 /// Rank correlation by Spearman.

@@ -24,12 +24,13 @@ pub(crate) struct NativeBudget {
 }
 
 /// Name, line of sight, metric, limit, unit and its size; the metric at each speed, the number of the worst one; shares
-/// of contributors there, the share of noise; speeds to keep out of.
+/// of contributors there, the share of noise; speeds to keep out of; state, and why it is not evaluated.
 type Facts = (
     (String, String, String, f64, String, f64),
     (Vec<f64>, usize),
     (Vec<(usize, f64)>, f64),
     Vec<[f64; 2]>,
+    (&'static str, Option<String>),
 );
 
 #[pymethods]
@@ -69,6 +70,7 @@ impl NativeBudget {
                 (of.values.clone(), of.worst),
                 (of.shares.clone(), of.noise),
                 of.keep_out.clone(),
+                (of.state().word(), of.state().reason().map(ToString::to_string)),
             )
         };
         self.assessed.iter().map(facts).collect()

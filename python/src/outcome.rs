@@ -11,8 +11,10 @@ use pyo3::prelude::*;
 use crate::errors;
 use crate::scenario::{ColumnFacts, NativeScenario, facts};
 
-/// Name, quantity, value, limit (SI), unit with its size in SI, whether the whole window was run, met.
-type VerdictFacts = (String, String, Option<f64>, f64, (String, f64), bool, bool);
+/// Name, quantity, value, limit (SI), unit with its size in SI, whether the whole window was run, state, why it is not
+/// evaluated.
+type VerdictFacts =
+    (String, String, Option<f64>, f64, (String, f64), bool, &'static str, Option<String>);
 
 /// Why a run ended: what it was; the name of its joint or crossing, or the message of its error; the bound, or
 /// the time of the error, s; whether the joint slides.
@@ -93,8 +95,9 @@ impl NativeResult {
     #[getter]
     fn verdicts(&self) -> Vec<VerdictFacts> {
         let facts = |of: &Verdict| {
-            let Verdict { name, quantity, value, limit, unit, complete } = of.clone();
-            (name, quantity, value, limit, unit, complete, of.is_met())
+            let Verdict { name, quantity, value, limit, unit, complete, state } = of.clone();
+            let reason = state.reason().map(ToString::to_string);
+            (name, quantity, value, limit, unit, complete, state.word(), reason)
         };
         self.verdicts.iter().map(facts).collect()
     }

@@ -69,6 +69,8 @@ def test_rms_over_frequency_adds_up() -> None:
     np.testing.assert_allclose(found.cumulative_rms()[-1], whole, rtol=ROUNDING)
     np.testing.assert_allclose(found.cumulative_rms(backward=True)[0], whole, rtol=ROUNDING)
     np.testing.assert_allclose(found.band_rms(0.0, RATE / 2), whole, rtol=ROUNDING)
+    parts = np.hypot(found.band_rms(0.0, 0.123 * RATE), found.band_rms(0.123 * RATE, RATE / 2))
+    np.testing.assert_allclose(parts, whole, rtol=ROUNDING)
     low, high = found.interval(10)
     assert low < found.density[10] < high
 

@@ -57,6 +57,29 @@ def test_samples_that_fail_have_their_reason_and_are_kept_out(scenario: precess.
     assert found.keep_out("omega rms", limit) == [(-1.0, 350.0)]
     with pytest.raises(KeyError, match="omega rms"):
         found["omega"]
+    assert found.states("slow")[0] == "failed" and "failed" not in found.states("slow")[1:]
+
+
+def test_a_requirement_without_data_is_neither_met_nor_violated(wheels: str) -> None:
+    empty = """
+[[requirement]]
+name = "empty"
+quantity = "omega"
+statistic = "smear"
+exposure = "1000 s"
+limit = "1 rad/s"
+"""
+    scenario = precess.Scenario.from_text(wheels + REQUIREMENT + empty)
+    slow, nothing = scenario.run().requirements
+    assert slow.state in ("met", "violated") and slow.reason is None
+    assert slow.met == (slow.state == "met")
+    assert nothing.state == "not evaluated" and not nothing.met and nothing.value is None
+    assert nothing.reason is not None and "needs 1e3 s" in nothing.reason
+    found = sweep.run(scenario, {"hub.mass": "300, 350 kg"})
+    assert found.states("empty") == ["not evaluated"] * 2
+    drawn = montecarlo.run(scenario, VARY, samples=3)
+    unknown = drawn.probability("empty")
+    assert np.isnan(unknown.value) and unknown.interval == (0.0, 1.0)
 
 
 def test_samples_side_by_side_have_the_bits_of_each_by_itself(scenario: precess.Scenario) -> None:

@@ -38,7 +38,7 @@ def report(
     }
     lines = [f"# {title}", "", f"{len(states)} samples of {', '.join(plan.labels)}.", ""]
     lines += _percentiles(shown, columns)
-    lines += _requirements(limits, columns, len(states))
+    lines += _requirements(limits, columns, len(states), len(failed))
     lines += _correlations(plan, shown, columns, file)
     lines += _failures(failed)
     return "\n".join(lines)
@@ -62,21 +62,31 @@ def _percentiles(shown: Sequence[tuple[str, str]], columns: dict[str, np.ndarray
 
 
 def _requirements(
-    limits: Sequence[tuple[str, float]], columns: dict[str, np.ndarray], count: int
+    limits: Sequence[tuple[str, float]], columns: dict[str, np.ndarray], count: int, failed: int
 ) -> list[str]:
     if not limits:
         return []
-    heads = ["requirement", "limit, SI", "met by", "probability"]
+    heads = ["requirement", "limit, SI", "met by", "not evaluated by", "probability"]
     lines = ["## Requirements", "", _row(heads), _row(["---"] * len(heads))]
     for name, limit in limits:
         values = columns.get(f"requirement {name}")
         if values is None:
             continue
         met = int(np.count_nonzero(values <= limit))
-        found = _native.estimate_probability(met, count, _LEVEL)
-        share = "none" if found is None else _interval(*found)
-        lines.append(_row([name, _six(limit), f"{met} of {count}", share]))
-    return [*lines, "", "A sample that failed meets none.", ""]
+        unknown = int(np.count_nonzero(np.isnan(values))) - failed
+        found = _native.estimate_probability(met, count, _LEVEL, unknown)
+        if found is None:
+            share = "none"
+        elif unknown:
+            share = f"{_six(found[1])} to {_six(found[2])}"
+        else:
+            share = _interval(*found)
+        lines.append(_row([name, _six(limit), f"{met} of {count}", str(unknown), share]))
+    note = (
+        "A sample that failed meets none. Of samples that could not evaluate a requirement it is not known whether they "
+        "meet it: the interval is from that with none of them to that with all."
+    )
+    return [*lines, "", note, ""]
 
 
 def _correlations(

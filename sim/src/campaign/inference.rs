@@ -66,6 +66,16 @@ fn at_least(n: usize, k: usize, probability: f64) -> f64 {
     Beta::new(float(k), float(n - k + 1)).map_or(f64::NAN, |beta| beta.cdf(probability))
 }
 
+/// A probability by n trials of which the success of some is unknown, with the least and the most successes that there may be:
+/// the interval is from the lower end with none of the unknown ones to the upper end with all of them, and the value is NaN where
+/// there are some. None without trials.
+#[must_use]
+pub fn probability_between([least, most]: [usize; 2], n: usize, level: f64) -> Option<Estimate> {
+    let (low, high) = (probability(least, n, level)?, probability(most, n, level)?);
+    let value = if least == most { low.value } else { f64::NAN };
+    Some(Estimate { value, interval: [low.interval[0], high.interval[1]] })
+}
+
 /// A probability by `k` successes of `n` trials, with the interval of Clopper and Pearson (Biometrika 26, 1934): ends at which
 /// one tail of the binomial distribution is `(1 - level) / 2`. None without trials, and of a level that is not between zero and one.
 #[must_use]
@@ -160,6 +170,16 @@ mod tests {
         assert!((tail(found.interval[0], k..=n) - 0.025).abs() < BETA);
         assert!((tail(found.interval[1], 0..=k) - 0.025).abs() < BETA);
         assert_eq!(probability(0, 0, 0.95), None);
+    }
+
+    #[test]
+    fn what_is_unknown_widens_the_interval_of_a_probability() {
+        let known = |k| probability(k, 50, 0.95).expect("trials");
+        let same = probability_between([7, 7], 50, 0.95).expect("trials");
+        assert_eq!(same, known(7));
+        let found = probability_between([7, 12], 50, 0.95).expect("trials");
+        assert_eq!(found.interval, [known(7).interval[0], known(12).interval[1]]);
+        assert!(found.value.is_nan());
     }
 
     #[test]

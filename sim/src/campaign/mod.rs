@@ -40,7 +40,7 @@ pub use distribution::{Distribution, Variation};
 pub use draw::draw;
 pub use engine::{Execution, Finished, Row, execute, run_reduced};
 pub use error::CampaignError;
-pub use inference::{Estimate, percentile, probability, spearman};
+pub use inference::{Estimate, percentile, probability, probability_between, spearman};
 pub use journal::Journal;
 pub use keep_out::keep_out;
 pub use plan::{Plan, Sample, digits};

@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use crate::pointing::RequirementState;
+
 /// The code of a program that a second Ctrl-C ended.
 pub(super) const INTERRUPTED: u8 = 130;
 /// The code of a program that a second SIGTERM ended.
@@ -24,7 +26,6 @@ pub(super) enum Exit {
     /// Complete; every requirement that there is was evaluated and is met.
     Success,
     /// A requirement could not be evaluated: nothing was measured. None is violated.
-    #[expect(dead_code, reason = "requirements without data are told apart in the next change")]
     NotEvaluated,
     /// A requirement is violated, results differ, a fitted model does not hold, or a run ended before its time.
     Violated,
@@ -35,9 +36,14 @@ pub(super) enum Exit {
 }
 
 impl Exit {
-    /// Of requirements that are met or violated.
-    pub(super) fn of_met(met: bool) -> Self {
-        if met { Self::Success } else { Self::Violated }
+    /// Of requirements: the heaviest counts.
+    pub(super) fn of_states<'a>(states: impl IntoIterator<Item = &'a RequirementState>) -> Self {
+        let of = |state: &RequirementState| match state {
+            RequirementState::Met => Self::Success,
+            RequirementState::Violated => Self::Violated,
+            RequirementState::NotEvaluated(_) => Self::NotEvaluated,
+        };
+        states.into_iter().map(of).max().unwrap_or(Self::Success)
     }
 
     /// The code: that of `sysexits.h` for usage.

@@ -22,6 +22,7 @@ use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
 use crate::names::column_heads;
+use crate::pointing::RequirementState;
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -33,6 +34,10 @@ Examples:
       keys of the budget have the prefix budget., others are of the scenario
   precess jitter budget.toml --compare '3000 rpm' --compare '4200 rpm'
       beside it, runs of the coupled equations at two speeds";
+
+/// Why there is no run of the coupled equations beside a budget.
+const NOT_COMPARED: &str =
+    "runs of the coupled equations are without sources, and no rotor is out of balance";
 
 /// A line this near to a natural frequency, of its damping ratio, is at resonance.
 const RESONANCE: f64 = 20.0;
@@ -90,6 +95,7 @@ struct Found {
     branches: Vec<Branch>,
     crossings: Vec<Crossing>,
     compared: Vec<(Compared, bool)>,
+    has_imbalance: bool,
     /// Of each requirement.
     sensitivities: Vec<Vec<Sensitivity>>,
 }
@@ -114,6 +120,9 @@ impl Jitter {
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         warnings.extend(prepared.left_out.iter().cloned());
         warnings.extend(self.compared_outside(&budget));
+        if !prepared.has_imbalance && !self.compare.is_empty() {
+            warnings.push(format!("--compare: {NOT_COMPARED}"));
+        }
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
@@ -133,6 +142,7 @@ impl Jitter {
             branches: &found.branches,
             crossings: &found.crossings,
             compared: &found.compared,
+            has_imbalance: found.has_imbalance,
             sensitivities: &found.sensitivities,
             warnings: &warnings,
         };
@@ -149,8 +159,8 @@ impl Jitter {
         print(&summary(&budget, &found))?;
         let folder = self.out.display();
         print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;
-        let met = found.assessed.iter().all(|of| of.margin.is_met());
-        Ok(Exit::of_met(met))
+        let states: Vec<RequirementState> = found.assessed.iter().map(Assessed::state).collect();
+        Ok(Exit::of_states(&states))
     }
 
     /// Speeds of `--compare` that are not among those of the budget.
@@ -177,8 +187,8 @@ impl Jitter {
         let other = |error: &dyn std::fmt::Display| {
             CommandError::Other(format!("{}: {error}", scenario.name))
         };
-        let Prepared { model, campbell_speeds, branches, crossings, speeds, .. } = prepared;
-        let has_tones = !model.contributors().is_empty();
+        let Prepared { model, has_imbalance, campbell_speeds, branches, crossings, speeds, .. } =
+            prepared;
         let threads = self.threads.count();
         let bar = Mutex::new(progress_bar(parts(&model, &speeds), "speeds"));
         let show = |done: usize| {
@@ -191,9 +201,11 @@ impl Jitter {
             bar.finish_and_clear();
         }
         let assessed = budget.assess(&found).map_err(|error| other(&error))?;
-        let mut at: Vec<f64> = self.compare.clone();
-        if at.is_empty() && !self.no_compare && has_tones {
-            at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();
+        // The runs are without sources: without imbalance nothing moves in them.
+        let mut at: Vec<f64> = if has_imbalance { self.compare.clone() } else { Vec::new() };
+        if at.is_empty() && !self.no_compare && has_imbalance {
+            let evaluated = assessed.iter().filter(|of| of.no_data.is_none());
+            at = evaluated.filter_map(|of| found.speeds.get(of.worst).copied()).collect();
             at.sort_by(f64::total_cmp);
             at.dedup();
         }
@@ -229,6 +241,7 @@ impl Jitter {
             branches,
             crossings,
             compared,
+            has_imbalance,
         })
     }
 }
@@ -244,10 +257,18 @@ fn summary(budget: &Budget, found: &Found) -> String {
         let (unit, size) = &of.limit.unit;
         rows.push(vec![
             format!("{} ({})", of.limit.name, metric(&of.limit.metric)),
-            if of.margin.is_met() { "met" } else { "violated" }.to_owned(),
+            of.state().word().to_owned(),
+        ]);
+        let Some(row) = rows.last_mut() else { continue };
+        if of.no_data.is_some() {
+            row.extend([String::new(), format!("{} {unit}", six(of.limit.limit / size))]);
+            row.extend(["", "", ""].map(str::to_owned));
+            continue;
+        }
+        row.extend([
             format!("{} {unit}", six(of.margin.value / size)),
             format!("{} {unit}", six(of.limit.limit / size)),
-            format!("{:.1}", 20.0 * of.margin.ratio().log10()),
+            format!("{:.1}", of.margin.decibels()),
             found.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
             intervals(&of.keep_out),
         ]);
@@ -259,16 +280,21 @@ fn summary(budget: &Budget, found: &Found) -> String {
         text.push_str(&aligned(&rows));
     }
     for of in &found.assessed {
+        if let Some(reason) = &of.no_data {
+            let _ = writeln!(text, "{}: not evaluated: {reason}", of.limit.name);
+        }
+    }
+    for of in found.assessed.iter().filter(|of| of.no_data.is_none()) {
         let (unit, size) = &of.limit.unit;
         for other in of.by_phases.iter().skip(1) {
             let _ = writeln!(
                 text,
                 "{}: {} with {}, {} {unit}, margin {:.1} dB",
                 of.limit.name,
-                if other.margin.is_met() { "met" } else { "violated" },
+                of.state_of(&other.margin).word(),
                 other.phases.words(),
                 six(other.margin.value / size),
-                20.0 * other.margin.ratio().log10()
+                other.margin.decibels()
             );
         }
     }
@@ -300,13 +326,16 @@ fn summary(budget: &Budget, found: &Found) -> String {
         let difference = of.difference();
         let _ = writeln!(
             text,
-            "coupled run at {}: amplitudes differ by {} % at most, {} {} % {}",
+            "coupled run at {}: amplitudes differ by {} % of the magnitudes of their tones at most, {} {} % {}",
             rpm(of.speed),
             six(100.0 * difference),
             if difference <= bound { "within" } else { "above" },
             100.0 * bound,
             if *resonant { "at resonance" } else { "off resonance" }
         );
+    }
+    if !found.has_imbalance {
+        let _ = writeln!(text, "no coupled run: {NOT_COMPARED}");
     }
     text
 }

@@ -4,6 +4,7 @@
 //! their name when they are complete. The report is written last.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,7 +23,7 @@ use super::{Files, note, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
 use crate::record::partial::Reservation;
-use crate::record::{Csv, Many, Npz, Recorder, Verdict};
+use crate::record::{Csv, Many, Npz, Recorder};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
 
@@ -32,6 +33,8 @@ Examples:
       results and a report into the folder precess-out
   precess run scenarios/*.toml --out results --set run.duration='2 s'
       two seconds of each
+
+Where the scenario has crossings, their times are printed, and written to NAME-events.csv.
 
 Ctrl-C or SIGTERM ends a run early: what was computed is complete, and says so; a second one ends at once.";
 
@@ -66,33 +69,37 @@ impl Run {
             scenarios.iter().flat_map(|(scenario, _)| self.names(scenario)).collect();
         let mut outputs = Outputs::reserve(&self.out, &names, self.force)?;
         watch_interrupts();
-        let mut met = true;
+        let mut exit = Exit::Success;
         for (scenario, reports) in &scenarios {
             let done = self.run(scenario, reports, &mut outputs);
-            met &= done.map_err(|error| error.leaving(outputs.left(&self.names(scenario))))?;
+            let left = || outputs.left(&self.names(scenario));
+            exit = exit.max(done.map_err(|error| error.leaving(left()))?);
             if INTERRUPTS.load(Ordering::Relaxed) > 0 {
                 break;
             }
         }
-        Ok(Exit::of_met(met))
+        Ok(exit)
     }
 
     /// The files of a scenario.
     fn names(&self, scenario: &Scenario) -> Vec<String> {
         let mut names: Vec<_> = results(scenario).collect();
+        if !scenario.crossings.is_empty() {
+            names.push(events_name(scenario));
+        }
         if !self.no_report {
             names.push(format!("{}.html", scenario.name));
         }
         names
     }
 
-    /// Runs one; whether it was complete and met its requirements.
+    /// Runs one; how it ended, and what became of its requirements.
     fn run(
         &self,
         scenario: &Scenario,
         reports: &Diagnostics,
         outputs: &mut Outputs,
-    ) -> Result<bool, CommandError> {
+    ) -> Result<Exit, CommandError> {
         let mut files = Vec::new();
         for format in &scenario.output.formats {
             let name = format!("{}.{}", scenario.name, extension(*format));
@@ -116,13 +123,17 @@ impl Run {
             report.warn(advice.to_string());
             warnings.push(advice.to_string());
         }
+        let mut texts = Vec::new();
+        if !scenario.crossings.is_empty() {
+            texts.push((events_name(scenario), events_csv(&outcome)));
+        }
         if !self.no_report {
             let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
-            let page = [(format!("{}.html", scenario.name), page)];
-            // The results are complete, and stay.
-            let results = || results(scenario).map(|name| self.out.join(name)).collect();
-            outputs.write(&page).map_err(|error| error.leaving(results()))?;
+            texts.push((format!("{}.html", scenario.name), page));
         }
+        // The results are complete, and stay.
+        let results = || results(scenario).map(|name| self.out.join(name)).collect();
+        outputs.write(&texts).map_err(|error| error.leaving(results()))?;
         let files: Vec<_> = self
             .names(scenario)
             .iter()
@@ -132,7 +143,9 @@ impl Run {
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
-        Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
+        let of_run = if outcome.end.is_complete() { Exit::Success } else { Exit::Violated };
+        let of_requirements = Exit::of_states(report.verdicts().iter().map(|of| &of.state));
+        Ok(of_run.max(of_requirements))
     }
 }
 
@@ -140,6 +153,23 @@ impl Run {
 fn results(scenario: &Scenario) -> impl Iterator<Item = String> {
     let formats = scenario.output.formats.iter();
     formats.map(|format| format!("{}.{}", scenario.name, extension(*format)))
+}
+
+/// The name of the file with the times of crossings.
+fn events_name(scenario: &Scenario) -> String {
+    format!("{}-events.csv", scenario.name)
+}
+
+/// Crossings, stops and changes: a row for each, with its time, s, in the digits that read back the same.
+fn events_csv(outcome: &Outcome) -> String {
+    let mut text = String::from("time_s,event\n");
+    let mut digits = zmij::Buffer::new();
+    for event in &outcome.events {
+        text.push_str(digits.format(event.time));
+        // RFC 4180: quotation marks are doubled.
+        let _ = writeln!(text, ",\"{}\"", event.text.replace('"', "\"\""));
+    }
+    text
 }
 
 /// Reads all files, or reports what is wrong with all of them.

@@ -147,7 +147,9 @@ impl Convert {
         let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
         print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()))?;
         if !structure.initial.is_empty() {
-            print("modal coordinates and rates at the start are not in it: write them in the scenario\n")?;
+            print(
+                "modal coordinates and rates at the start are not in it: write them in the scenario\n",
+            )?;
         }
         Ok(Exit::Success)
     }

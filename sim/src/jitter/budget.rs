@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 use super::keep_out::keep_out;
 use super::model::Output;
 use super::sweep::{Phases, Sweep};
-use crate::pointing::{ExposureWeights, Limit, LineOfSight, Margin, Metric, PointingError};
+use super::weight::Weight;
+use crate::pointing::{Limit, LineOfSight, Margin, NoData, PointingError, RequirementState};
 use crate::structure::dynamic_mass::Motor;
 
 /// A smaller share of a mean square is left out.
@@ -57,6 +58,8 @@ pub struct Assessed {
     pub worst: usize,
     /// The margin there.
     pub margin: Margin,
+    /// Why it could not be evaluated: no line and no noise has a share in the metric at any speed.
+    pub no_data: Option<NoData>,
     /// The same by each assumption about phases: that of the budget, and the other ones.
     pub by_phases: Vec<ByPhases>,
     /// Contributors and their shares of the mean square there, largest first.
@@ -76,6 +79,21 @@ pub struct ByPhases {
     pub worst: usize,
     /// The margin there.
     pub margin: Margin,
+}
+
+impl Assessed {
+    /// What became of the limit, by the budget's assumption about phases.
+    #[must_use]
+    pub fn state(&self) -> RequirementState {
+        self.state_of(&self.margin)
+    }
+
+    /// The same by a margin of another assumption.
+    #[must_use]
+    pub fn state_of(&self, margin: &Margin) -> RequirementState {
+        let by_margin = || RequirementState::from_margin(margin);
+        self.no_data.map_or_else(by_margin, RequirementState::NotEvaluated)
+    }
 }
 
 impl Budget {
@@ -120,10 +138,14 @@ impl Budget {
             .iter()
             .map(|(sight, limit)| {
                 let outputs = outputs_of(*sight);
-                let weight = weight_of(&limit.metric)?;
+                let weight = Weight::of_metric(&limit.metric)?;
+                let noise = sweep.noise.squares(&outputs, &weight);
                 let over_speed = |phases| -> Vec<f64> {
-                    let square = |speed| sweep.mean_square(speed, &outputs, phases, &weight);
-                    (0..sweep.speeds.len()).map(|k| square(k).sqrt()).collect()
+                    let value = |(k, speed): (usize, &f64)| {
+                        let of_lines = sweep.line_square(k, &outputs, phases, &weight);
+                        (of_lines + noise.at(*speed)).sqrt()
+                    };
+                    sweep.speeds.iter().enumerate().map(value).collect()
                 };
                 let largest = |phases, values: &[f64]| {
                     let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -150,6 +172,7 @@ impl Budget {
                     limit: limit.clone(),
                     keep_out: keep_out(&sweep.speeds, &values, limit.limit, 2.0 * step),
                     margin: stated.margin,
+                    no_data: weight.no_data().filter(|_| !sweep.has_share(&weight)),
                     by_phases,
                     values,
                     worst,
@@ -173,28 +196,4 @@ pub fn outputs_of(sight: usize) -> [usize; 2] {
 /// None of these axes has any; those of [`LineOfSight::rigid`].
 pub fn along_z(node: &str) -> Result<LineOfSight, PointingError> {
     LineOfSight::rigid(node, &Vector3::z(), &Vector3::x())
-}
-
-/// The share of a line's mean square in a metric, by its angular frequency, rad/s.
-///
-/// # Errors
-/// [`PointingError`] for an index, which is of a history or a density.
-pub fn weight_of(metric: &Metric) -> Result<Box<dyn Fn(f64) -> f64>, PointingError> {
-    let hertz = |frequency: f64| frequency / std::f64::consts::TAU;
-    let exposed =
-        move |exposure: f64, of: fn(&ExposureWeights) -> f64| -> Box<dyn Fn(f64) -> f64> {
-            Box::new(move |frequency| of(&ExposureWeights::new(hertz(frequency), exposure)))
-        };
-    Ok(match *metric {
-        Metric::Rms => Box::new(|_| 1.0),
-        Metric::BandRms([from, to]) => {
-            Box::new(move |w| if (from..=to).contains(&hertz(w)) { 1.0 } else { 0.0 })
-        }
-        Metric::Displacement(exposure) => exposed(exposure, |weights| weights.displacement),
-        Metric::Smear(exposure) => exposed(exposure, |weights| weights.smear),
-        Metric::Jitter(exposure) => exposed(exposure, |weights| weights.jitter),
-        Metric::Index { .. } => {
-            return Err(PointingError::Interpretation { of: "an index of lines" });
-        }
-    })
 }

@@ -67,7 +67,7 @@ impl std::fmt::Display for CoupledError {
                 write!(f, "the coupled run ended after {time} s of {of} s; see `precess run`")
             }
             Self::NoTones => f.write_str(
-                "no rotor has a tone: give a wheel an imbalance and a rate in the scenario",
+                "no rotor has a tone: give a wheel an imbalance and a rate in the scenario, or a `[[source]]`",
             ),
         }
     }
@@ -90,19 +90,25 @@ pub struct Compared {
     pub window: f64,
     /// Frequency, rad/s, and amplitudes of each output: predicted, found.
     pub lines: Vec<(f64, Vec<[Complex<f64>; 2]>)>,
+    /// Of each frequency what does not cancel, of the output of which it is largest: the magnitudes of its tones, added up,
+    /// or a thousandth of the magnitudes of all terms of the amplitude where that is more.
+    pub magnitudes: Vec<f64>,
 }
 
 impl Compared {
-    /// The largest difference of an amplitude over the largest amplitude of its frequency; zero where nothing moves.
+    /// The largest difference of an amplitude, in units of [`Self::magnitudes`]; of a frequency at which there are none,
+    /// in those of the largest of all frequencies. Zero where nothing moves.
     #[must_use]
     pub fn difference(&self) -> f64 {
-        let of = |(_, values): &(f64, Vec<[Complex<f64>; 2]>)| {
-            let largest = values.iter().map(|[_, found]| found.norm()).fold(0.0, f64::max);
+        let largest = self.magnitudes.iter().copied().fold(0.0, f64::max);
+        let of = |(values, unit): (&Vec<[Complex<f64>; 2]>, &f64)| {
             let apart = values.iter().map(|[expected, found]| (found - expected).norm());
             let apart = apart.fold(0.0, f64::max);
-            if largest > 0.0 { apart / largest } else { apart }
+            let unit = if *unit > 0.0 { *unit } else { largest };
+            if unit > 0.0 { apart / unit } else { apart }
         };
-        self.lines.iter().map(of).fold(0.0, f64::max)
+        let values = self.lines.iter().map(|(_, values)| values);
+        values.zip(&self.magnitudes).map(of).fold(0.0, f64::max)
     }
 }
 
@@ -147,6 +153,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
         let same = lines.iter().filter(|line| line.frequency.to_bits() == frequency.to_bits());
         same.filter_map(|line| line.values.get(output)).sum()
     };
+    let magnitudes = model.magnitudes(speed, &lines, &frequencies)?;
     let found = samples.amplitudes(&frequencies, &nodes, budget);
     let outputs = 2 * budget.sights.len();
     let lines = frequencies.iter().zip(found).map(|(frequency, found)| {
@@ -154,7 +161,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
             .map(|k| [expected(*frequency, k), found.get(k).copied().unwrap_or_default()]);
         (*frequency, values.collect())
     });
-    Ok(Compared { speed, window, lines: lines.collect() })
+    Ok(Compared { speed, window, lines: lines.collect(), magnitudes })
 }
 
 /// Rotors at their rates by motors that keep or balance them; all other joints free on their springs, or held. No gravity,

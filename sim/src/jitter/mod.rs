@@ -22,6 +22,7 @@
 //! | structure, devices and lines of sight at one speed | [`model`] |
 //! | sources of the scenario: harmonics and noise | [`sources`], [`noise`] |
 //! | the model for a budget, and the speeds of its sweep | [`prepared`] |
+//! | the share of a line in a metric | [`weight`] |
 //! | many speeds, on threads | [`sweep`] |
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
@@ -34,7 +35,9 @@ pub mod budget;
 pub mod campbell;
 pub mod coupled;
 pub mod device;
+mod intervals;
 pub mod keep_out;
+mod magnitudes;
 pub mod model;
 pub mod noise;
 pub mod prepared;
@@ -43,3 +46,4 @@ pub mod simplified;
 pub mod sources;
 pub mod sweep;
 mod transfer;
+pub mod weight;

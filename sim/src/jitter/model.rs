@@ -41,7 +41,7 @@ pub struct Model {
     pub noises: Vec<MountNoise>,
     accelerance: Accelerance,
     /// A row for each output, six columns for each of its nodes.
-    rows: DMatrix<f64>,
+    pub(super) rows: DMatrix<f64>,
     /// The accelerance of mounts, and below it of the outputs.
     to_outputs: Accelerance,
 }

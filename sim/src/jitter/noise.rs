@@ -1,30 +1,26 @@
-//! [`NoiseSweep`]: densities of lines of sight by broadband noise, at some speeds.
-//!
-//! Frequencies are close where a natural frequency is: the density of a mode of damping ratio zeta is as wide as
-//! `2 zeta` of its frequency. Between frequencies the density is a straight line, and between speeds the mean square.
+//! [`NoiseSweep`]: densities of lines of sight by broadband noise, at some speeds, and their integrals over frequency
+//! ([`intervals`](super::intervals)). Between speeds the mean square is a straight line of logarithms.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::campbell::{Oscillation, oscillations};
+use super::campbell::oscillations;
+use super::intervals::{Density, NODES, intervals, nodes};
 use super::model::Model;
 use super::sources::MountNoise;
 use super::transfer::Transfer;
+use super::weight::Weight;
 use crate::structure::{COORDINATES, Fault};
-
-/// Frequencies of a decade.
-const PER_DECADE: f64 = 80.0;
-/// Frequencies on each side of a natural frequency: the first distance in half-widths, the ratio of neighbours, their
-/// number.
-const BESIDE: (f64, f64, i32) = (0.2, 1.2, 32);
 
 /// Densities at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Densities {
     /// Speed, rad/s.
     pub speed: f64,
-    /// Frequencies, Hz, rising.
+    /// Intervals of frequency, Hz, rising, within the bands of the noises.
+    pub intervals: Vec<[f64; 2]>,
+    /// Frequencies, Hz, rising: five in each interval.
     pub frequencies: Vec<f64>,
     /// One-sided density of each output at each frequency.
     pub values: Vec<Vec<f64>>,
@@ -35,6 +31,13 @@ pub struct Densities {
 pub struct NoiseSweep {
     /// By rising speed; empty without noise.
     pub speeds: Vec<Densities>,
+}
+
+/// Mean squares by noise over the speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoiseSquares {
+    /// Speed, rad/s, and mean square, by rising speed; empty without noise.
+    points: Vec<[f64; 2]>,
 }
 
 impl Model {
@@ -120,21 +123,51 @@ impl NoiseSweep {
         self.speeds.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))
     }
 
-    /// Mean square of some outputs at a speed, each frequency weighted (angular frequency, rad/s).
+    /// Mean square of some outputs at a speed, weighted.
     #[must_use]
-    pub fn mean_square(&self, speed: f64, outputs: &[usize], weight: &dyn Fn(f64) -> f64) -> f64 {
-        let of = |densities: &Densities| -> f64 {
-            outputs.iter().map(|output| densities.mean_square(*output, weight)).sum()
-        };
+    pub fn mean_square(&self, speed: f64, outputs: &[usize], weight: &Weight) -> f64 {
         let after = self.speeds.partition_point(|densities| densities.speed < speed);
+        let beside = self.speeds.iter().skip(after.saturating_sub(1)).take(2);
+        squares(beside, outputs, weight).at(speed)
+    }
+
+    /// Mean squares of some outputs over the speed, weighted.
+    #[must_use]
+    pub fn squares(&self, outputs: &[usize], weight: &Weight) -> NoiseSquares {
+        squares(self.speeds.iter(), outputs, weight)
+    }
+
+    /// Whether a weight has a share in an interval of frequency at any speed.
+    pub(super) fn has_share(&self, weight: &Weight) -> bool {
+        let mut intervals = self.speeds.iter().flat_map(|densities| &densities.intervals);
+        intervals.any(|interval| weight.has_share(*interval))
+    }
+}
+
+fn squares<'a>(
+    speeds: impl Iterator<Item = &'a Densities>,
+    outputs: &[usize],
+    weight: &Weight,
+) -> NoiseSquares {
+    let point = |of: &Densities| [of.speed, of.mean_square(outputs, weight)];
+    NoiseSquares { points: speeds.map(point).collect() }
+}
+
+impl NoiseSquares {
+    /// The mean square at a speed, rad/s: between two speeds a straight line of logarithms, or of numbers where one is zero.
+    #[must_use]
+    pub fn at(&self, speed: f64) -> f64 {
+        let after = self.points.partition_point(|[known, _]| *known < speed);
         let [before, next] = [after.checked_sub(1), Some(after)]
-            .map(|index| index.and_then(|index| self.speeds.get(index)));
+            .map(|index| index.and_then(|index| self.points.get(index)));
         match (before, next) {
-            (Some(a), Some(b)) => {
-                let share = (speed - a.speed) / (b.speed - a.speed);
-                of(a) + share * (of(b) - of(a))
+            (_, Some([known, only])) if *known == speed => *only,
+            (Some([v0, s0]), Some([v1, s1])) if *v0 > 0.0 && *s0 > 0.0 && *s1 > 0.0 => {
+                let share = libm::log(speed / v0) / libm::log(v1 / v0);
+                s0 * libm::exp(share * libm::log(s1 / s0))
             }
-            (Some(only), None) | (None, Some(only)) => of(only),
+            (Some([v0, s0]), Some([v1, s1])) => s0 + (s1 - s0) * (speed - v0) / (v1 - v0),
+            (Some([_, only]), None) | (None, Some([_, only])) => *only,
             (None, None) => 0.0,
         }
     }
@@ -148,90 +181,60 @@ impl Densities {
     pub fn new(model: &Model, speed: f64) -> Result<Self, Fault> {
         let natural = oscillations(model, speed)?;
         let bands: Vec<[f64; 2]> = model.noises.iter().map(|noise| noise.density.band).collect();
-        let mut frequencies = grid(&bands, &natural);
-        // The ends of tables are corners of the density.
-        frequencies.extend(model.noises.iter().flat_map(|noise| noise.density.frequencies.clone()));
-        frequencies.sort_by(f64::total_cmp);
-        frequencies.dedup();
-        frequencies.retain(|frequency| *frequency > 0.0);
+        // The frequencies of tables are corners of the density.
+        let corners = model.noises.iter().flat_map(|noise| noise.density.frequencies.clone());
+        let intervals = intervals(&bands, corners, &natural);
+        let frequencies: Vec<f64> = intervals.iter().copied().flat_map(nodes).collect();
         let noises = Noises::new(model, speed);
         let values: Result<Vec<_>, _> =
             frequencies.iter().map(|frequency| noises.density(TAU * frequency)).collect();
-        Ok(Self { speed, frequencies, values: values? })
+        Ok(Self { speed, intervals, frequencies, values: values? })
     }
 
-    /// Frequency, Hz, and mean square of some outputs of each interval between frequencies.
-    #[must_use]
-    pub fn squares(&self, outputs: &[usize]) -> Vec<(f64, f64)> {
+    /// The density of some outputs together in each interval.
+    fn of_outputs(&self, outputs: &[usize]) -> impl Iterator<Item = Density> {
         let sum = |values: &Vec<f64>| -> f64 {
             outputs.iter().filter_map(|output| values.get(*output)).sum()
         };
-        let points: Vec<[f64; 2]> = self
-            .frequencies
-            .iter()
-            .zip(&self.values)
-            .map(|(f, values)| [*f, sum(values)])
-            .collect();
-        points
-            .windows(2)
-            .map(|pair| {
-                let [[f0, s0], [f1, s1]] = [pair[0], pair[1]];
-                (0.5 * (f0 + f1), 0.5 * (f1 - f0) * (s0 + s1))
-            })
-            .collect()
+        let of = self.intervals.iter().zip(self.values.chunks(NODES));
+        let density = move |(ends, values): (&[f64; 2], &[Vec<f64>])| {
+            let values = std::array::from_fn(|node| values.get(node).map_or(0.0, sum));
+            Density { ends: *ends, values }
+        };
+        of.map(density).collect::<Vec<_>>().into_iter()
     }
 
-    /// Mean square of an output, each frequency weighted.
+    /// Mean square of some outputs, weighted.
     #[must_use]
-    pub fn mean_square(&self, output: usize, weight: &dyn Fn(f64) -> f64) -> f64 {
-        let points = self.frequencies.iter().zip(&self.values);
-        let points: Vec<[f64; 2]> = points
-            .map(|(f, values)| [*f, values.get(output).copied().unwrap_or(0.0) * weight(TAU * f)])
-            .collect();
-        points
-            .windows(2)
-            .map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]))
-            .sum()
+    pub fn mean_square(&self, outputs: &[usize], weight: &Weight) -> f64 {
+        self.of_outputs(outputs).map(|density| density.integral(density.ends, weight)).sum()
     }
-}
 
-/// Frequencies, Hz, of some bands, close around natural frequencies.
-fn grid(bands: &[[f64; 2]], natural: &[Oscillation]) -> Vec<f64> {
-    let from = bands.iter().map(|band| band[0]).fold(f64::INFINITY, f64::min);
-    let to = bands.iter().map(|band| band[1]).fold(0.0, f64::max);
-    let lowest = from.max(1e-6 * to);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 80 * 6")]
-    let count = (PER_DECADE * (to / lowest).log10()).ceil().clamp(2.0, 1000.0) as u32;
-    let at = |k: u32| lowest * (to / lowest).powf(f64::from(k) / f64::from(count));
-    let mut grid: Vec<f64> = (0..=count).map(at).collect();
-    for of in natural {
-        let centre = of.frequency / TAU;
-        grid.push(centre);
-        let (first, ratio, count) = BESIDE;
-        for width in (0..count).map(|k| first * ratio.powi(k)) {
-            let beside = [-1.0, 1.0].map(|side| centre * (1.0 + side * width * of.damping));
-            grid.extend(beside.iter().filter(|f| !is_nearer_to_another(**f, centre, natural)));
+    /// Middle frequency, Hz, and mean square of some outputs, weighted, of each interval.
+    #[must_use]
+    pub fn squares(&self, outputs: &[usize], weight: &Weight) -> Vec<(f64, f64)> {
+        let of = |density: Density| {
+            let [from, to] = density.ends;
+            (0.5 * (from + to), density.integral(density.ends, weight))
+        };
+        self.of_outputs(outputs).map(of).collect()
+    }
+
+    /// Mean square of some outputs, weighted, of all frequencies up to each of [`Self::frequencies`].
+    #[must_use]
+    pub fn cumulative(&self, outputs: &[usize], weight: &Weight) -> Vec<f64> {
+        let (mut sum, mut all) = (0.0, Vec::with_capacity(self.frequencies.len()));
+        for density in self.of_outputs(outputs) {
+            let [mut from, to] = density.ends;
+            for node in nodes(density.ends) {
+                sum += density.integral([from, node], weight);
+                all.push(sum);
+                from = node;
+            }
+            sum += density.integral([from, to], weight);
         }
+        all
     }
-    for band in bands {
-        grid.extend(band);
-    }
-    grid.retain(|frequency| (lowest..=to).contains(frequency));
-    grid
-}
-
-/// Whether a frequency, Hz, is so near to another natural frequency than the one at `centre` that the frequencies beside that
-/// are closer.
-fn is_nearer_to_another(frequency: f64, centre: f64, natural: &[Oscillation]) -> bool {
-    let apart = (frequency - centre).abs();
-    let (first, ratio, count) = BESIDE;
-    let widest = first * ratio.powi(count - 1);
-    natural.iter().any(|other| {
-        let other_centre = other.frequency / TAU;
-        let width = other_centre * other.damping;
-        let other_apart = (frequency - other_centre).abs();
-        other_apart.max(width) < apart && other_apart < widest * width
-    })
 }
 
 #[cfg(test)]
@@ -239,44 +242,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_grid_resolves_a_lightly_damped_mode() {
-        let mode = Oscillation { frequency: TAU * 40.0, damping: 0.005 };
-        let mut grid = grid(&[[1.0, 400.0]], &[mode]);
-        grid.sort_by(f64::total_cmp);
-        let density = |f: f64| {
-            let r = f / 40.0;
-            1.0 / ((1.0 - r * r).powi(2) + (2.0 * 0.005 * r).powi(2))
-        };
-        let found: f64 = grid
-            .windows(2)
-            .map(|pair| 0.5 * (pair[1] - pair[0]) * (density(pair[0]) + density(pair[1])))
-            .sum();
-        // The integral over all frequencies: pi f / (4 zeta); what is outside the band is 0.1 %; of the straight lines 0.5 %.
-        let expected = std::f64::consts::PI * 40.0 / (4.0 * 0.005);
-        assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
-    }
-
-    /// Twenty modes, each a tenth above the one before: every one is resolved, with fewer frequencies than each by itself.
-    #[test]
-    fn a_grid_resolves_modes_that_are_close() {
-        let natural: Vec<Oscillation> = (0..20)
-            .map(|k| Oscillation { frequency: TAU * 40.0 * 1.1_f64.powi(k), damping: 0.005 })
-            .collect();
-        let mut grid = grid(&[[1.0, 400.0]], &natural);
-        grid.sort_by(f64::total_cmp);
-        assert!(grid.len() < 20 * 50 + 220, "{} frequencies", grid.len());
-        for of in &natural {
-            let centre = of.frequency / TAU;
-            let density = |f: f64| {
-                let r = f / centre;
-                1.0 / ((1.0 - r * r).powi(2) + (2.0 * of.damping * r).powi(2))
-            };
-            let found: f64 = grid
-                .windows(2)
-                .map(|pair| 0.5 * (pair[1] - pair[0]) * (density(pair[0]) + density(pair[1])))
-                .sum();
-            let expected = std::f64::consts::PI * centre / (4.0 * of.damping);
-            assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
+    fn a_power_of_the_speed_is_exact_between_speeds() {
+        let squares =
+            NoiseSquares { points: vec![[60.0, 60.0_f64.powi(4)], [90.0, 90.0_f64.powi(4)]] };
+        for speed in [60.0, 70.0, 90.0] {
+            assert!((squares.at(speed) / speed.powi(4) - 1.0).abs() < 1e-13, "{speed}");
         }
     }
 }

@@ -19,6 +19,8 @@ const CAMPBELL_SPEEDS: usize = 61;
 pub struct Prepared {
     /// Structure, devices, sources and lines of sight.
     pub model: Model,
+    /// Whether a rotor has tones of its own: the runs of [`compare`](super::coupled::compare) are without sources.
+    pub has_imbalance: bool,
     /// Why sources of the scenario are not in the model.
     pub left_out: Vec<String>,
     /// Speeds at which natural frequencies were computed, rad/s.
@@ -77,6 +79,7 @@ impl Prepared {
         check_rotors(scenario, budget)?;
         let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
         let mut model = Model::new(scenario, &budget.outputs(), &steady)?;
+        let has_imbalance = !model.contributors().is_empty();
         let left_out = model.add_sources(scenario)?;
         let contributors = model.contributors();
         if contributors.is_empty() && model.noises.is_empty() {
@@ -91,7 +94,7 @@ impl Prepared {
         orders.dedup();
         let crossings = crossings(&campbell_speeds, &branches, &orders);
         let speeds = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
-        Ok(Self { model, left_out, campbell_speeds, branches, crossings, speeds })
+        Ok(Self { model, has_imbalance, left_out, campbell_speeds, branches, crossings, speeds })
     }
 }
 

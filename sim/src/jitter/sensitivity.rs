@@ -4,9 +4,10 @@
 //! tone changes `s` by its share of `s^2`, exactly. Frequencies and damping ratios of modes change the transmission; their
 //! derivatives are central differences of the same model, whose error is the square of the step.
 
-use super::budget::{Assessed, Budget, outputs_of, weight_of};
+use super::budget::{Assessed, Budget, outputs_of};
 use super::model::Model;
 use super::sweep::sweep;
+use super::weight::Weight;
 use crate::structure::Fault;
 
 /// Step of a central difference, of the parameter: its error is 1e-7 of a width of a mode of 0.5 % damping.
@@ -44,7 +45,7 @@ pub fn sensitivities(
         let parameter = "amplitude of the broadband noise".to_owned();
         all.push(Sensitivity { parameter, ratio: of.noise });
     }
-    let Ok(weight) = weight_of(&of.limit.metric) else { return Ok(all) };
+    let Ok(weight) = Weight::of_metric(&of.limit.metric) else { return Ok(all) };
     let outputs = outputs_of(of.sight);
     let metric = |model: &Model| -> Result<f64, Fault> {
         let found = sweep(model, &[speed], 1, &|_| {})?;

@@ -8,6 +8,7 @@ use nalgebra::Complex;
 use super::campbell::Crossing;
 use super::model::{Contributor, Line, Model};
 use super::noise::{Densities, NoiseSweep};
+use super::weight::Weight;
 use crate::structure::Fault;
 
 /// Speeds at which the density of noise is computed, about.
@@ -173,46 +174,58 @@ pub fn sweep(
 }
 
 impl Sweep {
-    /// Mean square of some outputs at a speed: of lines and noise, each weighted by its angular frequency, rad/s.
+    /// Mean square of some outputs at a speed, weighted: of lines and noise.
     #[must_use]
     pub fn mean_square(
         &self,
         speed: usize,
         outputs: &[usize],
         phases: Phases,
-        weight: &dyn Fn(f64) -> f64,
+        weight: &Weight,
+    ) -> f64 {
+        self.line_square(speed, outputs, phases, weight) + self.noise_square(speed, outputs, weight)
+    }
+
+    /// The part of [`Self::mean_square`] that is of lines.
+    #[must_use]
+    pub fn line_square(
+        &self,
+        speed: usize,
+        outputs: &[usize],
+        phases: Phases,
+        weight: &Weight,
     ) -> f64 {
         let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
-        let of_lines: f64 =
-            outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum();
-        of_lines + self.noise_square(speed, outputs, weight)
+        outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum()
     }
 
     /// The part of [`Self::mean_square`] that is of broadband noise.
     #[must_use]
-    pub fn noise_square(
-        &self,
-        speed: usize,
-        outputs: &[usize],
-        weight: &dyn Fn(f64) -> f64,
-    ) -> f64 {
+    pub fn noise_square(&self, speed: usize, outputs: &[usize], weight: &Weight) -> f64 {
         let speed = self.speeds.get(speed).copied().unwrap_or(0.0);
         self.noise.mean_square(speed, outputs, weight)
     }
 
     /// Mean squares of each contributor by itself at a speed.
     #[must_use]
-    pub fn shares(&self, speed: usize, outputs: &[usize], weight: &dyn Fn(f64) -> f64) -> Vec<f64> {
+    pub fn shares(&self, speed: usize, outputs: &[usize], weight: &Weight) -> Vec<f64> {
         let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
         let of = |line: &Line| -> f64 {
             let values = outputs.iter().filter_map(|output| line.values.get(*output));
-            values.map(|value| 0.5 * value.norm_sqr() * weight(line.frequency)).sum()
+            values.map(|value| 0.5 * value.norm_sqr() * weight.at(line.frequency)).sum()
         };
         lines.iter().map(of).collect()
     }
+
+    /// Whether a line or noise has a share by a weight, at any speed.
+    #[must_use]
+    pub fn has_share(&self, weight: &Weight) -> bool {
+        let mut lines = self.lines.iter().flatten();
+        lines.any(|line| weight.at(line.frequency) > 0.0) || self.noise.has_share(weight)
+    }
 }
 
-fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &dyn Fn(f64) -> f64) -> f64 {
+fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &Weight) -> f64 {
     let mut sorted: Vec<&Line> = lines.iter().collect();
     sorted.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     let mut sum = 0.0;
@@ -224,7 +237,7 @@ fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &dyn Fn(f6
             Phases::Given => values().sum::<Complex<f64>>().norm_sqr(),
             Phases::Worst => values().map(|value| value.norm()).sum::<f64>().powi(2),
         };
-        sum += 0.5 * square * weight(frequency);
+        sum += 0.5 * square * weight.at(frequency);
     }
     sum
 }

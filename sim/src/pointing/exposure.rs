@@ -72,7 +72,7 @@ impl Exposure {
 pub fn exposure_of_psd(psd: &Psd, exposure: f64) -> Result<Exposure, PointingError> {
     check_time(exposure)?;
     let mut squares = [0.0; 3];
-    for ([from, to], square) in cells(psd) {
+    for ([from, to], square) in psd.cells() {
         add_mean(&mut squares, [from, to], exposure, |_| square);
     }
     checked(squares)
@@ -200,17 +200,6 @@ impl WindowSums {
             samples: self.samples,
         })
     }
-}
-
-/// The bins of a density as bands, Hz, with their mean squares. Those at zero and half the rate of an even length are
-/// half as wide.
-pub(super) fn cells(psd: &Psd) -> impl Iterator<Item = ([f64; 2], f64)> {
-    let resolution = psd.metadata.resolution;
-    let half = 0.5 * psd.metadata.rate;
-    psd.iter().map(move |(frequency, density)| {
-        let from = (frequency - 0.5 * resolution).max(0.0);
-        ([from, (frequency + 0.5 * resolution).min(half)], density * resolution)
-    })
 }
 
 /// Parts that a band, Hz, is divided into for weights that vary over 1/time.

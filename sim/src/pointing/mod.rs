@@ -9,6 +9,7 @@
 //! | `quantile` | a quantile of any number of samples in bounded memory |
 //! | `line_of_sight` | [`LineOfSight`]: by motions of nodes, or of a rigid instrument |
 //! | `margin` | [`Limit`], [`Margin`]: tables of requirements |
+//! | `state` | [`RequirementState`]: met, violated, or not evaluated, with the reason |
 //!
 //! A signal is in any unit, usually rad. Sources: R. L. Lucke, S. W. Sirlin, A. M. San Martin, "New definitions of
 //! pointing stability: AC and DC effects", J. Astronautical Sciences 40(4), 1992; M. E. Pittelkau, W. G. `McKinley`,
@@ -30,6 +31,7 @@ mod indices;
 mod line_of_sight;
 mod margin;
 mod quantile;
+mod state;
 mod statistics;
 #[cfg(test)]
 mod tests;
@@ -43,6 +45,7 @@ pub use exposure::{
 pub use indices::Index;
 pub use line_of_sight::{LineOfSight, NodeMotion, Sensitivity};
 pub use margin::{Assessment, Limit, Margin, Metric, assess};
+pub use state::{NoData, RequirementState};
 pub use statistics::{IndexValue, Interpretation, index_of_psd, index_of_runs};
 pub use weights::ExposureWeights;
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use precess_dynamics::Angle;
 use statrs::distribution::{Binomial, ContinuousCDF as _, DiscreteCDF as _, Normal};
 
-use super::exposure::{cells, check_number, check_time, parts};
+use super::exposure::{check_number, check_time, parts};
 use super::indices::{means_of_run, norm, values_of_run};
 use super::quantile::{quantile, rank};
 use super::weights::ExposureWeights;
@@ -178,7 +178,7 @@ pub fn index_of_psd(index: Index, psd: &Psd, level: f64) -> Result<IndexValue, P
         check_time(slowest)?;
     }
     let mut square = 0.0;
-    for ([from, to], of_bin) in cells(psd) {
+    for ([from, to], of_bin) in psd.cells() {
         let parts = 2 * parts([from, to], slowest.max(window));
         for k in 0..=parts {
             let simpson = if k == 0 || k == parts { 1.0 } else { f64::from(2 + 2 * (k % 2)) };

@@ -16,13 +16,14 @@ mod histories;
 mod holder;
 mod load_columns;
 mod many;
+pub mod no_data;
 pub mod npz;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod partial;
 mod samples;
 pub mod statistics;
-mod welch;
+pub(crate) mod welch;
 
 pub use between::Between;
 pub(crate) use columns::reserved_names;

@@ -5,12 +5,13 @@
 //! not evenly spaced has its own weight; the band, exposures and indices of ECSS use only samples
 //! that are. Memory does not grow with the run: levels are found in buckets, at most 0.1 % above.
 
+use super::no_data::no_data;
 use super::welch::Welch;
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
 use crate::pointing::{
-    EXPOSURE_SAMPLES_MIN, ExposureHistory, IndexStream, Margin, PointingError, Quantile,
-    WindowSums, samples_of,
+    EXPOSURE_SAMPLES_MIN, ExposureHistory, IndexStream, Margin, NoData, PointingError, Quantile,
+    RequirementState, WindowSums, samples_of,
 };
 use crate::scenario::{Requirement, Statistic};
 
@@ -18,6 +19,9 @@ use crate::scenario::{Requirement, Statistic};
 pub struct Statistics {
     requirements: Vec<Requirement>,
     histories: Vec<History>,
+    /// Samples per second, 1/s, and length of the whole run, s.
+    rate: f64,
+    duration: f64,
     verdicts: Vec<Verdict>,
 }
 
@@ -28,7 +32,7 @@ pub struct Verdict {
     pub name: String,
     /// The column or vector.
     pub quantity: String,
-    /// The statistic, SI; none where no sample fell into the window.
+    /// The statistic, SI; none where nothing was measured. Of a window that was not run to its end, that of what was.
     pub value: Option<f64>,
     /// Its upper bound, SI.
     pub limit: f64,
@@ -36,6 +40,8 @@ pub struct Verdict {
     pub unit: (String, f64),
     /// Whether the whole window was run.
     pub complete: bool,
+    /// What became of it.
+    pub state: RequirementState,
 }
 
 /// What is kept of a quantity.
@@ -68,7 +74,8 @@ impl Statistics {
     #[must_use]
     pub fn new(requirements: &[Requirement]) -> Self {
         let requirements = requirements.to_vec();
-        Self { requirements, histories: Vec::new(), verdicts: Vec::new() }
+        let (histories, verdicts) = (Vec::new(), Vec::new());
+        Self { requirements, histories, rate: 0.0, duration: 0.0, verdicts }
     }
 
     /// One for each requirement in order, once the run has ended.
@@ -88,7 +95,7 @@ impl Verdict {
     /// Whether the requirement is met over its whole window.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.complete && self.margin().is_some_and(|margin| margin.is_met())
+        self.state.is_met()
     }
 }
 
@@ -96,6 +103,7 @@ impl Recorder for Statistics {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
         self.verdicts.clear();
         self.histories.clear();
+        (self.rate, self.duration) = (header.rate, header.duration);
         for requirement in &self.requirements {
             let columns = header.quantity(&requirement.quantity)?;
             let [from, to] = requirement.window;
@@ -140,16 +148,41 @@ impl Recorder for Statistics {
     fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError> {
         let pairs = self.requirements.iter().zip(&self.histories);
         self.verdicts = pairs
-            .map(|(requirement, history)| Verdict {
-                name: requirement.name.clone(),
-                quantity: requirement.quantity.clone(),
-                value: history.value(),
-                limit: requirement.limit,
-                unit: requirement.unit.clone(),
-                complete: outcome.end_time >= requirement.window[1],
+            .map(|(requirement, history)| {
+                let value = history.value();
+                let complete = outcome.end_time >= requirement.window[1];
+                Verdict {
+                    name: requirement.name.clone(),
+                    quantity: requirement.quantity.clone(),
+                    value,
+                    limit: requirement.limit,
+                    unit: requirement.unit.clone(),
+                    complete,
+                    state: self.state(requirement, value, outcome.end_time),
+                }
             })
             .collect();
         Ok(())
+    }
+}
+
+impl Statistics {
+    /// The state of a requirement by its value, of a run that ended at a time, s. What has been exceeded stays exceeded,
+    /// so a peak of a part of the window may violate the limit, and nothing else of a part counts.
+    fn state(&self, requirement: &Requirement, value: Option<f64>, end: f64) -> RequirementState {
+        let [_, to] = requirement.window;
+        let margin = value.map(|value| Margin { value, limit: requirement.limit });
+        let by_margin = margin.as_ref().map(RequirementState::from_margin);
+        if end >= to {
+            let none = || no_data(requirement, self.rate, self.duration);
+            let none = || none().unwrap_or(NoData::NoSample { window: requirement.window });
+            return by_margin.unwrap_or_else(|| RequirementState::NotEvaluated(none()));
+        }
+        let only_grows = matches!(requirement.statistic, Statistic::Peak | Statistic::Drift);
+        match by_margin {
+            Some(state) if only_grows && state.is_violated() => state,
+            _ => RequirementState::NotEvaluated(NoData::WindowNotRun { end, to }),
+        }
     }
 }
 

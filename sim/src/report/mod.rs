@@ -36,6 +36,7 @@ use run::replay::Collector;
 use run::{grouping, summary};
 
 use crate::engine::Outcome;
+use crate::pointing::RequirementState;
 use crate::record::columns::Quantity;
 use crate::record::{Decimate, Header, RecordError, Recorder, Statistics, Verdict};
 use crate::scenario::Scenario;
@@ -145,6 +146,11 @@ impl Report {
         let charts = collected.charts.iter().map(|chart| drawn(chart, buckets, first, last));
         charts.filter(Drawn::is_zero).map(|drawn| drawn.title).collect()
     }
+}
+
+/// The state of a row of a table: one that is not evaluated has no colour.
+fn row_state(state: &RequirementState) -> &'static str {
+    if state.reason().is_some() { "" } else { state.word() }
 }
 
 impl Recorder for Report {

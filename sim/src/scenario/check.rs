@@ -52,9 +52,10 @@ impl Statistic {
         }
     }
 
-    /// The key of a file with what [`Self::check`] rejects.
-    fn key(&self) -> &'static str {
+    /// The key of a file that says what it is of: what [`Self::check`] rejects, or what has no data.
+    pub(crate) fn key(&self) -> &'static str {
         match self {
+            Self::BandRms(_) => "band",
             Self::Displacement(_) | Self::Smear(_) | Self::Jitter(_) => "exposure",
             Self::Index { index: Index::Ape, .. } => "level",
             Self::Index { .. } => "window",
@@ -213,6 +214,16 @@ impl Scenario {
                         Plain(from),
                         Plain(to),
                         Plain(duration)
+                    ),
+                ));
+            }
+            let limit = requirement.limit;
+            if !(limit >= 0.0 && limit.is_finite()) {
+                errors.push(range(
+                    &format!("requirement.{}.limit", requirement.name),
+                    format!(
+                        "the limit {} is not 0 or above: what it limits is a magnitude, which is never negative",
+                        requirement.written
                     ),
                 ));
             }

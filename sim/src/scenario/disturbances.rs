@@ -12,6 +12,10 @@ use crate::units::Plain;
 
 /// A harmonic number this near to one is the fundamental: twice the 0.5 % to which a fit gives it.
 const FUNDAMENTAL: f64 = 0.01;
+/// A harmonic number this near to one may be the fundamental, by a speed that was not known better, or a tone of its own.
+const PERHAPS_FUNDAMENTAL: f64 = 0.03;
+/// Of a distance of harmonic numbers: 1.01 - 1 is above 0.01 in floating point.
+const DECIMAL: f64 = 1e-9;
 /// Most tones of one source.
 const HARMONICS_MAX: usize = 1000;
 /// Highest harmonic number: its angle keeps nine digits after a million turns.
@@ -29,15 +33,7 @@ impl Scenario {
     pub(super) fn check_disturbances(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
         let mut knots: usize = 0;
-        let mut first = 0;
-        let place = |member: Member<'_>| {
-            let place = first;
-            first += member.joints().len();
-            place
-        };
-        let members = members(&self.devices);
-        let firsts: Vec<usize> = members.iter().copied().map(place).collect();
-        let placed: Vec<Placed<'_>> = firsts.into_iter().zip(members).collect();
+        let placed = self.placed();
         for (index, of) in self.disturbances.iter().enumerate() {
             let mut error = |key: &str, message: String| {
                 errors.push(range(&format!("source.{}.{key}", of.name), message));
@@ -173,8 +169,52 @@ impl Scenario {
         }
     }
 
-    /// What the wheel already has, and the key that says that it was removed.
-    fn twice(&self, of: &Disturbance, placed: &[Placed<'_>]) -> Option<(&'static str, String)> {
+    /// Sources with a harmonic that may be the fundamental of an imbalance that their wheel has already: the name of the
+    /// source, and both readings.
+    #[must_use]
+    pub fn fundamental_warnings(&self) -> Vec<(&str, String)> {
+        let placed = self.placed();
+        let warning = |of: &Disturbance| {
+            let Model::Harmonic(harmonics) = &of.model else { return None };
+            let (name, device) = self.device_of(of, &placed)?;
+            if of.fundamental_removed || !is_imbalanced(device) {
+                return None;
+            }
+            let apart = |tone: &Harmonic| (tone.number - 1.0).abs() - DECIMAL;
+            let near =
+                |tone: &&Harmonic| FUNDAMENTAL < apart(tone) && apart(tone) <= PERHAPS_FUNDAMENTAL;
+            let found = harmonics.iter().filter(near).find(|tone| is_radial(of, tone))?;
+            Some(format!(
+                "harmonic {}, within {PERHAPS_FUNDAMENTAL} of 1 and across the spin axis, is either the fundamental \
+                 of an imbalance that `{name}` already has, then counted twice: remove it, or balance the wheel \
+                 (`imbalance_model = \"balanced\"`); or a tone of its own beside the imbalance: it is run so, and \
+                 `fundamental_removed = true` says so",
+                found.number
+            ))
+        };
+        let named = |of| warning(of).map(|message| (of.name.as_str(), message));
+        self.disturbances.iter().filter_map(named).collect()
+    }
+
+    /// The members with the number of the first joint of each.
+    fn placed(&self) -> Vec<Placed<'_>> {
+        let mut first = 0;
+        let place = |member: Member<'_>| {
+            let place = first;
+            first += member.joints().len();
+            place
+        };
+        let members = members(&self.devices);
+        let firsts: Vec<usize> = members.iter().copied().map(place).collect();
+        firsts.into_iter().zip(members).collect()
+    }
+
+    /// Name and device of the wheel of a source, or of what it acts on.
+    fn device_of<'a>(
+        &self,
+        of: &Disturbance,
+        placed: &[Placed<'a>],
+    ) -> Option<(&str, &'a BuiltIn)> {
         let joint_of = |joint: usize| {
             let within = |(first, member): &&Placed<'_>| {
                 (*first..first + member.joints().len()).contains(&joint)
@@ -188,7 +228,12 @@ impl Scenario {
         };
         let member = of.wheel.and_then(joint_of).or(on)?;
         let device = placed.get(member)?.1.device()?;
-        let name = self.names.get(member).map_or("", String::as_str);
+        Some((self.names.get(member).map_or("", String::as_str), device))
+    }
+
+    /// What the wheel already has, and the key that says that it was removed.
+    fn twice(&self, of: &Disturbance, placed: &[Placed<'_>]) -> Option<(&'static str, String)> {
+        let (name, device) = self.device_of(of, placed)?;
         let on_bearings = matches!(
             device.kind(),
             BuiltInKind::FlexibleReactionWheel | BuiltInKind::FlexibleVscmg
@@ -203,25 +248,17 @@ impl Scenario {
         if of.fundamental_removed || !is_imbalanced(device) {
             return None;
         }
-        let radial = [by_spin_axis(of.spin_axis, 0), by_spin_axis(of.spin_axis, 3)];
-        let mut radial = radial.iter().flat_map(|[first, second, _]| [*first, *second]);
         let what = match &of.model {
             Model::Broadband(_) => return None,
             Model::Measured(record) => {
                 let values = |component: usize| record.values.get(component);
-                let has = radial
+                let has = radial_components(of)
                     .any(|of| values(of).is_some_and(|values| values.iter().any(|v| *v != 0.0)));
                 has.then(|| "a record across the spin axis contains the fundamental".to_owned())
             }
             Model::Harmonic(harmonics) => {
-                let near = |of: &&Harmonic| (of.number - 1.0).abs() <= FUNDAMENTAL;
-                let acts =
-                    |of: &Harmonic, component: usize| of.amplitudes.get(component) != Some(&0.0);
-                let radial: Vec<_> = radial.collect();
-                let found = harmonics
-                    .iter()
-                    .filter(near)
-                    .find(|of| radial.iter().any(|component| acts(of, *component)));
+                let near = |tone: &&Harmonic| (tone.number - 1.0).abs() <= FUNDAMENTAL + DECIMAL;
+                let found = harmonics.iter().filter(near).find(|tone| is_radial(of, tone));
                 found.map(|of| {
                     format!(
                         "harmonic {}, within {FUNDAMENTAL} of 1 and across the spin axis, is the \
@@ -239,6 +276,17 @@ impl Scenario {
         );
         Some((of.model.key(), message))
     }
+}
+
+/// The components across the spin axis.
+fn radial_components(of: &Disturbance) -> impl Iterator<Item = usize> {
+    let radial = [by_spin_axis(of.spin_axis, 0), by_spin_axis(of.spin_axis, 3)];
+    radial.into_iter().flat_map(|[first, second, _]| [first, second])
+}
+
+/// Whether a harmonic of a source has a component across the spin axis.
+fn is_radial(of: &Disturbance, tone: &Harmonic) -> bool {
+    radial_components(of).any(|component| tone.amplitudes.get(component) != Some(&0.0))
 }
 
 /// Whether a device's wheel exerts a force or moment that turns with it.

@@ -2,7 +2,6 @@
 
 use super::confidence::chi_square_factors;
 use super::segment::{Segment, sides};
-use super::settings::within;
 use super::{Metadata, SpectrumError, WelchSettings};
 
 /// A one-sided power spectral density.
@@ -66,16 +65,29 @@ impl Psd {
         self.density.iter().sum::<f64>() * self.metadata.resolution
     }
 
-    /// RMS of the bins in a band, Hz, both ends included, unit. A bin on the common end of two bands
-    /// counts in both.
+    /// RMS in a band, Hz, unit: the mean square of each bin is spread evenly over its width, one resolution, and
+    /// counts by the share of it that lies in the band. Squares of neighbouring bands add up.
     ///
     /// # Errors
     ///
     /// A band that is not rising within 0 Hz and half the rate.
     pub fn band_rms(&self, band: [f64; 2]) -> Result<f64, SpectrumError> {
         self.metadata.check_band(band)?;
-        let in_band = self.iter().filter(|(frequency, _)| within(band, *frequency));
-        Ok((in_band.map(|(_, value)| value).sum::<f64>() * self.metadata.resolution).sqrt())
+        let squares = self.cells().map(|([from, to], square)| {
+            let inside = to.min(band[1]) - from.max(band[0]);
+            square * (inside / (to - from)).clamp(0.0, 1.0)
+        });
+        Ok(squares.sum::<f64>().sqrt())
+    }
+
+    /// The bins as bands, Hz, with their mean squares. Those at zero and half the rate of an even length are half as wide.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = ([f64; 2], f64)> {
+        let resolution = self.metadata.resolution;
+        let half = 0.5 * self.metadata.rate;
+        self.iter().map(move |(frequency, density)| {
+            let from = (frequency - 0.5 * resolution).max(0.0);
+            ([from, (frequency + 0.5 * resolution).min(half)], density * resolution)
+        })
     }
 
     /// RMS of all bins from zero to each one, unit: the last is the RMS of the signal.

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 
-use super::settings::within;
 use super::{Detrend, SpectrumError, Window, float};
 
 /// The transform of segments of one length, with its storage.
@@ -49,7 +48,7 @@ impl Segment {
     }
 
     /// The transform `X_k = sum_i w_i x_i exp(-2 pi j i k / N)`, k from 0 to N / 2, of N samples.
-    pub(super) fn transform(&mut self, samples: &[f64]) -> Result<&[Complex<f64>], SpectrumError> {
+    pub(crate) fn transform(&mut self, samples: &[f64]) -> Result<&[Complex<f64>], SpectrumError> {
         let length = samples.len();
         self.work.clear();
         match self.detrend {
@@ -70,26 +69,10 @@ impl Segment {
             .map_err(|_| SpectrumError::Transform { length })?;
         Ok(&self.spectrum)
     }
-
-    /// The mean square in a band, Hz, of samples at a rate, 1/s.
-    pub(crate) fn mean_square(
-        &mut self,
-        samples: &[f64],
-        band: [f64; 2],
-        rate: f64,
-    ) -> Result<f64, SpectrumError> {
-        let length = samples.len();
-        let squares = self.squares;
-        let resolution = rate / float(length);
-        let spectrum = self.transform(samples)?.iter().enumerate();
-        let in_band = spectrum.filter(|(bin, _)| within(band, float(*bin) * resolution));
-        let sum: f64 = in_band.map(|(bin, value)| sides(bin, length) * value.norm_sqr()).sum();
-        Ok(sum / (float(length) * squares))
-    }
 }
 
 /// Two, for both halves of the spectrum, but one for the bins that are their own mirror image.
-pub(super) fn sides(bin: usize, length: usize) -> f64 {
+pub(crate) fn sides(bin: usize, length: usize) -> f64 {
     if bin == 0 || 2 * bin == length { 1.0 } else { 2.0 }
 }
 

@@ -155,8 +155,3 @@ impl Metadata {
         Err(SpectrumError::Band { band, highest })
     }
 }
-
-/// Whether a frequency is that of a bin in a band, both ends included.
-pub(crate) fn within([from, to]: [f64; 2], frequency: f64) -> bool {
-    from <= frequency && frequency <= to
-}

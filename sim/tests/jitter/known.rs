@@ -8,6 +8,8 @@ use precess::jitter::campbell::{Whirl, branches, crossings, oscillations};
 use precess::jitter::device::{Steady, SweptDevice};
 use precess::jitter::model::{HUB, Model, Output};
 use precess::jitter::sweep::{Phases, refined, speeds, sweep};
+use precess::jitter::weight::Weight;
+use precess::pointing::Metric;
 use precess::scenario::Scenario;
 use precess::structure::averaged::AveragedDevices;
 use precess::structure::dynamic_mass::Motor;
@@ -94,17 +96,20 @@ fn phases_between_rotors_are_unknown_given_or_the_worst() {
     let text = format!("{WHEEL}[[device]]{second}").replace("RATE", "300");
     let model = Model::new(&scenario(&text), &rows(HUB), &STEADY).expect("valid");
     let found = sweep(&model, &[300.0], 1, &|_| {}).expect("a speed");
-    let sum = |phases| found.mean_square(0, &[1], phases, &|_| 1.0);
+    let sum = |phases| found.mean_square(0, &[1], phases, &Weight::one());
     let one = 0.5 * (2e-5_f64 / 54.0).powi(2);
     for (phases, factor) in [(Phases::Unknown, 2.0), (Phases::Worst, 4.0)] {
         assert!((sum(phases) / (factor * one) - 1.0).abs() < 1e-9, "{phases:?}");
     }
     // The imbalances oppose each other.
     assert!(sum(Phases::Given) < 1e-20 * one, "{:e}", sum(Phases::Given));
-    let shares = found.shares(0, &[1], &|frequency| if frequency > 200.0 { 1.0 } else { 0.0 });
+    let above = Metric::BandRms([200.0 / std::f64::consts::TAU, 1e9]);
+    let above = Weight::of_metric(&above).expect("no index");
+    let shares = found.shares(0, &[1], &above);
     assert_eq!(shares.len(), 2);
     assert!(shares.iter().all(|share| (share / one - 1.0).abs() < 1e-9));
-    assert!(found.mean_square(0, &[1], Phases::Unknown, &|_| 0.0) == 0.0);
+    let nowhere = Weight::of_metric(&Metric::BandRms([1e8, 1e9])).expect("no index");
+    assert!(found.mean_square(0, &[1], Phases::Unknown, &nowhere) == 0.0);
 }
 
 #[test]
@@ -239,8 +244,8 @@ fn a_coarse_grid_does_not_miss_a_resonance() {
     let crossings = crossings(&some, &branches, &[1.0]);
     let largest = |speeds: &[f64]| {
         let found = sweep(&model, speeds, 2, &|_| {}).expect("damped");
-        let all =
-            (0..speeds.len()).map(|k| found.mean_square(k, &[3, 4], Phases::Unknown, &|_| 1.0));
+        let all = (0..speeds.len())
+            .map(|k| found.mean_square(k, &[3, 4], Phases::Unknown, &Weight::one()));
         all.fold(0.0, f64::max).sqrt()
     };
     let fine = largest(&speeds(range, 20_000));

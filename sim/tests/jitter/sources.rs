@@ -7,6 +7,8 @@ use precess::file::{from_file, from_toml};
 use precess::jitter::model::{HUB, Model, Output};
 use precess::jitter::noise::{Densities, NoiseSweep};
 use precess::jitter::sweep::{Phases, sweep};
+use precess::jitter::weight::Weight;
+use precess::pointing::Metric;
 
 use super::known::STEADY;
 
@@ -51,16 +53,24 @@ fn axial_tones_and_noise_of_a_data_sheet_move_the_hub_by_force_over_mass() {
     }
     let densities = rates.map(|rate| Densities::new(&model, rate).expect("regular"));
     let noise = NoiseSweep { speeds: densities.to_vec() };
-    // The mean square acceleration in a band: straight lines between frequencies are exact where it is constant.
-    let flat = |w: f64| if (TAU * 5.0..=TAU * 400.0).contains(&w) { w.powi(4) } else { 0.0 };
-    let expected =
-        2e-10 * (314.0 / (100.0 * std::f64::consts::PI)).powi(4) / 400.0_f64.powi(2) * 395.0;
-    let found = noise.mean_square(314.0, &[0], &flat);
-    assert!((found / expected - 1.0).abs() < 1e-9, "{found:e} for {expected:e}");
+    // The mean square of the displacement in a band: S / (m^2 (2 pi)^4) (a^-3 - b^-3) / 3.
+    for rate in [100.0, 171.0, 314.0] {
+        let scale = (rate / (100.0 * std::f64::consts::PI)).powi(4);
+        for band in [[5.0_f64, 400.0], [1.0, 1000.0], [100.0, 100.5], [10.0, 20.0]] {
+            let (a, b): (f64, f64) = (band[0].max(5.0), band[1].min(400.0));
+            let expected =
+                2e-10 * scale / (400.0_f64.powi(2) * TAU.powi(4)) * (a.powi(-3) - b.powi(-3)) / 3.0;
+            let weight = Weight::of_metric(&Metric::BandRms(band)).expect("no index");
+            let found = noise.mean_square(rate, &[0], &weight);
+            let off = (found / expected - 1.0).abs();
+            assert!(off < 1e-9, "{rate} rad/s, {band:?}: {found:e} for {expected:e}");
+        }
+    }
     let all = sweep(&model, &rates, 1, &|_| {}).expect("regular");
-    let whole = all.mean_square(1, &[0], Phases::Unknown, &|_| 1.0);
-    let parts: f64 = all.shares(1, &[0], &|_| 1.0).iter().sum();
-    let of_noise = all.noise_square(1, &[0], &|_| 1.0);
+    let one = Weight::one();
+    let whole = all.mean_square(1, &[0], Phases::Unknown, &one);
+    let parts: f64 = all.shares(1, &[0], &one).iter().sum();
+    let of_noise = all.noise_square(1, &[0], &one);
     assert!(of_noise > 0.0 && (whole / (parts + of_noise) - 1.0).abs() < 1e-12);
 }
 

@@ -72,7 +72,7 @@ fn a_known_line_has_its_numbers() {
         "--segment",
         "0.2 s",
         "--band",
-        "20, 30 Hz",
+        "15, 35 Hz",
         "--exposure",
         "20 ms",
     ];
@@ -91,6 +91,7 @@ fn a_known_line_has_its_numbers() {
     near("/columns/0/lines/0/frequency", 25.0);
     near("/columns/0/lines/0/amplitude", 3.0);
     assert_eq!(found["columns"][0]["lines"].as_array().map(Vec::len), Some(1));
+    // Hann's window spreads the line to 20 and 30 Hz, and each bin is 5 Hz wide.
     near("/columns/0/bands/0/rms", 4.5_f64.sqrt());
     // Half a period from its crest or trough: means 7 ± 3 / 20, by the first sample, which has no opposite one.
     let parts = ["displacement", "smear", "jitter"];

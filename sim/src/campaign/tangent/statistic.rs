@@ -1,17 +1,19 @@
 //! Derivatives of a number of a history.
 //!
-//! The square of an RMS, also of one in a band or of exposures, is a quadratic form Q of the samples x. With their
+//! The square of an RMS, also of one of exposures, is a quadratic form Q of the samples x. With their
 //! derivatives d and any factor s,
 //!
 //! ```text
 //! Q(x + s d) - Q(x - s d) = 4 s B(x, d)      dF = B(x, d) / F      F = sqrt Q(x)
 //! ```
 //!
-//! without an error but rounding. A peak has the derivative of the magnitude at the sample that is largest.
+//! without an error but rounding. The RMS in a band is such a form as long as no bin of the spectrum enters or leaves the
+//! band: B is that of the bins that are in it. A peak has the derivative of the magnitude at the sample that is largest.
 
 use super::run::Samples;
 use crate::campaign::Selection;
 use crate::engine::Outcome;
+use crate::record::welch::band_derivatives;
 use crate::record::{Header, Recorder as _, Statistics};
 use crate::scenario::{Requirement, Scenario, Statistic};
 use precess_craft::tangent::{Number, WIDTH};
@@ -34,6 +36,8 @@ enum Of {
     Final,
     /// Largest departure from the first sample.
     Drift,
+    /// The RMS in a band, Hz.
+    BandRms([f64; 2]),
     /// The root of a quadratic form.
     Quadratic(Box<Requirement>),
     /// What has no derivative.
@@ -54,10 +58,10 @@ pub(super) fn kinds(
             Statistic::Rms => Of::Rms,
             Statistic::Final => Of::Final,
             Statistic::Drift => Of::Drift,
-            Statistic::BandRms(_)
-            | Statistic::Displacement(_)
-            | Statistic::Smear(_)
-            | Statistic::Jitter(_) => Of::Quadratic(Box::new(requirement.clone())),
+            Statistic::BandRms(band) => Of::BandRms(band),
+            Statistic::Displacement(_) | Statistic::Smear(_) | Statistic::Jitter(_) => {
+                Of::Quadratic(Box::new(requirement.clone()))
+            }
             Statistic::Index { .. } => Of::None,
         };
         kinds.push(Kind {
@@ -111,6 +115,11 @@ impl Kind {
         };
         let found = match &self.of {
             Of::Rms => return rms(&history, keys),
+            Of::BandRms(band) => {
+                let whole = outcome.end_time >= to;
+                let settings = (*band, header.rate, (to - from) * header.rate);
+                return band_rms(&history, settings, keys).filter(|_| whole);
+            }
             Of::Quadratic(requirement) => {
                 return quadratic(requirement, &self.columns, (samples, header, outcome), keys);
             }
@@ -143,6 +152,37 @@ fn rms(history: &[(f64, Vec<Number>)], keys: usize) -> Option<(f64, Vec<f64>)> {
     }
     let value = (square / length).sqrt();
     let by = by.into_iter().map(|sum| if value > 0.0 { sum / (length * value) } else { 0.0 });
+    value.is_finite().then(|| (value, by.collect()))
+}
+
+/// By the bins in the band: of each component the evenly spaced samples, as [`Statistics`] takes them.
+fn band_rms(
+    history: &[(f64, Vec<Number>)],
+    settings: ([f64; 2], f64, f64),
+    keys: usize,
+) -> Option<(f64, Vec<f64>)> {
+    let (_, rate, _) = settings;
+    let even = |before: f64, time: f64| ((time - before) * rate - 1.0).abs() < 1e-6;
+    let first = history.first()?;
+    let rest = history.windows(2).filter_map(|pair| {
+        let [before, sample] = pair else { return None };
+        even(before.0, sample.0).then_some(sample)
+    });
+    let samples: Vec<&Vec<Number>> =
+        std::iter::once(first).chain(rest).map(|(_, values)| values).collect();
+    let (mut square, mut by) = (0.0, vec![0.0; keys]);
+    for component in 0..first.1.len() {
+        let record = |of: &dyn Fn(&Number) -> f64| -> Vec<f64> {
+            samples.iter().filter_map(|values| values.get(component).map(of)).collect()
+        };
+        let directions: Vec<Vec<f64>> =
+            (0..keys).map(|key| record(&|of: &Number| of.derivative(key))).collect();
+        let (own, along) = band_derivatives(settings, &record(&|of| of.value), &directions)?;
+        square += own;
+        by.iter_mut().zip(along).for_each(|(sum, along)| *sum += along);
+    }
+    let value = square.sqrt();
+    let by = by.into_iter().map(|sum| if value > 0.0 { sum / value } else { 0.0 });
     value.is_finite().then(|| (value, by.collect()))
 }
 

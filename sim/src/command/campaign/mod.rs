@@ -3,6 +3,7 @@
 pub(super) mod montecarlo;
 pub(super) mod sweep;
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -17,6 +18,7 @@ use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };
 use crate::file::{Override, Template};
+use crate::record::no_data::no_data;
 use crate::record::{Columns, Header};
 use crate::scenario::Scenario;
 
@@ -203,6 +205,44 @@ pub(super) fn values_of(finished: &Finished, field: usize) -> Vec<Option<f64>> {
         numbers.get(field).copied().filter(|value| !value.is_nan())
     };
     finished.rows.iter().map(|row| row.as_ref().and_then(value)).collect()
+}
+
+/// Samples that were run and do not have a number of a field; those that failed are not among them.
+pub(super) fn without_number(finished: &Finished, field: usize) -> Vec<usize> {
+    let rows = finished.rows.iter().flatten();
+    let has_none = |row: &&crate::campaign::Row| {
+        let numbers = row.result.as_ref().ok();
+        numbers.is_some_and(|numbers| numbers.get(field).is_none_or(|value| value.is_nan()))
+    };
+    rows.filter(has_none).map(|row| row.sample).collect()
+}
+
+/// Of each requirement that samples have no number for, a sentence with the reason of the first of them.
+pub(super) fn not_evaluated(prepared: &Prepared, plan: &Plan, finished: &Finished) -> String {
+    let mut text = String::new();
+    for (index, of) in prepared.scenario.requirements.iter().enumerate() {
+        let samples = without_number(finished, index);
+        let Some(first) = samples.first() else { continue };
+        let overrides = plan.samples.get(*first).map_or(&[][..], |sample| &sample.overrides);
+        let overrides = [&prepared.overrides[..], overrides].concat();
+        let read = prepared.template.scenario(&overrides).ok();
+        let before_the_run = read.and_then(|(scenario, _)| {
+            let requirement = scenario.requirements.get(index)?;
+            no_data(requirement, scenario.output.rate, scenario.settings.duration)
+        });
+        let reason = before_the_run.map_or_else(
+            || "its run ended before the end of the window".to_owned(),
+            |reason| reason.to_string(),
+        );
+        let _ = writeln!(
+            text,
+            "requirement {} is not evaluated by {} of {} samples; of sample {first}: {reason}",
+            of.name,
+            samples.len(),
+            plan.samples.len()
+        );
+    }
+    text
 }
 
 /// A sentence about the samples that failed; empty if none did.

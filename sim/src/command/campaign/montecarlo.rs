@@ -5,10 +5,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CampaignOptions, Prepared, Shown, failures, shown, values_of};
+use super::{
+    CampaignOptions, Prepared, Shown, failures, not_evaluated, shown, values_of, without_number,
+};
 use crate::campaign::{
     Derivative, Estimate, Finished, Plan, SAMPLES_MAX, Variation, central_differences, derivatives,
-    digits, draw, exact_derivatives, percentile, probability, regression, spearman, tangents,
+    digits, draw, exact_derivatives, percentile, probability_between, regression, spearman,
+    tangents,
 };
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
@@ -17,6 +20,7 @@ use crate::command::run::progress_bar;
 use crate::command::table::{aligned, six};
 use crate::file::variations_from_toml;
 use crate::names::file_names;
+use crate::pointing::RequirementState;
 use crate::report::montecarlo::distribution;
 use crate::spectra::float;
 
@@ -28,7 +32,7 @@ Examples:
       one sample in each equally probable part of every key; and derivatives about the middle of the plan
 
 More samples keep the earlier ones (not of a Latin hypercube): raise --samples, add --force, and only the new
-ones are run.";
+ones are run. A sample that failed violates every requirement.";
 
 /// Percentiles that are estimated.
 const PERCENTILES: [f64; 4] = [0.05, 0.5, 0.95, 0.99];
@@ -106,11 +110,11 @@ impl MonteCarlo {
         }
         let count = texts.len() + 1;
         self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
-        let (text, met) = summary(&prepared, &plan, &finished, &correlations, &found);
+        let (text, exit) = summary(&prepared, &plan, &finished, &correlations, &found);
         print(&text)?;
         let folder = self.options.out().display();
         print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
-        Ok(Exit::of_met(met))
+        Ok(exit)
     }
 }
 
@@ -192,11 +196,23 @@ fn sorted(finished: &Finished, field: usize) -> Vec<f64> {
     values
 }
 
-/// Samples that meet a limit, as an estimate of a probability; one that failed does not.
-fn meets(finished: &Finished, field: usize, limit: f64) -> Option<(usize, Estimate)> {
+/// How many samples meet a limit.
+struct Meeting {
+    /// Samples that meet it.
+    met: usize,
+    /// Samples that were run and do not have the number, which neither meet it nor do not.
+    not_evaluated: usize,
+    /// The probability of meeting it. A sample that failed does not meet it. Where some are not evaluated there is no value,
+    /// and the interval is from that with none of them meeting it to that with all of them.
+    probability: Estimate,
+}
+
+fn meets(finished: &Finished, field: usize, limit: f64) -> Option<Meeting> {
     let values = values_of(finished, field);
     let met = values.iter().filter(|value| value.is_some_and(|value| value <= limit)).count();
-    Some((met, probability(met, values.len(), LEVEL)?))
+    let not_evaluated = without_number(finished, field).len();
+    let probability = probability_between([met, met + not_evaluated], values.len(), LEVEL)?;
+    Some(Meeting { met, not_evaluated, probability })
 }
 
 /// Rank correlations of each number with each key.
@@ -237,7 +253,8 @@ fn percentiles_csv(prepared: &Prepared, finished: &Finished) -> String {
                 cell(found.value)
             );
         }
-        if let Some((_, found)) = limit.and_then(|limit| meets(finished, field, limit)) {
+        let found = limit.and_then(|limit| meets(finished, field, limit));
+        if let Some(Meeting { probability: found, .. }) = found {
             let [lower, upper] = found.interval.map(cell);
             let _ = writeln!(
                 text,
@@ -290,21 +307,21 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// For the terminal; and whether every sample meets every requirement.
+/// For the terminal; and what became of the requirements.
 fn summary(
     prepared: &Prepared,
     plan: &Plan,
     finished: &Finished,
     correlations: &Correlations,
     found: &[(String, Vec<Derivative>)],
-) -> (String, bool) {
+) -> (String, Exit) {
     let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
     let mut rows = vec![
         ["", "median", "95 %", "its interval", "limit", "met by", "probability"]
             .map(str::to_owned)
             .to_vec(),
     ];
-    let mut all = true;
+    let mut exit = Exit::Success;
     for (name, field, (unit, size), limit) in shown(prepared) {
         let sorted = sorted(finished, field);
         let at = |share| percentile(&sorted, share, LEVEL);
@@ -319,13 +336,19 @@ fn summary(
         row.push(high.map_or_else(String::new, |of| {
             format!("{} to {}", value(of.interval[0]), value(of.interval[1]))
         }));
-        if let Some((limit, (met, of))) =
+        if let Some((limit, found)) =
             limit.and_then(|limit| Some((limit, meets(finished, field, limit)?)))
         {
-            all &= met == plan.samples.len();
+            let state = RequirementState::from_numbers(&values_of(finished, field), limit);
+            exit = exit.max(Exit::of_states([&state]));
+            let of_all = format!("{} of {}", found.met, plan.samples.len());
             row.push(format!("{} {unit}", six(limit / size)));
-            row.push(format!("{met} of {}", plan.samples.len()));
-            row.push(format!("{:.4} to {:.4}", of.interval[0], of.interval[1]));
+            row.push(match found.not_evaluated {
+                0 => of_all,
+                some => format!("{of_all}, {some} not evaluated"),
+            });
+            let [lower, upper] = found.probability.interval;
+            row.push(format!("{lower:.4} to {upper:.4}"));
         }
         rows.push(row);
     }
@@ -349,11 +372,14 @@ fn summary(
             );
         }
     }
+    text.push_str(&not_evaluated(prepared, plan, finished));
     let failures = failures(plan, finished);
-    all &= failures.is_empty();
+    if !failures.is_empty() {
+        exit = exit.max(Exit::Violated);
+    }
     text.push_str(&failures);
     if finished.resumed > 0 {
         let _ = writeln!(text, "{} samples were in the journal", digits(float(finished.resumed)));
     }
-    (text, all)
+    (text, exit)
 }

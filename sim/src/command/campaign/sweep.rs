@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 
-use super::{CampaignOptions, Prepared, failures, shown, values_of};
+use super::{CampaignOptions, Prepared, failures, not_evaluated, shown, values_of, without_number};
 use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
@@ -15,7 +15,7 @@ use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
 use crate::jitter::device::Steady;
 use crate::jitter::model::Model;
 use crate::names::file_names;
-use crate::pointing::Margin;
+use crate::pointing::{Margin, RequirementState};
 use crate::report::DrawError;
 use crate::report::sweep::{Numbers, curve, map, waterfall};
 use crate::structure::dynamic_mass::Motor;
@@ -63,11 +63,11 @@ impl Sweep {
         let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
         let count = pictures.len() + 1;
         self.options.write(&prepared, &plan, &finished, (&stem, pictures), &mut outputs)?;
-        let (text, met) = self.summary(&prepared, &plan, &finished);
+        let (text, exit) = self.summary(&prepared, &plan, &finished);
         print(&text)?;
         let folder = self.options.out().display();
         print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
-        Ok(Exit::of_met(met))
+        Ok(exit)
     }
 
     /// The files of the result.
@@ -129,8 +129,8 @@ impl Sweep {
         Ok(files)
     }
 
-    /// For the terminal: of each requirement and column the worst sample; whether all requirements are met.
-    fn summary(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> (String, bool) {
+    /// For the terminal: of each requirement and column the worst sample; and what became of the requirements.
+    fn summary(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> (String, Exit) {
         let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
         for axis in &self.over {
             let keys = prepared.template.keys_of(&axis.key).unwrap_or_default();
@@ -138,7 +138,7 @@ impl Sweep {
                 let _ = writeln!(text, "{} is {}", axis.key, keys.join(", "));
             }
         }
-        let mut met = true;
+        let mut exit = Exit::Success;
         let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
         let mut rows = vec![heads.map(str::to_owned).to_vec()];
         for (name, field, (unit, size), limit) in shown(prepared) {
@@ -161,14 +161,16 @@ impl Sweep {
                 ),
             );
             if let Some(limit) = limit {
-                let violated = values.iter().filter(|v| v.is_none_or(|v| v > limit)).count();
-                met &= violated == 0;
+                exit = exit.max(Exit::of_states([&RequirementState::from_numbers(&values, limit)]));
+                let violated = values.iter().flatten().filter(|value| **value > limit).count();
+                let missing = without_number(finished, field).len();
+                let failed = values.iter().filter(|value| value.is_none()).count() - missing;
+                let parts =
+                    [(violated, "violated by"), (missing, "not evaluated by"), (failed, "failed")];
+                let parts = parts.into_iter().filter(|(count, _)| *count > 0);
+                let parts: Vec<_> = parts.map(|(count, word)| format!("{word} {count}")).collect();
                 if let Some(state) = row.get_mut(1) {
-                    *state = if violated == 0 {
-                        "met".to_owned()
-                    } else {
-                        format!("violated by {violated}")
-                    };
+                    *state = if parts.is_empty() { "met".to_owned() } else { parts.join(", ") };
                 }
                 row.push(format!("{} {unit}", six(limit / size)));
                 let margin = worst.map(|(_, value)| Margin { value, limit }.ratio());
@@ -188,13 +190,16 @@ impl Sweep {
             rows.push(row);
         }
         text.push_str(&aligned(&rows));
+        text.push_str(&not_evaluated(prepared, plan, finished));
         let failures = failures(plan, finished);
-        met &= failures.is_empty();
+        if !failures.is_empty() {
+            exit = exit.max(Exit::Violated);
+        }
         text.push_str(&failures);
         if finished.resumed > 0 {
             let _ = writeln!(text, "{} samples were in the journal", digits_of(finished.resumed));
         }
-        (text, met)
+        (text, exit)
     }
 }
 

@@ -3,9 +3,10 @@
 use nalgebra::Vector2;
 use precess_dynamics::{ParameterError, Part};
 
-use super::super::diagnostic::{Diagnostic, Diagnostics, Severity};
+use super::super::diagnostic::{Diagnostic, Diagnostics, Severity, Span};
 use super::super::document::Node;
 use super::places;
+use crate::record::no_data::no_data;
 use crate::scenario::{Scenario, ScenarioError};
 
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
@@ -36,18 +37,35 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
             None => reports.error_anywhere(message, ""),
         }
     }
+    without_data(root, scenario, reports);
+    for (source, message) in scenario.fundamental_warnings() {
+        let span = places::of_harmonic(root, source);
+        reports.all.push(warning(span, format!("source.{source}: {message}"), ""));
+    }
     if let Ok(spacecraft) = scenario.spacecraft() {
-        for warning in spacecraft.warnings() {
-            let span = places::of_warning(root, &warning, &tables);
+        for found in spacecraft.warnings() {
+            let span = places::of_warning(root, &found, &tables);
             let help = "check moments and products of inertia and their units; it is run as given";
-            reports.all.push(Diagnostic {
-                severity: Severity::Warning,
-                span,
-                message: named(&warning.to_string(), names),
-                label: String::new(),
-                help: help.to_owned(),
-            });
+            reports.all.push(warning(span, named(&found.to_string(), names), help));
         }
+    }
+}
+
+fn warning(span: Option<Span>, message: String, help: &str) -> Diagnostic {
+    let (severity, label) = (Severity::Warning, String::new());
+    Diagnostic { severity, span, message, label, help: help.to_owned() }
+}
+
+/// Warns of requirements that a whole run has no data for.
+fn without_data(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
+    for of in &scenario.requirements {
+        let found = no_data(of, scenario.output.rate, scenario.settings.duration);
+        let Some(reason) = found else { continue };
+        let span = places::of_requirement(root, &of.name, of.statistic.key());
+        let message = format!("requirement `{}` cannot be evaluated: {reason}", of.name);
+        let help =
+            "a requirement without data is neither met nor violated: the exit code of its run is 3";
+        reports.all.push(warning(span, message, help));
     }
 }
 

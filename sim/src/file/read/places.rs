@@ -45,6 +45,16 @@ pub(super) fn of_dynamic_imbalance(root: &Node, device: usize, tables: &Tables) 
     (find(root, &table).as_ref() != Some(&place)).then_some(place)
 }
 
+/// The place of a key of a requirement.
+pub(super) fn of_requirement(root: &Node, name: &str, key: &str) -> Option<Span> {
+    find(root, &format!("requirement.{name}.{key}"))
+}
+
+/// The place of a source, at its harmonics.
+pub(super) fn of_harmonic(root: &Node, source: &str) -> Option<Span> {
+    find(root, &format!("source.{source}.harmonic"))
+}
+
 /// The place of a warning.
 pub(super) fn of_warning(root: &Node, warning: &Warning, tables: &Tables) -> Option<Span> {
     match warning {

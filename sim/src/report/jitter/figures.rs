@@ -9,8 +9,9 @@ use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::super::number::{short, with_unit};
 use super::super::unit::{SMALL_ANGLE, for_peak};
 use super::{JitterReport, RPM, metric, rpm};
-use crate::jitter::budget::{Assessed, outputs_of, weight_of};
+use crate::jitter::budget::{Assessed, outputs_of};
 use crate::jitter::model::Line;
+use crate::jitter::weight::Weight;
 
 /// A line is drawn in a waterfall from this square root of its share of the largest on.
 const DOT_MIN: f64 = 1e-2;
@@ -19,9 +20,9 @@ const WATERFALL_SPEEDS: f64 = 160.0;
 /// A limit is drawn up to this many times the RMS.
 const LIMIT_SHOWN: f64 = 3.0;
 
-/// The share of a mean square in the metric of a requirement, by angular frequency, rad/s. A budget has no index.
-fn weight(of: &Assessed) -> Box<dyn Fn(f64) -> f64> {
-    weight_of(&of.limit.metric).unwrap_or_else(|_| Box::new(|_| 1.0))
+/// The share of a mean square in the metric of a requirement. A budget has no index.
+fn weight(of: &Assessed) -> Weight {
+    Weight::of_metric(&of.limit.metric).unwrap_or_else(|_| Weight::one())
 }
 
 impl JitterReport<'_> {
@@ -57,12 +58,11 @@ impl JitterReport<'_> {
             .map(|line| {
                 let values = outputs.iter().filter_map(|output| line.values.get(*output));
                 let square = values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>();
-                (line.frequency / TAU, square * weight(line.frequency))
+                (line.frequency / TAU, square * weight.at(line.frequency))
             })
             .collect();
         if let Some(densities) = self.sweep.noise.nearest(speed) {
-            let weighted = |(f, square): (f64, f64)| (f, square * weight(TAU * f));
-            sorted.extend(densities.squares(&outputs).into_iter().map(weighted));
+            sorted.extend(densities.squares(&outputs, &weight));
         }
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
@@ -121,13 +121,8 @@ impl JitterReport<'_> {
         let square = unit.per_si * unit.per_si;
         let density: Vec<f64> =
             densities.values.iter().map(|values| sum(values) * square).collect();
-        let mut total = 0.0;
-        let mut rms = vec![0.0];
-        let weight = weight(of);
-        for (frequency, part) in densities.squares(&outputs) {
-            total += part * square * weight(TAU * frequency);
-            rms.push(total.sqrt());
-        }
+        let cumulative = densities.cumulative(&outputs, &weight(of));
+        let rms: Vec<f64> = cumulative.iter().map(|sum| sum.sqrt() * unit.per_si).collect();
         let limit = vec![of.limit.limit * unit.per_si; rms.len()];
         let curve = |name: &str, density: Vec<f64>, rms: Vec<f64>| SpectrumCurve {
             name: name.to_owned(),

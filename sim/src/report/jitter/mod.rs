@@ -13,6 +13,7 @@ use super::blocks::{Block, Fact, Section, Summary, table};
 use super::error::{DrawError, ReportError};
 use super::number::{short, with_unit};
 use super::page::{Page, lines};
+use super::row_state;
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing};
 use crate::jitter::coupled::Compared;
@@ -44,6 +45,8 @@ pub(crate) struct JitterReport<'a> {
     pub(crate) crossings: &'a [Crossing],
     /// Runs of the coupled equations; at resonance or not.
     pub(crate) compared: &'a [(Compared, bool)],
+    /// Whether a rotor has tones of its own, which runs of the coupled equations have.
+    pub(crate) has_imbalance: bool,
     /// Of each requirement.
     pub(crate) sensitivities: &'a [Vec<Sensitivity>],
     pub(crate) warnings: &'a [String],
@@ -163,19 +166,23 @@ impl JitterReport<'_> {
         }
         let rows = self.assessed.iter().map(|of| {
             let (unit, size) = &of.limit.unit;
-            let state = if of.margin.is_met() { "met" } else { "violated" };
+            let state = of.state();
+            let missing = of.no_data.is_some();
+            let known = |text: String| if missing { "–".to_owned() } else { text };
             let sight = self.budget.sights.get(of.sight).map_or("", |sight| sight.name.as_str());
             let cells = vec![
                 of.limit.name.clone(),
-                state.to_owned(),
-                with_unit(of.margin.value / size, 4, unit),
+                state.to_string(),
+                known(with_unit(of.margin.value / size, 4, unit)),
                 with_unit(of.limit.limit / size, 4, unit),
-                format!("{} dB", short(20.0 * of.margin.ratio().log10(), 3)),
-                self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
+                known(format!("{} dB", short(of.margin.decibels(), 3))),
+                known(
+                    self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
+                ),
                 format!("{}, {sight}", metric(&of.limit.metric)),
-                intervals(&of.keep_out),
+                known(intervals(&of.keep_out)),
             ];
-            (state, cells)
+            (row_state(&state), cells)
         });
         let columns = [
             ("Requirement", ""),

@@ -14,7 +14,11 @@ const RANKED_MAX: usize = 12;
 impl JitterReport<'_> {
     pub(super) fn paths(&self) -> Vec<Block> {
         if self.compared.is_empty() {
-            let text = "No run of the coupled equations was made.";
+            let text = if self.has_imbalance {
+                "No run of the coupled equations was made."
+            } else {
+                "No run of the coupled equations was made: it is without sources, and no rotor is out of balance."
+            };
             return vec![Block::Note { text: text.to_owned() }];
         }
         let [off, at] = AGREEMENT;
@@ -42,7 +46,10 @@ impl JitterReport<'_> {
         vec![
             table("Amplitudes of the lines of sight by both paths", &columns, 2..5, rows),
             Block::Note {
-                text: "The run is of the nonlinear equations, started in the motion that the lines predict. \
+                text: "The run is of the nonlinear equations, started in the motion that the lines predict. A difference is in \
+                       units of the sum of the magnitudes of the tones of a frequency, or of a thousandth of the magnitudes of \
+                       all terms (each component of each force on each mount at each node) where that is more: these do not \
+                       vanish where an amplitude cancels. \
                        Where the difference is above its bound the linear model does not hold at that speed."
                     .to_owned(),
             },

@@ -2,13 +2,19 @@
 
 use super::super::blocks::{Block, Verdict, table};
 use super::super::number::{short, with_unit};
+use super::super::row_state;
 use super::{JitterReport, intervals, rpm};
 use crate::jitter::budget::Assessed;
 use crate::jitter::sweep::Phases;
 
 impl JitterReport<'_> {
     pub(super) fn verdict(&self) -> Verdict {
-        let unmet: Vec<_> = self.assessed.iter().filter(|of| !of.margin.is_met()).collect();
+        let unmet: Vec<_> = self.assessed.iter().filter(|of| of.state().is_violated()).collect();
+        let missing: Vec<String> = self
+            .assessed
+            .iter()
+            .filter_map(|of| Some(format!("{}: {}", of.limit.name, of.state().reason()?)))
+            .collect();
         let all = self.assessed.len();
         let speeds = self.sweep.speeds.len();
         if all == 0 {
@@ -16,6 +22,12 @@ impl JitterReport<'_> {
             return Verdict { state: "", word: "Complete.".to_owned(), text };
         }
         let beside = self.beside();
+        if unmet.is_empty() && !missing.is_empty() {
+            let word = format!("{} of {all} requirements not evaluated:", missing.len());
+            let met = if missing.len() == all { "" } else { " The others are met." };
+            let text = format!("{}.{met} {beside}", missing.join("; "));
+            return Verdict { state: "", word, text };
+        }
         if unmet.is_empty() {
             let word = format!("All {all} requirements are met");
             let text = format!("at all {speeds} speeds, {}. {beside}", self.budget.phases.words());
@@ -28,6 +40,11 @@ impl JitterReport<'_> {
             unmet.iter().map(one).collect::<Vec<_>>().join("; ").replace(" out of ", " at "),
             self.budget.phases.words()
         );
+        let text = if missing.is_empty() {
+            text
+        } else {
+            format!("{text} Not evaluated: {}.", missing.join("; "))
+        };
         Verdict { state: "violated", word, text }
     }
 
@@ -35,12 +52,17 @@ impl JitterReport<'_> {
     fn beside(&self) -> String {
         let all = self.assessed.len();
         let one = |(index, phases): (usize, Phases)| {
-            let of = self.assessed.iter().filter_map(|of| of.by_phases.get(index));
-            let unmet = of.filter(|of| !of.margin.is_met()).count();
-            let state = if unmet == 0 {
-                format!("all {all} are met")
-            } else {
-                format!("{unmet} of {all} violated")
+            let states = self
+                .assessed
+                .iter()
+                .filter_map(|of| Some(of.state_of(&of.by_phases.get(index)?.margin)));
+            let states: Vec<_> = states.collect();
+            let count = |word: &str| states.iter().filter(|state| state.word() == word).count();
+            let (met, unmet) = (count("met"), count("violated"));
+            let state = match (met, unmet) {
+                (met, 0) if met == all => format!("all {all} are met"),
+                (met, 0) => format!("{met} of {all} are met, the others not evaluated"),
+                (_, unmet) => format!("{unmet} of {all} violated"),
             };
             format!("With {}: {state}.", phases.words())
         };
@@ -53,17 +75,25 @@ impl JitterReport<'_> {
         let rows = self.assessed.iter().flat_map(|of| {
             let (unit, size) = &of.limit.unit;
             of.by_phases.iter().map(move |by| {
-                let state = if by.margin.is_met() { "met" } else { "violated" };
+                let state = of.state_of(&by.margin);
+                let known = |text: String| {
+                    if state.reason().is_some() { "–".to_owned() } else { text }
+                };
                 let cells = vec![
                     of.limit.name.clone(),
                     by.phases.words().to_owned(),
-                    state.to_owned(),
-                    with_unit(by.margin.value / size, 4, unit),
+                    state.word().to_owned(),
+                    known(with_unit(by.margin.value / size, 4, unit)),
                     with_unit(of.limit.limit / size, 4, unit),
-                    format!("{} dB", short(20.0 * by.margin.ratio().log10(), 3)),
-                    self.sweep.speeds.get(by.worst).map_or_else(String::new, |speed| rpm(*speed)),
+                    known(format!("{} dB", short(by.margin.decibels(), 3))),
+                    known(
+                        self.sweep
+                            .speeds
+                            .get(by.worst)
+                            .map_or_else(String::new, |speed| rpm(*speed)),
+                    ),
                 ];
-                (state, cells)
+                (row_state(&state), cells)
             })
         });
         let columns = [

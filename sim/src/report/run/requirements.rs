@@ -3,7 +3,7 @@
 use crate::pointing::Index;
 use crate::record::Verdict;
 use crate::report::blocks::{Block, table};
-use crate::report::{Report, number};
+use crate::report::{Report, number, row_state};
 use crate::scenario::Statistic;
 
 /// The table; empty where the scenario states no requirements.
@@ -13,11 +13,10 @@ pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
         return Vec::new();
     }
     let rows = requirements.iter().zip(report.verdicts()).map(|(requirement, verdict)| {
-        let state = if verdict.is_met() { "met" } else { "violated" };
         let [from, to] = requirement.window.map(number::time);
         let cells = vec![
             requirement.name.clone(),
-            word(verdict).to_owned(),
+            verdict.state.to_string(),
             reached(verdict),
             limit(verdict),
             margin(verdict),
@@ -25,7 +24,7 @@ pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
             statistic(requirement.statistic),
             format!("{from} s to {to} s"),
         ];
-        (state, cells)
+        (row_state(&verdict.state), cells)
     });
     let columns = [
         ("Requirement", ""),
@@ -41,31 +40,23 @@ pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
     vec![table("Requirements, and what the run reached", &columns, 2..5, rows)]
 }
 
-/// A requirement in words: `pointing: 0.0300 deg/s, limit 0.100 deg/s`.
+/// A requirement in words: `pointing: 0.0300 deg/s of omega, within the limit 0.100 deg/s`.
 pub(in crate::report) fn words(verdict: &Verdict) -> String {
+    if let (Some(reason), reached) = (verdict.state.reason(), reached(verdict)) {
+        let so_far = match (verdict.value, verdict.complete) {
+            (Some(_), false) => format!("; {reached} so far"),
+            _ => String::new(),
+        };
+        return format!("{}: not evaluated: {reason}{so_far}", verdict.name);
+    }
     let comparison = if verdict.is_met() { "within" } else { "above" };
-    match (verdict.value, verdict.complete) {
-        (None, _) => format!("{}: no sample in its window", verdict.name),
-        (Some(_), false) => {
-            format!("{}: {} so far, its window was not run", verdict.name, reached(verdict))
-        }
-        (Some(_), true) => format!(
-            "{}: {} of {}, {comparison} the limit {}",
-            verdict.name,
-            reached(verdict),
-            verdict.quantity,
-            limit(verdict)
-        ),
-    }
-}
-
-fn word(verdict: &Verdict) -> &'static str {
-    match (verdict.value, verdict.complete) {
-        (None, _) => "violated: no sample",
-        (Some(_), false) => "violated: window not run",
-        (Some(value), true) if value <= verdict.limit => "met",
-        (Some(_), true) => "violated",
-    }
+    format!(
+        "{}: {} of {}, {comparison} the limit {}",
+        verdict.name,
+        reached(verdict),
+        verdict.quantity,
+        limit(verdict)
+    )
 }
 
 fn reached(verdict: &Verdict) -> String {

@@ -1,21 +1,32 @@
 //! The head of the page, and a summary for the terminal: verdict, end of the run, cost, drifts.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 
 use super::requirements;
-use crate::engine::{End, Outcome};
+use crate::engine::{End, Event, Outcome};
+use crate::pointing::RequirementState;
+use crate::record;
 use crate::report::blocks::{Fact, Summary, Verdict};
 use crate::report::{Report, number};
 use crate::scenario::{IntegratorChoice, Member};
 
 /// Requirements that the terminal shows.
 const SHOWN_MAX: usize = 3;
+/// Events that it shows.
+const EVENTS_SHOWN_MAX: usize = 6;
 
 /// The sentence above everything.
 pub(in crate::report) fn verdict(report: &Report, outcome: &Outcome) -> Verdict {
     let verdicts = report.verdicts();
-    let violated: Vec<_> = verdicts.iter().filter(|verdict| !verdict.is_met()).collect();
-    let reasons = || violated.iter().map(|v| requirements::words(v)).collect::<Vec<_>>().join("; ");
+    let count =
+        |of: fn(&RequirementState) -> bool| verdicts.iter().filter(|v| of(&v.state)).count();
+    let violated = count(RequirementState::is_violated);
+    let missing = verdicts.len() - violated - count(RequirementState::is_met);
+    let reasons = || {
+        let unmet = unmet_first(verdicts).into_iter().filter(|verdict| !verdict.is_met());
+        unmet.map(requirements::words).collect::<Vec<_>>().join("; ")
+    };
     let end = end_words(outcome);
     if let End::Failed(_) | End::Cancelled = outcome.end {
         let word = if matches!(outcome.end, End::Cancelled) { "Cancelled." } else { "Failed." };
@@ -23,11 +34,23 @@ pub(in crate::report) fn verdict(report: &Report, outcome: &Outcome) -> Verdict 
         let text = format!("{end} {valid}");
         return Verdict { state: "violated", word: word.to_owned(), text };
     }
-    match (verdicts.len(), violated.len()) {
+    match (verdicts.len(), violated) {
         (0, _) => Verdict {
             state: "",
             word: "Complete.".to_owned(),
             text: format!("{end} The scenario states no requirements."),
+        },
+        (all, 0) if missing > 0 => Verdict {
+            state: "",
+            word: match (all, missing) {
+                (1, _) => "The requirement is not evaluated:".to_owned(),
+                (_, 1) => format!("1 of {all} requirements is not evaluated, the others are met:"),
+                _ if missing == all => "No requirement is evaluated:".to_owned(),
+                _ => format!(
+                    "{missing} of {all} requirements are not evaluated, the others are met:"
+                ),
+            },
+            text: format!("{}. {end}", reasons()),
         },
         (all, 0) => Verdict {
             state: "met",
@@ -50,6 +73,17 @@ pub(in crate::report) fn verdict(report: &Report, outcome: &Outcome) -> Verdict 
             text: format!("{}. {end}", reasons()),
         },
     }
+}
+
+/// Verdicts with those that are violated first, then those that are not evaluated.
+fn unmet_first(verdicts: &[record::Verdict]) -> Vec<&record::Verdict> {
+    let mut sorted: Vec<_> = verdicts.iter().collect();
+    sorted.sort_by_key(|verdict| match verdict.state {
+        RequirementState::Violated => 0,
+        RequirementState::NotEvaluated(_) => 1,
+        RequirementState::Met => 2,
+    });
+    sorted
 }
 
 /// Paragraphs and facts of the first section.
@@ -141,7 +175,7 @@ fn facts(report: &Report, outcome: &Outcome) -> Vec<Fact> {
     facts
 }
 
-/// At most ten lines.
+/// Some ten lines, and the first events.
 pub(in crate::report) fn terminal(report: &Report, outcome: &Outcome, files: &[String]) -> String {
     let steps = &outcome.steps;
     let mut lines = vec![
@@ -155,18 +189,22 @@ pub(in crate::report) fn terminal(report: &Report, outcome: &Outcome, files: &[S
         ),
     ];
     let verdicts = report.verdicts();
-    let violated: Vec<_> = verdicts.iter().filter(|verdict| !verdict.is_met()).collect();
     if !verdicts.is_empty() {
-        let met = verdicts.len() - violated.len();
-        lines.push(format!("requirements: {met} of {} met", verdicts.len()));
-        // Those that are violated first.
-        let others = verdicts.iter().filter(|verdict| verdict.is_met());
-        let shown = violated.iter().copied().chain(others).take(SHOWN_MAX);
+        let count = |word: &str| verdicts.iter().filter(|v| v.state.word() == word).count();
+        let mut line = format!("requirements: {} of {} met", count("met"), verdicts.len());
+        for word in ["violated", "not evaluated"] {
+            if count(word) > 0 {
+                let _ = write!(line, ", {} {word}", count(word));
+            }
+        }
+        lines.push(line);
+        let shown = unmet_first(verdicts).into_iter().take(SHOWN_MAX);
         lines.extend(shown.map(|verdict| format!("  {}", requirements::words(verdict))));
         if verdicts.len() > SHOWN_MAX {
             lines.push(format!("  and {} more", verdicts.len() - SHOWN_MAX));
         }
     }
+    lines.extend(event_lines(outcome));
     if let Some(peak) = omega_peak(report) {
         lines.push(format!("largest |omega|: {peak}"));
     }
@@ -186,6 +224,19 @@ pub(in crate::report) fn terminal(report: &Report, outcome: &Outcome, files: &[S
     }
     lines.push(String::new());
     lines.join("\n")
+}
+
+/// Crossings, stops and changes, with their times.
+fn event_lines(outcome: &Outcome) -> Vec<String> {
+    let shown = outcome.events.iter().take(EVENTS_SHOWN_MAX);
+    let line = |event: &Event| format!("at {} s: {}", number::time(event.time), event.text);
+    let mut lines: Vec<String> = shown.map(line).collect();
+    let all = u64::try_from(outcome.events.len()).unwrap_or(0) + outcome.events_omitted;
+    let more = all.saturating_sub(u64::try_from(lines.len()).unwrap_or(0));
+    if more > 0 {
+        lines.push(format!("and {more} more events"));
+    }
+    lines
 }
 
 fn omega_peak(report: &Report) -> Option<String> {
