@@ -7,6 +7,7 @@ mod inputs;
 mod loads;
 mod names;
 mod requirements;
+mod tables;
 
 use std::fs;
 use std::path::{Path, PathBuf};
