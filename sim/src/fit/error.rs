@@ -114,6 +114,13 @@ pub enum FitError {
         /// The ends of the 95 % interval of that.
         interval: [f64; 2],
     },
+    /// Too few records in which a line shows the speed.
+    Lost {
+        /// Records in which none does.
+        lost: usize,
+        /// How many there are.
+        of: usize,
+    },
     /// No record in which h = 1 is measured.
     NoImbalance,
     /// The same samples twice.
@@ -203,6 +210,11 @@ impl fmt::Display for FitError {
                 f,
                 "{group}: the lines do not determine the {what} of a mode at {hertz:.4} Hz: 95 % from {low:.3e} to \
                  {high:.3e}; leave the mode out, or measure speeds at which a line crosses it"
+            ),
+            Self::Lost { lost, of } => write!(
+                f,
+                "in {lost} of {of} records no line stands out within `speed_accuracy` of the speed, and the others are too \
+                 few; check the speeds, state them more exactly with a lower `speed_accuracy`, or record an index"
             ),
             Self::NoImbalance => write!(
                 f,

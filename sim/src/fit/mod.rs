@@ -201,10 +201,15 @@ pub fn fit_with_progress(
     for group in Group::ALL {
         progress(&format!("modes: {group}"));
         let points = powers::powers(group, &numbers, &tracked.rotations, &tracked.lines);
-        groups.push(match &options.modes {
-            Some(modes) => powers::fit(group, numbers.len(), points, modes)?,
-            None => search::search(group, numbers.len(), &points)?,
-        });
+        let fitted = match &options.modes {
+            Some(modes) => powers::fit(group, numbers.len(), points, modes),
+            None => search::search(group, numbers.len(), &points),
+        };
+        let (lost, of) = (tracked.lost.len(), tracked.lines.len());
+        groups.push(fitted.map_err(|error| match error {
+            FitError::Few { .. } if lost > 0 => FitError::Lost { lost, of },
+            error => error,
+        })?);
     }
     progress("what is left");
     let durations: Vec<f64> = measurement.records.iter().map(Record::duration).collect();

@@ -8,6 +8,7 @@ mod inputs;
 mod loads;
 mod names;
 mod requirements;
+mod tables;
 mod units;
 
 use std::fs;
