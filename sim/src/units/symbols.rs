@@ -192,22 +192,24 @@ fn is_counted(symbol: &str) -> bool {
     find(symbol).is_some_and(|found| measures.into_iter().any(|measure| of(measure, found)))
 }
 
-/// The pairs of symbols that a text without a space is made of. The first is a mass, a force, an energy, a power or a
-/// foot or inch: nobody writes another first.
+/// The pairs of symbols that a text without a space is made of, as data sheets write them: a mass, a force, an energy or a
+/// power and a length or a time (`gcm`, `Ns`), or a foot or inch and a weight (`ftlb`).
 fn products(text: &str) -> Vec<[&str; 2]> {
-    const FIRST: [Measure; 4] = [Measure::MASS, Measure::FORCE, Measure::ENERGY, Measure::POWER];
-    let leads = |first: &str| {
-        let known = |of: Symbol| FIRST.iter().any(|measure| measure.dimension == of.dimension);
-        first != "t" && (matches!(first, "in" | "ft") || find(first).is_some_and(known))
+    let measures = |of: &str, all: &[Measure]| {
+        find(of).is_some_and(|found| all.iter().any(|measure| measure.dimension == found.dimension))
     };
-    let mut pairs = Vec::new();
-    for (at, _) in text.char_indices().skip(1) {
-        let (first, second) = text.split_at(at);
-        if leads(first) && find(second).is_some() {
-            pairs.push([first, second]);
-        }
-    }
-    pairs
+    let quantity = [Measure::MASS, Measure::FORCE, Measure::ENERGY, Measure::POWER];
+    let is_pair = |first: &str, second: &str| {
+        let arm =
+            matches!(first, "in" | "ft") && matches!(second, "lb" | "lbm" | "oz" | "lbf" | "ozf");
+        let times = first != "t"
+            && measures(first, &quantity)
+            && measures(second, &[Measure::LENGTH, Measure::TIME]);
+        arm || times
+    };
+    let splits = text.char_indices().skip(1).map(|(at, _)| text.split_at(at));
+    let pairs = splits.filter(|(first, second)| is_pair(first, second));
+    pairs.map(|(first, second)| [first, second]).collect()
 }
 
 /// The two symbols that a symbol may also be read as: of `ms` metre and second, but of `mm` nothing.

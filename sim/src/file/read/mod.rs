@@ -312,7 +312,7 @@ mod tests {
             .replace("mass = \"810 kg\"", "mas = \"810 kg\"")
             .replace("\"4 kg\"", "4")
             .replace("\"500 rpm\"", "\"500 Hz\"")
-            .replace("\"10 s\"", "\"10 sec\"")
+            .replace("\"10 s\"", "\"10 furlongs\"")
             .replace("mass = \"24 kg\"", "mass = \"-24 kg\"");
         let shown = errors(&text);
         for part in [
