@@ -25,6 +25,8 @@ const STABLE: f64 = 10.0;
 const EARLY: f64 = 1e6;
 /// With more than a cycle in each step nothing of a profile is left.
 const CYCLE: f64 = TAU;
+/// No step is longer than half a cycle of a source.
+const HALF_CYCLE: f64 = 0.5 * TAU;
 
 /// The time in which something varies.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +95,7 @@ impl Scenario {
                         Plain(duration)
                     )
                 }
-                // The stability of its steps is checked with each.
+                // The stability of its steps is checked with each; of sources there is advice.
                 IntegratorChoice::Rk4 { step }
                     if scale.per_step == CYCLE && scale.rate * step > CYCLE =>
                 {
@@ -134,7 +136,7 @@ impl Scenario {
                 rate: TAU * source.model.highest_frequency(rate),
                 oscillates: true,
                 span: span.max(0.0),
-                per_step: CYCLE,
+                per_step: HALF_CYCLE,
             });
         }
         scales.retain(|scale| scale.rate > 0.0);
