@@ -289,6 +289,8 @@ mod tests {
             let kind = parse_unit(rate).expect_err(rate).kind;
             assert!(matches!(kind, UnitErrorKind::Hertz(_)), "{rate}: {kind:?}");
         }
+        let shown = parse_unit("N/kHz^2").expect_err("hertz").kind.to_string();
+        assert!(shown.contains("`(rev/s)` for turns, `(rad/s)` for radians"), "{shown}");
         let shown = parse_unit("N/Hz^2").expect_err("hertz").kind.to_string();
         assert!(shown.contains("`N/(rev/s)^2` for turns, `N/(rad/s)^2` for radians"), "{shown}");
     }

@@ -48,7 +48,11 @@ pub(super) fn scale_of(text: &str, at: usize) -> Result<Scale, UnitError> {
         return Ok(scale);
     }
     let unit = text.get(at..).unwrap_or_default().trim();
-    let by = |rate: &str| unit.replace("Hz", rate);
+    // One with a prefix, such as kHz, is not replaced: neither of them takes one.
+    let prefixed = unit
+        .match_indices("Hz")
+        .any(|(at, _)| unit.get(..at).is_some_and(|before| before.ends_with(char::is_alphabetic)));
+    let by = |rate: &str| if prefixed { rate.to_owned() } else { unit.replace("Hz", rate) };
     let kind = UnitErrorKind::Hertz([by("(rev/s)"), by("(rad/s)")]);
     Err(UnitError { at: at..text.len(), kind })
 }

@@ -194,10 +194,15 @@ impl Keys<'_> {
 fn other_reading(found: &Quantity, text: &str, wanted: Measure) -> Option<String> {
     let unit = found.unit.as_str();
     let numbers = text.trim().strip_suffix(unit)?.trim_end();
-    if found.is(Measure::FREQUENCY) && wanted == Measure::ANGULAR_RATE && unit == "Hz" {
-        return Some(format!(
-            "write `{numbers} rev/s` for turns per second, `{numbers} rad/s` for radians per second"
-        ));
+    if found.is(Measure::FREQUENCY) && wanted == Measure::ANGULAR_RATE {
+        // Of `1/min`, too.
+        let per = unit.strip_prefix("1/").or((unit == "Hz").then_some("s"));
+        return Some(match per {
+            Some(time) => format!(
+                "write `{numbers} rev/{time}` for turns, `{numbers} rad/{time}` for radians"
+            ),
+            None => "write it in rev/s for turns per second, in rad/s for radians".to_owned(),
+        });
     }
     let weight = ["oz", "lb"]
         .into_iter()
