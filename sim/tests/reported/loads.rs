@@ -1,5 +1,6 @@
 //! Loads about stated points, in stated axes, and what an evaluation says of them.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -45,9 +46,9 @@ fn device(kind: BuiltInKind) -> (String, f64, Vector3<f64>) {
         if info.slides {
             let displacement = 0.01 * f64::from(u8::try_from(info.axis + 1).expect("an axis"));
             slid[info.axis] += displacement;
-            text += &format!("{body}.displacement = \"{displacement} m\"\n");
+            let _ = writeln!(text, "{body}.displacement = \"{displacement} m\"");
         }
-        text += &format!("{body}.{locked}\n");
+        let _ = writeln!(text, "{body}.{locked}");
         let bearing =
             body.ends_with("slide") || body.contains("_slide_") || body.starts_with("tilt");
         if bearing {
@@ -60,13 +61,13 @@ fn device(kind: BuiltInKind) -> (String, f64, Vector3<f64>) {
             "slosh_mass" => (2.0, Vector3::zeros()),
             _ => (3.0, Vector3::new(0.2, 0.3, 0.1)),
         };
-        text += &format!("{body}.mass = \"{of_body} kg\"\n");
+        let _ = writeln!(text, "{body}.mass = \"{of_body} kg\"");
         if body != "slosh_mass" {
-            text += &format!("{body}.inertia = \"0.3, 0.2, 0.2 kg m^2\"\n");
+            let _ = writeln!(text, "{body}.inertia = \"0.3, 0.2, 0.2 kg m^2\"");
         }
         if centre != Vector3::zeros() {
             let [x, y, z]: [f64; 3] = centre.into();
-            text += &format!("{body}.centre_of_mass = \"{x}, {y}, {z} m\"\n");
+            let _ = writeln!(text, "{body}.centre_of_mass = \"{x}, {y}, {z} m\"");
         }
         mass += of_body;
         first_moment += (centre + slid) * of_body;
@@ -82,11 +83,12 @@ fn hub(structure: bool) -> String {
     );
     if structure {
         // So large a coordinate of so small a shape is held by its mass.
-        text += &format!(
+        let _ = writeln!(
+            text,
             "[structure]\ncontains_devices = false\ncoordinates = [1e7]\n\
              [[structure.node]]\nname = \"w\"\nposition = \"0.3, 0, 0 m\"\n\
              [[structure.mode]]\nfrequency = \"1e-12 rad/s\"\n\
-             shape = [{{ node = \"w\", translation = [0, 2e-9, 1e-9], rotation = [{}, 0, 0] }}]\n",
+             shape = [{{ node = \"w\", translation = [0, 2e-9, 1e-9], rotation = [{}, 0, 0] }}]",
             TURNS[1] * 1e-7
         );
     }
