@@ -25,17 +25,17 @@ pub fn longest_step(responses: &DMatrix<f64>, damping: &[f64], stiffness: &[f64]
         let (half, k) = (column / count, column % count);
         match row.checked_sub(count) {
             None => f64::from(u8::from(half == 1 && row == k)),
-            // Symmetric: roots of stiffness, or of damping, do not matter to the eigenvalues.
             Some(row) if half == 0 => -responses[(row, k)] * stiffness[k] / (rate * rate),
             Some(row) => -responses[(row, k)] * damping[k] / rate,
         }
     });
     let values = matrix.complex_eigenvalues();
     // Those of motions without a spring are zero to the root of rounding.
-    let moving = values.iter().filter(|value| value.norm() > 1e-5);
-    moving
-        .fold(f64::INFINITY, |least, value| least.min(limit(*value / value.norm()) / value.norm()))
-        / rate
+    let sized = values.iter().map(|value| (*value, magnitude(*value)));
+    let least = sized
+        .filter(|(_, size)| *size > 1e-5)
+        .fold(f64::INFINITY, |least, (value, size)| least.min(limit(value.unscale(size)) / size));
+    least / rate
 }
 
 /// The magnitude of `λ dt` up to which the method is stable in a direction.
@@ -55,10 +55,12 @@ fn limit(direction: Complex<f64>) -> f64 {
 
 /// `|R(z)|`.
 fn amplification(z: Complex<f64>) -> f64 {
-    [4.0, 3.0, 2.0, 1.0]
-        .into_iter()
-        .fold(Complex::new(1.0, 0.0), |sum, divisor| sum * z / divisor + 1.0)
-        .norm()
+    let one = Complex::new(1.0, 0.0);
+    magnitude([4.0, 3.0, 2.0, 1.0].into_iter().fold(one, |sum, divisor| sum * z / divisor + 1.0))
+}
+
+fn magnitude(z: Complex<f64>) -> f64 {
+    libm::hypot(z.re, z.im)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 //! zero. Damper and spring of a joint are numbers on the diagonal, so the elimination of R is that
 //! of the equations of motion with other numbers added to the joints' pivots.
 
-use crate::numbers::real::Scalar;
+use crate::numbers::real::{Scalar, zero};
 
 /// Shares of damping and stiffness that are subtracted from the mass matrix, (S1).
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,8 @@ impl<T: Scalar> MassReduction<T> {
     /// What is subtracted of a joint or mode with this damping and stiffness, kg m² (or kg; of a
     /// mode without unit).
     pub(crate) fn subtracted(&self, damping: T, stiffness: T) -> T {
-        self.damping * damping + self.stiffness * stiffness
+        // Of a step beyond the root of the largest number a share is infinite.
+        let taken = |share: T, number: T| if number == zero() { zero() } else { share * number };
+        taken(self.damping, damping) + taken(self.stiffness, stiffness)
     }
 }

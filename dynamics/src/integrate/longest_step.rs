@@ -17,7 +17,7 @@
 //! sqrt 8. All pairs (a, b) of a system form a convex set, and each line of (S2) holds for all of
 //! them where one matrix `M - x C - y K` is positive definite, (S1). So nothing that is accepted can
 //! grow, however springs and dampers are distributed; of a single spring and damper, what is
-//! rejected is at most 8 % below its limit.
+//! rejected is at most 9 % below its limit.
 
 use crate::equations::mass_reduction::MassReduction;
 use crate::numbers::real::{Scalar, half, one, two, zero};
@@ -199,13 +199,13 @@ mod tests {
     }
 
     #[test]
-    fn every_damping_of_a_spring_is_within_eight_percent_of_its_limit() {
+    fn every_damping_of_a_spring_is_within_nine_percent_of_its_limit() {
         for damping in 0..=400 {
             let a = f64::from(damping) * 0.01;
             let limit = longest(a, 1.0);
             let size = |dt: f64| amplification(a * dt, dt * dt);
             assert!(size(0.9999 * limit) <= 1.0, "{a}: {limit}");
-            assert!(size(1.09 * limit) > 1.0, "{a}: {limit}");
+            assert!(size(1.1 * limit) > 1.0, "{a}: {limit}");
         }
     }
 

@@ -31,10 +31,8 @@ pub fn longest_step_holds(case: &Case) -> Verdict {
     for [coordinate, rate] in start.devices.states_mut() {
         (*coordinate, *rate) = (SMALL * *coordinate, 0.0);
     }
-    let longest = match craft.step(&start, &inputs, LONG * case.dt) {
-        Err(SolveError::Unstable { longest, .. }) => longest,
-        _ => return Ok(Checked::Rejected),
-    };
+    let rejected = craft.step(&start, &inputs, LONG * case.dt);
+    let Err(SolveError::Unstable { longest, .. }) = rejected else { return Ok(Checked::Rejected) };
     if craft.step(&start, &inputs, 1.001 * longest).is_ok() {
         return Err(format!("a step longer than {longest:?} s is accepted"));
     }

@@ -16,7 +16,7 @@ const DRAWN: usize = 12;
 
 /// The named step is at most this much below that of the eigenvalues: an undamped vibration is
 /// limited exactly, but for the rounding of eigenvalues; damped ones by lines that stay below the
-/// limit by 8 %, and between joints of different damping by what a convex set adds to them.
+/// limit by 9 %, and between joints of different damping by what a convex set adds to them.
 const UNDAMPED: f64 = 1e-5;
 const DAMPED: f64 = 0.15;
 
