@@ -113,6 +113,10 @@ fn of_field(scenario: &Scenario) -> Option<Advice> {
     let MassProperties { mass, centre_of_mass: centre, inertia_b } =
         MassProperties::of(scenario, &spacecraft).ok()?;
     let far = scenario.initial.r_b_n.norm();
+    // At its centre there is no field.
+    if far == 0.0 {
+        return None;
+    }
     let turned = (mu / far.powi(3)).sqrt() * scenario.settings.duration;
     let moved = mass * centre.norm_squared();
     let moment = (inertia_b.trace() - 2.0 * moved) / 3.0;

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
 use super::integrator::Moment;
-use super::kinematics::{Sizes, momenta};
+use super::kinematics::{Sizes, magnitude, momenta};
 use super::system::{System, lumped};
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
@@ -100,8 +100,8 @@ impl Conserved {
         let start = *self.start.get_or_insert(entry);
         let departures = [
             (entry.energy - start.energy).abs(),
-            (entry.linear - start.linear).norm(),
-            (entry.angular - start.angular).norm(),
+            magnitude(&(entry.linear - start.linear)),
+            magnitude(&(entry.angular - start.angular)),
         ];
         for (largest, departure) in self.departures.iter_mut().zip(departures) {
             *largest = larger(*largest, departure);
@@ -129,12 +129,12 @@ fn sizes(scenario: &Scenario, system: &System<'_>, state: &CraftState) -> Sizes 
         sum.angular += body.sizes.angular;
         sum.kinetic += body.sizes.kinetic;
     });
-    let far = state.rigid.r_b_n.norm();
+    let far = magnitude(&state.rigid.r_b_n);
     let modes = scenario.structure.iter().flat_map(|structure| &structure.modes);
     for (mode, rate) in modes.zip(&state.eta_dot) {
-        let linear = (mode.linear * *rate).norm();
+        let linear = magnitude(&(mode.linear * *rate));
         sum.linear += linear;
-        sum.angular += far * linear + (mode.angular * *rate).norm();
+        sum.angular += far * linear + magnitude(&(mode.angular * *rate));
         sum.kinetic += 0.5 * rate * rate;
     }
     sum

@@ -130,8 +130,8 @@ pub(crate) fn momenta(
         omega: state.omega,
         origin: nb.tr_mul(&state.r_b_n),
         velocity: nb.tr_mul(&state.r_b_n_dot),
-        far: state.r_b_n.norm(),
-        fast: state.r_b_n_dot.norm(),
+        far: magnitude(&state.r_b_n),
+        fast: magnitude(&state.r_b_n_dot),
     };
     let mut in_n = |body: BodyMomentum| {
         each(BodyMomentum { linear: nb * body.linear, angular: nb * body.angular, ..body });
@@ -142,6 +142,17 @@ pub(crate) fn momenta(
     for chain in chains {
         let base = chain.on.and_then(|on| tips.get(on)).copied().unwrap_or(b);
         tips.push(chain.momenta(&base, &joints, &mut in_n));
+    }
+}
+
+/// The magnitude of a vector, also where its square is no number: a spacecraft may start 1e200 m from the origin.
+pub(crate) fn magnitude(vector: &Vector3<f64>) -> f64 {
+    let largest = vector.amax();
+    let norm = vector.norm();
+    if norm.is_finite() || !largest.is_finite() {
+        norm
+    } else {
+        largest * (vector / largest).norm()
     }
 }
 
@@ -167,8 +178,8 @@ impl Frame {
         Self {
             origin: self.origin + offset,
             velocity: self.velocity + turning,
-            far: self.far + offset.norm(),
-            fast: self.fast + turning.norm(),
+            far: self.far + magnitude(&offset),
+            fast: self.fast + magnitude(&turning),
             ..*self
         }
     }
@@ -190,7 +201,7 @@ impl Frame {
         let spin = c.axes * (inertia * c.axes.tr_mul(&c.omega));
         let sizes = Sizes {
             linear: mass * c.fast,
-            angular: mass * c.far * c.fast + spin.norm(),
+            angular: mass * c.far * c.fast + magnitude(&spin),
             kinetic: 0.5 * (mass * c.fast * c.fast + spin.dot(&c.omega).abs()),
         };
         BodyMomentum { linear, angular: c.origin.cross(&linear) + spin, sizes }

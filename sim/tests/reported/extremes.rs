@@ -1,11 +1,14 @@
 //! Numbers at the ends of what a number can be, in every key: an error with a message, or a run and its report.
 
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
 use precess::engine::{End, run};
 use precess::file::{from_toml, to_toml};
 use precess::report::Report;
+
+use super::{folder, precess};
 
 /// A bit of everything that has numbers.
 const SCENARIO: &str = r#"format = 1
@@ -159,4 +162,27 @@ fn every_finite_number_in_every_key_is_an_error_or_a_run_with_its_report() {
         refused > 50 && complete > 200,
         "{refused} refused, {failed} failed, {complete} complete"
     );
+}
+
+/// Where the square of a distance is no number, and where a distance is zero: what is printed are numbers.
+#[test]
+fn what_is_printed_far_from_the_origin_and_at_it_are_numbers() {
+    let folder = folder("far");
+    let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+    let hub = "format = 1\n[hub]\nmass = \"100 kg\"\ncentre_of_mass = \"1, 0, 0 cm\"\n\
+        inertia = \"9, 8, 7 kg m^2\"\n[run]\nduration = \"0.1 s\"\n";
+    let moving = "velocity = \"1, 2, 3 mm/s\"\nangular_velocity = \"0.1, 0, 0.2 rad/s\"\n";
+    for (name, keys, code) in [
+        ("far.toml", format!("[initial]\nposition = \"1e200, 0, 0 m\"\n{moving}"), 0),
+        ("centre.toml", "[gravity]\ncentral = \"4e14 m^3/s^2\"\n".to_owned(), 1),
+    ] {
+        fs::write(path(name), format!("{hub}{keys}")).expect("a file");
+        let checked = precess(&["check", &path(name)]);
+        let ran = precess(&["run", &path(name), "--out", &path("out")]);
+        assert_eq!([checked.code, ran.code], [Some(0), Some(code)], "{}", ran.error);
+        for text in [&checked.out, &checked.error, &ran.out, &ran.error] {
+            let is_none = |word: &str| ["NaN", "inf", "-inf"].contains(&word);
+            assert!(!text.split([' ', ',', '\n']).any(is_none), "{name}: {text}");
+        }
+    }
 }
