@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Margin;
+use crate::units::Plain;
 
 /// What became of a requirement. One without data is neither met nor violated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,26 +138,37 @@ impl fmt::Display for NoData {
         match *self {
             Self::NoSample { window: [from, to] } => write!(
                 f,
-                "no sample in {from} s to {to} s; raise output.rate or choose another window"
+                "no sample in {} s to {} s; raise output.rate or choose another window",
+                Plain(from),
+                Plain(to)
             ),
             Self::WindowNotRun { end, to } => {
-                write!(f, "the run ended at {end:.6} s, before the end of the window at {to} s")
+                write!(
+                    f,
+                    "the run ended at {end:.6} s, before the end of the window at {} s",
+                    Plain(to)
+                )
             }
             Self::Short { needed, length } => write!(
                 f,
-                "the statistic needs {needed:e} s, its window has {length} s; run longer or choose shorter ones"
+                "the statistic needs {needed:e} s, its window has {} s; run longer or choose shorter ones",
+                Plain(length)
             ),
             Self::FewSamples { least, length } => write!(
                 f,
-                "a spectrum needs {least} samples, its window of {length} s has fewer; raise output.rate or \
-                 run longer"
+                "a spectrum needs {least} samples, its window of {} s has fewer; raise output.rate or \
+                 run longer",
+                Plain(length)
             ),
             Self::NoBin { band: [from, to], resolution } => {
                 let shown: f64 = format!("{resolution:.5e}").parse().unwrap_or(resolution);
                 write!(
                     f,
-                    "no frequency of the spectrum, multiples of {shown} Hz above 0, is within {from} Hz to {to} Hz; \
-                     run longer or choose a wider band"
+                    "no frequency of the spectrum, multiples of {} Hz above 0, is within {} Hz to {} Hz; \
+                     run longer or choose a wider band",
+                    Plain(shown),
+                    Plain(from),
+                    Plain(to)
                 )
             }
             Self::NoLine { band: [from, to] } => write!(

@@ -105,7 +105,7 @@ fn errors_have_their_place_and_remedy() {
     let (good, _, error) = precess(&["fit", &at("m.toml")]);
     assert!(!good);
     for part in [
-        "`Wheel 1` is no name",
+        "the name is not lower-case letters, digits and underscores",
         "unknown key `colour`",
         "is a mass, where a length is wanted",
         "`Hz` is no unit of an angular rate",
