@@ -101,6 +101,8 @@ impl CampaignOptions {
             outputs.replace();
         }
         outputs.add(names)?;
+        // Once, though a campaign may have two sets of runs: a second handler would count a SIGTERM twice.
+        watch_interrupts();
         Ok(outputs)
     }
 
@@ -118,7 +120,6 @@ impl CampaignOptions {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
         readable(prepared, plan)?;
         let path = self.out.join(format!("{stem}.journal"));
-        watch_interrupts();
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
         let opened =
             Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
