@@ -84,12 +84,20 @@ pub(crate) fn column_name_fault(name: &str) -> Option<NameFault> {
 
 /// A name for a file of each name, in order, no two of them the same: lower-case letters, digits, hyphens. Where several
 /// names become one, the later ones have a number.
+#[cfg_attr(
+    not(any(feature = "tool", test)),
+    expect(dead_code, reason = "commands and reports write files")
+)]
 pub(crate) fn file_names<N: AsRef<str>>(names: impl IntoIterator<Item = N>) -> Vec<String> {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     distinct(names.into_iter().map(|name| name.as_ref().chars().map(letter).collect()), '-')
 }
 
 /// A head for a column of each name, in order, no two of them the same: what separates cells becomes `_`.
+#[cfg_attr(
+    not(any(feature = "tool", test)),
+    expect(dead_code, reason = "commands and reports write files")
+)]
 pub(crate) fn column_heads<N: AsRef<str>>(names: impl IntoIterator<Item = N>) -> Vec<String> {
     distinct(names.into_iter().map(|name| name.as_ref().replace([' ', ',', '"'], "_")), '_')
 }

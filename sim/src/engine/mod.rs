@@ -40,6 +40,7 @@ pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
 use precess_dynamics::{About, JointStates, State};
 
 pub use drift::Drift;
+#[cfg(feature = "tool")]
 pub(crate) use error::device_of;
 pub use error::{Fault, RunError};
 pub use keep::Keep;
