@@ -81,6 +81,7 @@ def calls(text: str) -> Calls:
     found = craft.accelerations(state)
     swept = sweep.run(scenario, {"hub.mass": "300, 400 kg"})
     drawn = montecarlo.run(scenario, VARY, 2)
+    limited = montecarlo.run(scenario.with_values(LIMIT), VARY, 2)
     signal = np.sin(0.7 * np.arange(256.0))
     psd, lines = spectra.welch(signal, 10.0), spectra.amplitude_spectrum(signal, 10.0)
     run = {"states": several, "dt": 1e-4, "steps": 2, "inputs": None, "every": 1, "history": True}
@@ -120,16 +121,14 @@ def calls(text: str) -> Calls:
         "Result.save": (result.save, {"path": "saved.csv"}),
         "Samples.__getitem__": (drawn.__getitem__, {"name": "omega rms"}),
         "Samples.percentile": (drawn.percentile, {"name": "omega rms", "share": 0.5, "level": 0.9}),
-        "Samples.probability": (
-            montecarlo.run(scenario.with_values(LIMIT), VARY, 2).probability,
-            {"requirement": "slow", "level": 0.9},
-        ),
+        "Samples.probability": (limited.probability, {"requirement": "slow", "level": 0.9}),
         "Samples.rank_correlation": (
             drawn.rank_correlation,
             {"name": "omega rms", "key": "hub.mass"},
         ),
         "Samples.values": (drawn.values, {"key": "hub.mass"}),
         "Samples.keys": (drawn.keys, {}),
+        "Samples.states": (limited.states, {"requirement": "slow"}),
         "Scenario.__init__": (precess.Scenario, tables),
         "Scenario.from_dict": (
             precess.Scenario.from_dict,
@@ -190,6 +189,10 @@ def calls(text: str) -> Calls:
         "Sweep.__getitem__": (swept.__getitem__, {"name": "omega rms"}),
         "Sweep.keep_out": (swept.keep_out, {"name": "omega rms", "limit": 0.1}),
         "Sweep.keys": (swept.keys, {}),
+        "Sweep.states": (
+            sweep.run(scenario.with_values(LIMIT), {"hub.mass": "300, 400 kg"}).states,
+            {"requirement": "slow"},
+        ),
         "campaign.grid": (campaign.grid, {"axes": {"hub.mass": "300, 400 kg"}}),
         "campaign.latin_hypercube": (
             campaign.latin_hypercube,
