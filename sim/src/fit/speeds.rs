@@ -208,6 +208,7 @@ impl Line<'_> {
         let from = (self.record.length() - length) / 2;
         let weights = transforms.weights(length, self.record.rate);
         let plan = transforms.plan(length);
+        let roots = Roots::new(size);
         let mut bands = Vec::with_capacity(CHANNELS);
         for channel in &self.record.channels {
             let samples = channel.get(from..from + length)?;
@@ -238,7 +239,7 @@ impl Line<'_> {
             let median = beside.get(beside.len() / 2).copied().unwrap_or(0.0);
             let noise = (median / std::f64::consts::LN_2).max(ROUNDING * strongest);
             if noise > 0.0 {
-                Roots::new(size).synthesise(&mut samples);
+                roots.synthesise(&mut samples);
                 bands.push(Baseband { samples, noise });
             }
         }

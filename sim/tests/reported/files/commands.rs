@@ -112,7 +112,7 @@ pub(super) fn names() -> BTreeSet<String> {
     names
 }
 
-/// A case of every command. A new command has to be added here, and whether it writes is asked of its options.
+/// A case of every command. A new command has to be added here, and its options say whether it writes.
 pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     let folder = super::super::folder(folder_name);
     let put = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
