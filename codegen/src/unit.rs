@@ -1,7 +1,8 @@
 //! The unit of an expression, from those of its symbols: what every equation must balance.
 
-use std::collections::HashMap;
 use std::fmt;
+
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Expr, Node, NodeId};
 
@@ -96,16 +97,16 @@ impl Balance {
 /// # Errors
 /// The name of a symbol whose unit is not known.
 pub fn unit(e: Expr<'_>) -> Result<Balance, String> {
-    unit_of(e, &HashMap::new())
+    unit_of(e, &FxHashMap::default())
 }
 
 /// The unit of `e`, with those of the symbols that stand for `named` values.
 ///
 /// # Errors
 /// The name of a symbol whose unit is not known.
-pub(crate) fn unit_of(e: Expr<'_>, named: &HashMap<String, Unit>) -> Result<Balance, String> {
+pub(crate) fn unit_of(e: Expr<'_>, named: &FxHashMap<String, Unit>) -> Result<Balance, String> {
     let graph = e.graph();
-    let mut known: HashMap<NodeId, Balance> = HashMap::new();
+    let mut known: FxHashMap<NodeId, Balance> = FxHashMap::default();
     for id in graph.reachable([e.id()]) {
         let balance = match graph.node(id) {
             Node::Constant(k) if k == crate::graph::Rational::ZERO => Balance::Any,

@@ -4,11 +4,11 @@ use std::fs;
 use std::process::Command;
 
 use clap::Args;
-use precess_codegen::emit::EmittedFile;
 
-use crate::files::{differing, write};
 use crate::members::{in_lanes, without_lanes};
-use crate::run::{cargo, root, run, say, target};
+use xtask::files::{File, differing, write};
+use xtask::run::{cargo, root, run, target};
+use xtask::say;
 
 /// The page and its figure, in `docs`.
 const FILES: [&str; 2] = ["accuracy.md", "accuracy.svg"];
@@ -47,11 +47,11 @@ pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     let files = FILES.map(|name| {
         let text = fs::read_to_string(out.join(name));
         let text = text.map_err(|error| format!("cannot read {name}: {error}"))?;
-        Ok(EmittedFile { path: format!("docs/{name}"), text })
+        Ok((format!("docs/{name}"), text))
     });
     let files = files.into_iter().collect::<Result<Vec<_>, String>>()?;
     if options.check {
-        return match differing(&files, &root()) {
+        return match differing(texts(&files), &root()) {
             0 => {
                 say!("{} files are fresh", files.len());
                 Ok(())
@@ -62,8 +62,13 @@ pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
             )),
         };
     }
-    if let Some(EmittedFile { text, .. }) = files.first() {
+    if let Some((_, text)) = files.first() {
         say!("{text}");
     }
-    write(&files, &root())
+    write(texts(&files), &root())
+}
+
+/// Path and text of each.
+fn texts(files: &[(String, String)]) -> impl Iterator<Item = File<'_>> {
+    files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
 }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::run::cargo;
+use xtask::run::cargo;
 
 /// Options of `attack`; what is not said here is left to the campaign.
 #[derive(Args)]

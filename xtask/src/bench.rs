@@ -5,9 +5,9 @@ use std::process::Command;
 
 use clap::Args;
 
-use crate::capi::MANIFEST;
-use crate::run::{cargo, root, run, target};
-use crate::skip::skip;
+use xtask::capi::MANIFEST;
+use xtask::run::{cargo, root, run, target};
+use xtask::skip::skip;
 
 /// Sets the peers up, and draws the spacecraft.
 const SETUP: &str = "tests/peers/setup.py";

@@ -10,15 +10,16 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{cargo, is_there, output, root, say, target};
+use crate::run::{cargo, is_there, output, root, target};
+use crate::say;
 use crate::skip::skip;
 
 /// Warnings, each an error.
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
 /// The workspace of what is linked on board.
-pub(crate) const MANIFEST: &str = "flight/Cargo.toml";
+pub const MANIFEST: &str = "flight/Cargo.toml";
 /// Its header.
-pub(crate) const HEADER: &str = "flight/capi/include/precess.h";
+pub const HEADER: &str = "flight/capi/include/precess.h";
 const LAYOUTS: [(&str, &str); 2] =
     [("layout", "flight/capi/tests/layout.c"), ("layout-v2", "flight/capi/tests/layout_v2.c")];
 /// A program of version 1 of the interface.
@@ -28,7 +29,7 @@ const PROGRAM_2: &[&str] = &["flight/capi/tests/version2.c", "flight/capi/tests/
 /// A program of platforms, which version 2 has.
 const PLATFORMS: &[&str] = &["flight/capi/tests/platforms.c"];
 /// How the library is linked.
-pub(crate) const GUIDE: &str = "flight/README.md";
+pub const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
 /// What the application prints.
 const APP_OUTPUT: &str = "flight/examples/cfs_app/expected.txt";
@@ -66,7 +67,10 @@ struct Host {
 }
 
 /// All of it.
-pub(crate) fn host() -> Result<(), String> {
+///
+/// # Errors
+/// What failed first.
+pub fn host() -> Result<(), String> {
     let host = built()?;
     host.exports()?;
     let (mut outputs, mut second, mut platforms) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,18 +1,16 @@
 //! `check`: what every commit passes; `lint`: its part that needs rustfmt and clippy.
 
-use crate::bake;
-use crate::capi::MANIFEST;
 use crate::members::without_lanes;
-use crate::mutate;
-use crate::regen;
-use crate::run::{cargo, target};
+use crate::program::DERIVE;
+use xtask::capi::MANIFEST;
+use xtask::run::{cargo, target};
 
 /// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
 /// broken generated file is named as such before anything tries to compile it.
 pub(crate) fn check() -> Result<(), String> {
-    regen::regen(&regen::Options::check_only())?;
-    bake::bake(&bake::Options::check_only())?;
-    mutate::mutate(&mutate::Options::check_only())?;
+    DERIVE.run(&["regen", "--check", "--quiet"])?;
+    DERIVE.run(&["bake", "--check"])?;
+    DERIVE.run(&["mutate", "--check"])?;
     lint()?;
     // The campaign has no unit tests, and takes minutes to compile as if it had.
     cargo(&[&["test", "--lib", "--bins", "--quiet"], &without_lanes()[..]].concat())?;

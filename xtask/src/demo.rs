@@ -1,7 +1,8 @@
 //! `demo`: derive, prove, solve the paper's scenario, draw the report.
 
-use crate::regen;
-use crate::run::cargo;
+use xtask::run::cargo;
+
+use crate::program::DERIVE;
 
 /// Table 1 as printed and with a catalogue wheel; without torque, and with two of the wheel.
 const VARIANTS: [&str; 6] = [
@@ -15,9 +16,9 @@ const VARIANTS: [&str; 6] = [
 
 /// `regen --check`, then every variant of Table 1, with its figures, into `target/demo`.
 pub(crate) fn demo() -> Result<(), String> {
-    regen::regen(&regen::Options::check_only())?;
+    DERIVE.run(&["regen", "--check", "--quiet"])?;
     for command in ["run", "plot"] {
-        // As the tests build it: a release build takes minutes, and the runs take a second each.
+        // As the tests build it: a release build takes minutes, and the runs take seconds.
         let first = ["run", "-p", "precess", "--", command];
         let last = ["--out", "target/demo", "--force"];
         cargo(&[&first[..], &VARIANTS, &last].concat())?;

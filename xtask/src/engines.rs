@@ -7,8 +7,8 @@ use std::process::Command;
 
 use clap::Args;
 
-use crate::run::{root, run, target};
-use crate::skip::skip;
+use xtask::run::{root, run, target};
+use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
-use precess_codegen::emit::EmittedFile;
 
 use crate::callgrind::{Counts, count};
-use crate::files::write;
 use crate::object_code;
-use crate::run::{root, say};
-use crate::skip::skip;
+use xtask::files::write;
+use xtask::run::root;
+use xtask::say;
+use xtask::skip::skip;
 
 /// The committed table.
 const TABLE: &str = "docs/instructions.md";
@@ -57,7 +57,7 @@ pub(crate) fn instructions(options: &Options) -> Result<(), String> {
         return compare(&counted, &committed, object_code::compare(&kernels, &committed));
     }
     let text = table(&compiler, &counted) + &object_code::section(&kernels);
-    write(&[EmittedFile { path: TABLE.to_owned(), text }], &root())
+    write([(TABLE, text.as_str())], &root())
 }
 
 /// Release and target of the compiler in use.

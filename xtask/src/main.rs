@@ -1,32 +1,25 @@
-//! The workbench: one short file per command.
+//! The workbench: one short file per command, and two programs for those that link much, built when they are called
+//! for.
 
 mod accuracy;
 mod attack;
-mod bake;
 mod bench;
 mod callgrind;
-mod capi;
 mod check;
 mod demo;
-mod dist;
 mod engines;
-mod files;
-mod flight;
 mod instructions;
 mod members;
-mod mutate;
 mod object_code;
-mod printed;
-mod python;
-mod regen;
-mod run;
-mod skip;
+mod program;
 mod test;
-mod wheel;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
+use xtask::capi;
+
+use program::{DERIVE, DISTRIBUTE, Program};
 
 /// The workbench of Precess.
 #[derive(Parser)]
@@ -39,15 +32,11 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Derive, emit and prove every kernel; write the files if every proof holds
-    #[command(
-        after_help = "Examples: cargo xtask regen --check\n          cargo xtask regen --emit c --out DIR"
-    )]
-    Regen(regen::Options),
+    #[command(disable_help_flag = true)]
+    Regen(Forwarded),
     /// Derive, prove and write kernels of one spacecraft; without a file, those of the tests
-    #[command(
-        after_help = "Examples: cargo xtask bake --check\n          cargo xtask bake --scenario scenarios/imaging-satellite.toml --language c"
-    )]
-    Bake(bake::Options),
+    #[command(disable_help_flag = true)]
+    Bake(Forwarded),
     /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
@@ -56,10 +45,12 @@ enum Command {
     Lint,
     /// Make each term that the emitted functions compute wrong, and each sine and cosine, one at a
     /// time, and check that a law of physics fails
-    #[command(after_help = "Example: cargo xtask mutate --kernel wheel")]
-    Mutate(mutate::Options),
+    #[command(disable_help_flag = true)]
+    Mutate(Forwarded),
     /// Run all tests
-    #[command(after_help = "Example: cargo xtask test")]
+    #[command(
+        after_help = "Examples: cargo xtask test\n          cargo xtask test --for dynamics/src/solve\n          cargo xtask test --all"
+    )]
     Test,
     /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print
     /// what fails as a test to paste
@@ -86,53 +77,55 @@ enum Command {
     Instructions(instructions::Options),
     /// Build for boards, run under emulation, compare with this machine bit for bit, pass the
     /// gates; measure, write the page
-    #[command(after_help = "Example: cargo xtask flight --check")]
-    Flight(flight::Options),
+    #[command(disable_help_flag = true)]
+    Flight(Forwarded),
     /// Build the library for flight software, and test it from C and C++
     #[command(after_help = "Example: cargo xtask capi")]
     Capi,
     /// Build what is distributed: sources, crates, C library, Python package; install each in an empty
     /// place and run its first example
-    #[command(
-        after_help = "Examples: cargo xtask dist --check\n          cargo xtask dist --only precess-c-"
-    )]
-    Dist(dist::Options),
+    #[command(disable_help_flag = true)]
+    Dist(Forwarded),
     /// Build the wheel of the Python package, install it in an environment of its own, run its tests
-    #[command(after_help = "Example: cargo xtask python")]
-    Python,
+    #[command(disable_help_flag = true)]
+    Python(Forwarded),
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
 }
 
-fn main() -> ExitCode {
-    // Cargo starts this program in place of rustc when `dist` builds.
-    if let Some(code) = dist::called() {
-        return code;
+/// Arguments of a command in a program of its own, which explains them: `--help` among them.
+#[derive(Args)]
+struct Forwarded {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
+    arguments: Vec<String>,
+}
+
+impl Forwarded {
+    /// Builds the program and runs the command.
+    fn run(&self, program: Program, command: &str) -> Result<(), String> {
+        let arguments = self.arguments.iter().map(String::as_str);
+        program.run(&[command].into_iter().chain(arguments).collect::<Vec<_>>())
     }
-    let done = match Arguments::parse().command {
-        Command::Regen(options) => regen::regen(&options),
-        Command::Bake(options) => bake::bake(&options),
+}
+
+fn main() -> ExitCode {
+    xtask::ended(match Arguments::parse().command {
+        Command::Regen(arguments) => arguments.run(DERIVE, "regen"),
+        Command::Bake(arguments) => arguments.run(DERIVE, "bake"),
         Command::Check => check::check(),
         Command::Lint => check::lint(),
-        Command::Mutate(options) => mutate::mutate(&options),
+        Command::Mutate(arguments) => arguments.run(DERIVE, "mutate"),
         Command::Test => test::test(),
         Command::Attack(options) => attack::attack(&options),
         Command::Engines(options) => engines::engines(&options),
         Command::Bench(options) => bench::bench(&options),
         Command::Accuracy(options) => accuracy::accuracy(&options),
         Command::Instructions(options) => instructions::instructions(&options),
-        Command::Flight(options) => flight::flight(&options),
+        Command::Flight(arguments) => arguments.run(DISTRIBUTE, "flight"),
         Command::Capi => capi::host(),
-        Command::Dist(options) => dist::dist(&options),
-        Command::Python => python::python(),
+        Command::Dist(arguments) => arguments.run(DISTRIBUTE, "dist"),
+        Command::Python(arguments) => arguments.run(DISTRIBUTE, "python"),
         Command::Demo => demo::demo(),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("error: {message}");
-            ExitCode::FAILURE
-        }
-    }
+    })
 }

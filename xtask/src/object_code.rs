@@ -5,7 +5,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::run::{cargo, say, target};
+use xtask::run::{cargo, target};
+use xtask::say;
 
 /// A number may exceed the committed one by one in so many.
 const GATE: u64 = 100;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Prints a line; a reader that has gone away is no error.
+#[macro_export]
 macro_rules! say {
     ($($line:tt)*) => {
         // The reader of the output has gone.
@@ -14,33 +15,44 @@ macro_rules! say {
     };
 }
 
-pub(crate) use say;
-
 /// The repository's root.
-pub(crate) fn root() -> PathBuf {
+#[must_use]
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
 /// Where cargo puts what it builds: this program is in the folder of its profile there.
-pub(crate) fn target() -> Result<PathBuf, String> {
+///
+/// # Errors
+/// A line, where the program is in no such folder.
+pub fn target() -> Result<PathBuf, String> {
     let here = std::env::current_exe().map_err(|error| format!("where am I: {error}"))?;
     let folder = here.parent().and_then(Path::parent).map(Path::to_path_buf);
     folder.ok_or_else(|| format!("{} is in no build folder", here.display()))
 }
 
 /// Runs cargo in the root and waits for it.
-pub(crate) fn cargo(arguments: &[&str]) -> Result<(), String> {
+///
+/// # Errors
+/// A line that names the command that failed.
+pub fn cargo(arguments: &[&str]) -> Result<(), String> {
     let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     run(Command::new(program).args(arguments))
 }
 
 /// Runs a program in the root and waits for it.
-pub(crate) fn run(command: &mut Command) -> Result<(), String> {
+///
+/// # Errors
+/// A line that names the command that failed.
+pub fn run(command: &mut Command) -> Result<(), String> {
     run_there(command.current_dir(root()))
 }
 
 /// Runs a program in the folder that the command states, and waits for it.
-pub(crate) fn run_there(command: &mut Command) -> Result<(), String> {
+///
+/// # Errors
+/// A line that names the command that failed.
+pub fn run_there(command: &mut Command) -> Result<(), String> {
     let line = shown(command);
     eprintln!("$ {line}");
     match command.status() {
@@ -51,7 +63,10 @@ pub(crate) fn run_there(command: &mut Command) -> Result<(), String> {
 }
 
 /// What a program prints in the folder that the command states, if it succeeds.
-pub(crate) fn output(command: &mut Command) -> Result<String, String> {
+///
+/// # Errors
+/// The command that failed and all that it printed.
+pub fn output(command: &mut Command) -> Result<String, String> {
     let line = shown(command);
     let output = command.output().map_err(|error| format!("`{line}` did not start: {error}"))?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -63,7 +78,8 @@ pub(crate) fn output(command: &mut Command) -> Result<String, String> {
 }
 
 /// Whether a program is on this machine: it states its version.
-pub(crate) fn is_there(program: &str) -> bool {
+#[must_use]
+pub fn is_there(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
 }
 

@@ -4,7 +4,7 @@
 //! These are the values that the emitted tests compare with. They come from the general kind with
 //! every parameter as described, and know neither assumptions nor elimination.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use precess_codegen::derivation::by_body::share;
@@ -166,7 +166,7 @@ fn add_device(
     let graph = Graph::new();
     let share = share(&Chain::new(&graph, shape.general));
     let mount = matrix(&device.mount);
-    let mut values: HashMap<String, f64> = HashMap::new();
+    let mut values: FxHashMap<String, f64> = FxHashMap::default();
     for parameter in parameters(shape.general) {
         values.insert(parameter.name.clone(), parameter.place.value(device));
     }

@@ -6,7 +6,9 @@
 mod fused;
 mod names;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
@@ -70,11 +72,11 @@ impl FunctionBody {
 /// What there is to write of a function.
 pub(super) struct Shape {
     /// Names of the statements that the outputs need.
-    pub(super) live: HashSet<String>,
+    pub(super) live: FxHashSet<String>,
     /// Names of nodes.
-    pub(super) names: HashMap<NodeId, String>,
+    pub(super) names: FxHashMap<NodeId, String>,
     /// How often each node is an operand.
-    pub(super) uses: HashMap<NodeId, usize>,
+    pub(super) uses: FxHashMap<NodeId, usize>,
 }
 
 /// Whether the tokens name it.
@@ -92,10 +94,10 @@ pub(super) struct Writer<'a, 'g> {
     /// How a symbol or a hoisted node is written where it is not computed here.
     given: &'a dyn Fn(NodeId) -> Option<Rendered>,
     witness: Rendered,
-    names: HashMap<NodeId, String>,
-    bound: HashMap<NodeId, Rendered>,
-    locals: HashSet<String>,
-    uses: HashMap<NodeId, usize>,
+    names: FxHashMap<NodeId, String>,
+    bound: FxHashMap<NodeId, Rendered>,
+    locals: FxHashSet<String>,
+    uses: FxHashMap<NodeId, usize>,
     numbers: BTreeMap<String, usize>,
     prefix: String,
     /// Columns left for the value of the statement at hand.
@@ -117,10 +119,10 @@ impl<'a, 'g> Writer<'a, 'g> {
             graph,
             given,
             witness,
-            names: HashMap::new(),
-            bound: HashMap::new(),
-            locals: HashSet::new(),
-            uses: HashMap::new(),
+            names: FxHashMap::default(),
+            bound: FxHashMap::default(),
+            locals: FxHashSet::default(),
+            uses: FxHashMap::default(),
             numbers: BTreeMap::new(),
             prefix: String::new(),
             room: 0,
@@ -224,7 +226,7 @@ impl<'a, 'g> Writer<'a, 'g> {
 
     /// Names, in order, whatever `root` needs that is used more than once or has a name.
     fn bind_shared(&mut self, root: NodeId) {
-        let mut nodes = HashSet::new();
+        let mut nodes = FxHashSet::default();
         self.collect(root, &mut nodes);
         let mut ascending: Vec<_> = nodes.into_iter().filter(|id| *id != root).collect();
         ascending.sort_unstable();

@@ -8,7 +8,7 @@
 mod rewriting;
 mod sum;
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use self::rewriting::{Shared, rewritten};
 use super::body::{Shape, Writer};
@@ -44,9 +44,9 @@ struct Function<'a, 'g> {
     sections: Vec<Section<'g>>,
     outputs: &'a [String],
     /// What `prepare` computes, and constants beside it.
-    free: HashSet<NodeId>,
+    free: FxHashSet<NodeId>,
     /// The symbols that stand for a statement of the function.
-    cuts: HashSet<NodeId>,
+    cuts: FxHashSet<NodeId>,
 }
 
 impl<'a, 'g> Function<'a, 'g> {
@@ -57,7 +57,7 @@ impl<'a, 'g> Function<'a, 'g> {
         hoisted: bool,
     ) -> Self {
         let cuts = statements(&sections).filter_map(|s| s.cut).map(Expr::id).collect();
-        let mut function = Self { graph, sections, outputs, free: HashSet::new(), cuts };
+        let mut function = Self { graph, sections, outputs, free: FxHashSet::default(), cuts };
         if hoisted {
             function.free = function.of_parameters();
         }
@@ -65,8 +65,8 @@ impl<'a, 'g> Function<'a, 'g> {
     }
 
     /// Everything that depends on parameters only.
-    fn of_parameters(&self) -> HashSet<NodeId> {
-        let (graph, mut found) = (self.graph, HashSet::new());
+    fn of_parameters(&self) -> FxHashSet<NodeId> {
+        let (graph, mut found) = (self.graph, FxHashSet::default());
         let roots = statements(&self.sections).flat_map(|s| s.cut.into_iter().chain([s.value]));
         for id in graph.reachable(roots.map(Expr::id)) {
             let node = graph.node(id);

@@ -1,7 +1,8 @@
 //! The files: records and functions laid out by templates.
 
-use std::collections::HashMap;
 use std::fmt;
+
+use rustc_hash::FxHashMap;
 
 use proc_macro2::TokenStream;
 use serde::Serialize;
@@ -251,9 +252,9 @@ pub(super) fn symmetric(kind: &Kind) -> Vec<String> {
 pub(super) fn describe(
     record: &mut Record,
     lines: impl Iterator<Item = String>,
-    stated: &HashMap<String, Stated>,
+    stated: &FxHashMap<String, Stated>,
 ) {
-    let mut formulas = HashMap::new();
+    let mut formulas = FxHashMap::default();
     for line in lines {
         if let Some((name, formula)) = line.split_once(" = ") {
             let name = name.rsplit(' ').next().unwrap_or(name);

@@ -1,6 +1,6 @@
 //! What is emitted of a chain: its kernels and `prepare`, after all passes.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::factor::factored;
 use super::prepare::{Prepared, prepared};
@@ -41,7 +41,7 @@ impl<'g> Functions<'g> {
     #[must_use]
     pub fn joined(mut self, graph: &'g Graph) -> Self {
         let computed = self.prepared.sections.iter().flat_map(|section| &section.statements);
-        let computed: HashMap<_, _> = computed.map(|s| (s.name.clone(), s.value)).collect();
+        let computed: FxHashMap<_, _> = computed.map(|s| (s.name.clone(), s.value)).collect();
         for kernel in &mut self.kernels {
             let sections = kernel.sections.iter_mut();
             for statement in sections.flat_map(|section| &mut section.statements) {

@@ -3,7 +3,7 @@
 //! Invariant: the hash changes with the kind's data, with any statement of the derivation (section,
 //! name, expression), and with the template.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::functions::Functions;
 use super::text::fnv1a64;
@@ -21,8 +21,8 @@ pub(super) struct Stated {
 }
 
 /// What these sections state of each name.
-pub(super) fn stated(sections: &[Section<'_>]) -> HashMap<String, Stated> {
-    let (mut known, mut stated) = (HashMap::new(), HashMap::new());
+pub(super) fn stated(sections: &[Section<'_>]) -> FxHashMap<String, Stated> {
+    let (mut known, mut stated) = (FxHashMap::default(), FxHashMap::default());
     for section in sections {
         for statement in &section.statements {
             let unit = match unit_of(statement.value, &known) {
@@ -41,7 +41,7 @@ pub(super) fn stated(sections: &[Section<'_>]) -> HashMap<String, Stated> {
 
 /// The hash of a kind's data and of everything derived from them.
 pub(super) fn derived(graph: &Graph, kind: &Kind, functions: &Functions<'_>) -> String {
-    let (mut texts, mut digests) = (vec![format!("{kind:?}")], HashMap::new());
+    let (mut texts, mut digests) = (vec![format!("{kind:?}")], FxHashMap::default());
     let sections = functions.kernels.iter().flat_map(|kernel| &kernel.sections);
     for section in functions.prepared.sections.iter().chain(sections) {
         texts.push(section.heading.to_string());
@@ -58,7 +58,7 @@ pub(super) fn derived(graph: &Graph, kind: &Kind, functions: &Functions<'_>) -> 
 }
 
 /// The hash of an expression, by those of its operands.
-fn digest(graph: &Graph, e: Expr<'_>, known: &mut HashMap<NodeId, String>) -> String {
+fn digest(graph: &Graph, e: Expr<'_>, known: &mut FxHashMap<NodeId, String>) -> String {
     for id in graph.reachable([e.id()]) {
         if known.contains_key(&id) {
             continue;

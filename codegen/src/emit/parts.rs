@@ -1,7 +1,7 @@
 //! What is emitted of a kind before it has a syntax: its records, and its functions with their
 //! bodies.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::body::{FunctionBody, Writer};
 use super::file::EmitError;
@@ -27,7 +27,7 @@ pub(super) struct Parts {
     /// `prepare` first.
     pub(super) functions: Vec<Part>,
     /// Section and unit of each constant.
-    pub(super) stated: HashMap<String, Stated>,
+    pub(super) stated: FxHashMap<String, Stated>,
     /// The hash of the kind's data and of everything derived from them.
     pub(super) inputs: String,
 }
@@ -98,14 +98,14 @@ pub(super) fn parts(chain: &Chain<'_>) -> Result<Parts, EmitError> {
             records.push(output);
         }
     }
-    debug_assert!(chain.is_rigid() || records.contains(&joint_accelerations(kind)));
+    assert!(chain.is_rigid() || records.contains(&joint_accelerations(kind)));
     Ok(Parts { records, functions, stated, inputs })
 }
 
 /// The body of `prepare`.
 pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> FunctionBody {
     let (graph, raw) = (chain.graph, parameters_of(chain));
-    let argument: HashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
+    let argument: FxHashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
     let given = |id: NodeId| match graph.node(id) {
         Node::Symbol(symbol) => {
             let name = graph.symbol_info(symbol).name;
@@ -129,7 +129,7 @@ pub(super) fn kernel_body<'g>(
     prepared: &Prepared<'g>,
 ) -> FunctionBody {
     let graph = chain.graph;
-    let mut argument: HashMap<String, &str> = HashMap::new();
+    let mut argument: FxHashMap<String, &str> = FxHashMap::default();
     for (letter, record) in &kernel.inputs {
         for name in record.fields.iter().map(|field| field.name.clone()) {
             argument.insert(name, letter);

@@ -2,7 +2,9 @@
 //!
 //! Invariant: no two fields of `Prepared` are the same expression.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::derivation::heading::Heading;
 use crate::derivation::script::{Section, Statement};
@@ -13,7 +15,7 @@ use crate::normal::Ring;
 /// The constants of a kind: fields of `Prepared` and the statements that compute them.
 pub struct Prepared<'g> {
     /// Field name of each node that a kernel reads.
-    pub(super) fields: HashMap<NodeId, String>,
+    pub(super) fields: FxHashMap<NodeId, String>,
     /// In order of first use: raw parameters first.
     pub record: Record,
     /// The statements of `prepare`.
@@ -28,9 +30,9 @@ impl<'g> Prepared<'g> {
         &self,
         graph: &'g Graph,
         e: Expr<'g>,
-        computed: &HashMap<String, Expr<'g>>,
+        computed: &FxHashMap<String, Expr<'g>>,
     ) -> Expr<'g> {
-        let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
+        let mut made: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
         for id in graph.reachable([e.id()]) {
             let field = self.fields.get(&id).and_then(|name| computed.get(name));
             let new = match (graph.node(id), field) {
@@ -53,7 +55,7 @@ impl<'g> Prepared<'g> {
         let is_field = |name: &str| self.record.fields.iter().any(|field| field.name == name);
         let fields: Vec<_> = statements.filter(|statement| is_field(&statement.name)).collect();
         let rank = |statement: &Statement<'_>| (statement.cut.is_none(), numbered(&statement.name));
-        let mut kept: HashMap<NodeId, &Statement<'_>> = HashMap::new();
+        let mut kept: FxHashMap<NodeId, &Statement<'_>> = FxHashMap::default();
         for statement in &fields {
             let best = kept.entry(statement.value.id()).or_insert(statement);
             if rank(statement) < rank(best) {
@@ -70,7 +72,7 @@ impl<'g> Prepared<'g> {
 
     /// Gives fields other names. Those of one name become one field, numbered statements of one
     /// name one statement; statements with a name of their own keep it.
-    fn rename(&mut self, names: &HashMap<String, String>) {
+    fn rename(&mut self, names: &FxHashMap<String, String>) {
         let rename = |name: &mut String| {
             if let Some(new) = names.get(name) {
                 name.clone_from(new);
@@ -78,7 +80,7 @@ impl<'g> Prepared<'g> {
         };
         self.fields.values_mut().for_each(rename);
         self.record.fields.iter_mut().for_each(|field| rename(&mut field.name));
-        let mut seen = HashSet::new();
+        let mut seen = FxHashSet::default();
         self.record.fields.retain(|field| seen.insert(field.name.clone()));
         seen.clear();
         for section in &mut self.sections {
@@ -130,7 +132,7 @@ pub(crate) fn prepared<'g>(
         fields: Vec::new(),
         shared: false,
     };
-    let mut fields = HashMap::new();
+    let mut fields = FxHashMap::default();
     for (place, id) in raw {
         record.fields.push(parameters.fields[place].clone());
         fields.insert(id, parameters.fields[place].name.clone());
@@ -163,7 +165,7 @@ pub(super) fn numbered(name: &str) -> bool {
 /// A name that the kernels give to two values of parameters only. One value may be two
 /// expressions: the mass that slides, summed from the tip and from its normal form.
 fn ambiguous<'a, 'g>(graph: &'g Graph, kernels: &'a [Kernel<'g>]) -> Option<&'a str> {
-    let mut known: HashMap<&str, Expr<'g>> = HashMap::new();
+    let mut known: FxHashMap<&str, Expr<'g>> = FxHashMap::default();
     let mut ring = Ring::new(graph);
     let mut same = |a: Expr<'g>, b: Expr<'g>| {
         a == b || ring.normal(a).is_ok_and(|a| ring.normal(b).is_ok_and(|b| a == b))
@@ -175,8 +177,8 @@ fn ambiguous<'a, 'g>(graph: &'g Graph, kernels: &'a [Kernel<'g>]) -> Option<&'a 
 }
 
 /// Names that the derivation gives to nodes of parameters.
-fn names(kernels: &[Kernel<'_>]) -> HashMap<NodeId, String> {
-    let mut names = HashMap::new();
+fn names(kernels: &[Kernel<'_>]) -> FxHashMap<NodeId, String> {
+    let mut names = FxHashMap::default();
     for statement in statements(kernels) {
         for node in std::iter::once(statement.value).chain(statement.cut) {
             names.entry(node.id()).or_insert_with(|| statement.name.clone());
@@ -209,7 +211,7 @@ fn walked<'a, 'g>(
 ) -> (Vec<&'a Statement<'g>>, Vec<NodeId>) {
     let outputs = kernel.output.sources();
     let all: Vec<_> = kernel.sections.iter().flat_map(|section| &section.statements).collect();
-    let (mut seen, mut needed, mut found) = (HashSet::new(), Vec::new(), Vec::new());
+    let (mut seen, mut needed, mut found) = (FxHashSet::default(), Vec::new(), Vec::new());
     for statement in all.into_iter().rev() {
         let read = outputs.contains(&statement.name)
             || statement.cut.is_some_and(|symbol| seen.contains(&symbol.id()))
@@ -235,12 +237,12 @@ fn walked<'a, 'g>(
 fn sections<'g>(
     graph: &'g Graph,
     kernels: &[Kernel<'g>],
-    fields: &HashMap<NodeId, String>,
+    fields: &FxHashMap<NodeId, String>,
 ) -> Vec<Section<'g>> {
-    let mut seen = HashSet::new();
+    let mut seen = FxHashSet::default();
     let mut made: Vec<Section<'g>> = Vec::new();
     for kernel in kernels {
-        let live: HashSet<_> = live(graph, kernel).into_iter().map(|s| s.name.as_str()).collect();
+        let live: FxHashSet<_> = live(graph, kernel).into_iter().map(|s| s.name.as_str()).collect();
         for section in &kernel.sections {
             let mut statements = section.statements.clone();
             statements.retain(|s| {
@@ -253,7 +255,7 @@ fn sections<'g>(
             }
         }
     }
-    let named: HashSet<_> =
+    let named: FxHashSet<_> =
         made.iter().flat_map(|s| &s.statements).map(|s| s.name.clone()).collect();
     let mut rest: Vec<_> = fields
         .iter()

@@ -1,6 +1,6 @@
 //! Time derivative, partial derivative, substitution by zero, evaluation: one loop each.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Expr, Graph, Node, NodeId, Stage, SymbolId, float};
 
@@ -11,7 +11,7 @@ impl Graph {
         &'g self,
         roots: impl IntoIterator<Item = NodeId>,
         mut value: impl FnMut(SymbolId) -> Option<Expr<'g>>,
-    ) -> HashMap<NodeId, Expr<'g>> {
+    ) -> FxHashMap<NodeId, Expr<'g>> {
         self.rebuilt_in(self, roots, |symbol| value(symbol).unwrap_or_else(|| self.named(symbol)))
     }
 
@@ -22,8 +22,8 @@ impl Graph {
         graph: &'g Graph,
         roots: impl IntoIterator<Item = NodeId>,
         mut value: impl FnMut(SymbolId) -> Expr<'g>,
-    ) -> HashMap<NodeId, Expr<'g>> {
-        let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
+    ) -> FxHashMap<NodeId, Expr<'g>> {
+        let mut made: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
         for id in self.reachable(roots) {
             let new = match self.node(id) {
                 Node::Constant(constant) => graph.constant(constant),
@@ -82,7 +82,7 @@ impl<'g> Expr<'g> {
 
     fn derivative(self, mut rate: impl FnMut(&'g Graph, SymbolId) -> Expr<'g>) -> Self {
         let graph = self.graph;
-        let mut made: HashMap<NodeId, Self> = HashMap::new();
+        let mut made: FxHashMap<NodeId, Self> = FxHashMap::default();
         for id in graph.reachable([self.id]) {
             let e = |id| graph.expr(id);
             let new = match graph.node(id) {
@@ -102,7 +102,7 @@ impl<'g> Expr<'g> {
     #[must_use]
     pub fn evaluate(self, value: &dyn Fn(&str) -> f64) -> f64 {
         let graph = self.graph;
-        let mut made: HashMap<NodeId, f64> = HashMap::new();
+        let mut made: FxHashMap<NodeId, f64> = FxHashMap::default();
         for id in graph.reachable([self.id]) {
             let new = match graph.node(id) {
                 Node::Constant(k) => float(k),

@@ -15,8 +15,9 @@ mod rules;
 mod symbol;
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::ops::{Add, Mul, Neg, Sub};
+
+use rustc_hash::FxHashMap;
 
 pub use rational::{Rational, float};
 pub use rules::RULES;
@@ -57,9 +58,9 @@ impl Node {
 #[derive(Default)]
 struct Arena {
     nodes: Vec<Node>,
-    index: HashMap<Node, NodeId>,
+    index: FxHashMap<Node, NodeId>,
     symbols: Vec<Symbol>,
-    names: HashMap<String, SymbolId>,
+    names: FxHashMap<String, SymbolId>,
 }
 
 /// An arena of interned expressions.
@@ -186,7 +187,7 @@ impl<'g> Expr<'g> {
 
 impl PartialEq for Expr<'_> {
     fn eq(&self, other: &Self) -> bool {
-        debug_assert!(std::ptr::eq(self.graph, other.graph), "handles of two graphs compared");
+        assert!(std::ptr::eq(self.graph, other.graph), "handles of two graphs compared");
         self.id == other.id
     }
 }

@@ -105,7 +105,7 @@ impl Graph {
     #[must_use]
     pub fn abbreviation<'g>(&'g self, name: &str, sum: Expr<'g>) -> Expr<'g> {
         let symbol = self.symbol(name, Stage::Parameter);
-        debug_assert!(sum.id() < symbol.id(), "a sum is made before its abbreviation");
+        assert!(sum.id() < symbol.id(), "a sum is made before its abbreviation");
         let Node::Symbol(id) = symbol.node() else { unreachable!("a symbol is a symbol") };
         self.arena.borrow_mut().symbols[usize::from(id.0)].sum = Some(sum.id());
         symbol

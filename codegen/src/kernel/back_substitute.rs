@@ -41,7 +41,7 @@ pub(super) fn kernel<'g>(
         script.define(name, value, symbol);
         known.push(symbol);
     }
-    debug_assert_eq!(known.len(), HUB.len() + eliminated.pivots.len());
+    assert_eq!(known.len(), HUB.len() + eliminated.pivots.len());
     Kernel {
         name: "back_substitute".to_owned(),
         doc: vec!["Joint accelerations from those of the hub.".to_owned()],

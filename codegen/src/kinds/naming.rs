@@ -1,8 +1,10 @@
 //! Which names a kind may have, and how a coordinate is written: what a builder makes is checked
 //! here, before any symbol is made of it.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::fmt;
+
+use rustc_hash::FxHashSet;
 
 use super::{Centre, Kind};
 
@@ -207,7 +209,7 @@ fn letters_error([what, remedy]: [&'static str; 2], name: &str) -> KindError {
 /// Names that are taken.
 struct Names {
     what: &'static str,
-    taken: HashSet<String>,
+    taken: FxHashSet<String>,
 }
 
 impl Names {

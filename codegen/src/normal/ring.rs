@@ -1,8 +1,10 @@
 //! Expression to polynomial: the variables, the reductions, and a memory of what was expanded.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
 
 use super::polynomial::{Monomial, Polynomial, VARIABLES};
 use crate::graph::{Expr, Graph, Node, NodeId, Rational, SymbolId, rational};
@@ -70,7 +72,7 @@ pub struct Factor {
 pub struct Ring<'g> {
     pub(crate) graph: &'g Graph,
     variables: Vec<Variable>,
-    index: HashMap<Variable, usize>,
+    index: FxHashMap<Variable, usize>,
     reductions: Vec<Reduction>,
     expanded: BTreeMap<NodeId, Rc<Polynomial>>,
     /// The next node when [`Ring::settle`] was first called.
@@ -84,7 +86,7 @@ impl<'g> Ring<'g> {
         Self {
             graph,
             variables: Vec::new(),
-            index: HashMap::new(),
+            index: FxHashMap::default(),
             reductions: Vec::new(),
             expanded: BTreeMap::new(),
             settled: None,

@@ -1,6 +1,6 @@
 //! Rust expression syntax to values: what the pages are written in, and what the emitter emits.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use syn::spanned::Spanned;
 
@@ -15,7 +15,7 @@ const DEPTH: usize = 100;
 #[derive(Clone)]
 pub struct Reader<'g> {
     graph: &'g Graph,
-    names: HashMap<String, Value<'g>>,
+    names: FxHashMap<String, Value<'g>>,
     /// Whether a symbol of the graph may be named without having been defined.
     symbols: bool,
 }
@@ -24,7 +24,7 @@ impl<'g> Reader<'g> {
     /// A reader that knows the symbols of `graph` and nothing else.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
-        Self { graph, names: HashMap::new(), symbols: true }
+        Self { graph, names: FxHashMap::default(), symbols: true }
     }
 
     /// A reader that knows only what is defined: emitted text names its arguments, `p.m_w`.

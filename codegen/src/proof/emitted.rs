@@ -5,7 +5,9 @@
 //! of the assembled system and the pivots are symbols, which keeps the factors small enough to be
 //! multiplied out again; see [`super::factors`].
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
 
 use super::Row;
 use super::factors;
@@ -267,7 +269,7 @@ impl<'a, 'g> Prover<'a, 'g> {
 fn claims<'g>(
     ring: &mut Ring<'g>,
     kernel: &Kernel<'g>,
-    values: &HashMap<String, Expr<'g>>,
+    values: &FxHashMap<String, Expr<'g>>,
 ) -> Vec<Row> {
     let mut rows = Vec::new();
     for claim in &kernel.claims {

@@ -5,7 +5,7 @@
 //! it by the paper's equations. The elimination is compared as the kernel has it: what was named
 //! before is a symbol, and so is each entry and divisor once its block is read.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::Row;
 use super::pages::frame_of;
@@ -27,7 +27,7 @@ const CLAIM: &str = "kernel = page";
 /// One group of pages, and the statements that it derives.
 pub struct KernelPages<'a, 'g> {
     chain: &'a Chain<'g>,
-    statements: HashMap<String, Statement<'g>>,
+    statements: FxHashMap<String, Statement<'g>>,
     /// Names of statements whose headings cite our own equations, in order.
     ours: Vec<String>,
     /// Symbols that are substituted in both sides before these are compared.
@@ -88,7 +88,7 @@ impl<'a, 'g> KernelPages<'a, 'g> {
     }
 
     fn new(chain: &'a Chain<'g>, reader: Reader<'g>, chosen: impl Fn(&Heading) -> bool) -> Self {
-        let (mut statements, mut ours) = (HashMap::new(), Vec::new());
+        let (mut statements, mut ours) = (FxHashMap::default(), Vec::new());
         let unit = mount(chain);
         for kernel in kernels(chain).iter().filter(|kernel| KERNELS.contains(&&*kernel.name)) {
             for section in kernel.sections.iter().filter(|section| chosen(&section.heading)) {
@@ -135,7 +135,7 @@ impl<'a, 'g> KernelPages<'a, 'g> {
     /// One row per block, and one for each statement under our own equations that no block states.
     #[must_use]
     pub fn rows(&self) -> Vec<Row> {
-        let mut rings = HashMap::new();
+        let mut rings = FxHashMap::default();
         let stated = self.equations.iter().map(|equation| {
             let ring = rings.entry(equation.block.page.clone());
             self.row(ring.or_insert_with(|| Ring::new(self.chain.graph)), equation)

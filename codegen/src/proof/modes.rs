@@ -5,7 +5,8 @@
 //! those put in, one text is as many eliminations as there are combinations.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
 
 use super::read_back::Reading;
 use super::stages;
@@ -26,7 +27,7 @@ pub(super) struct Settled<'a, 'g> {
     /// Joints whose acceleration is given.
     pub(super) given: Vec<usize>,
     /// What every node is with the modes put in.
-    made: HashMap<NodeId, Expr<'g>>,
+    made: FxHashMap<NodeId, Expr<'g>>,
 }
 
 /// Every combination of modes, all joints driven first.
@@ -54,7 +55,7 @@ impl<'a, 'g> Settled<'a, 'g> {
     ) -> Self {
         let graph = unknowns.zero.graph();
         let (zero, one) = (unknowns.zero, graph.constant(1));
-        let mut values = HashMap::new();
+        let mut values = FxHashMap::default();
         let mut put = |name: String, value: Expr<'g>| {
             if let Some(Node::Symbol(symbol)) = graph.find(&name).map(Expr::node) {
                 values.insert(symbol, value);

@@ -1,8 +1,10 @@
 //! Emitted functions read back, strictly: every name is a `let` before it or a field of an
 //! argument, no `let` is repeated, and nothing else stands in a function but the returned record.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+
+use rustc_hash::FxHashMap;
 
 use quote::ToTokens;
 
@@ -45,11 +47,11 @@ impl std::error::Error for EmittedError {}
 /// One function as read.
 pub(super) struct Reading<'g> {
     /// The value of each `let` as written.
-    pub(super) values: HashMap<String, Expr<'g>>,
+    pub(super) values: FxHashMap<String, Expr<'g>>,
     /// The value of each returned number.
     pub(super) returned: BTreeMap<String, Expr<'g>>,
     /// Names that the text has not, each with the one that stands for the same value there.
-    pub(super) shared: HashMap<String, String>,
+    pub(super) shared: FxHashMap<String, String>,
     reader: Reader<'g>,
 }
 
@@ -71,7 +73,7 @@ impl<'g> Reading<'g> {
         cuts: &BTreeSet<String>,
     ) -> Self {
         let all: Vec<_> = sections.iter().flat_map(|section| &section.statements).collect();
-        let mut named: HashMap<NodeId, &str> = HashMap::new();
+        let mut named: FxHashMap<NodeId, &str> = FxHashMap::default();
         for statement in all.iter().filter(|s| self.values.contains_key(&s.name)) {
             named.entry(statement.value.id()).or_insert(&statement.name);
         }
@@ -137,7 +139,7 @@ pub(super) fn read<'g>(
     for (name, value) in given {
         reader.define(name, Value::Scalar(*value));
     }
-    let mut values = HashMap::new();
+    let mut values = FxHashMap::default();
     let mut literal = None;
     for statement in &function.block.stmts {
         match statement {
@@ -166,7 +168,7 @@ pub(super) fn read<'g>(
             other => return Err(wrong(ReadError::NotThat(other.kind()))),
         };
     }
-    Ok(Reading { values, returned, shared: HashMap::new(), reader })
+    Ok(Reading { values, returned, shared: FxHashMap::default(), reader })
 }
 
 /// The names of the values of the fields of the returned literal, where they are plain names.

@@ -8,7 +8,7 @@
 //! identity of its own entry. So every product `gain * row` that is subtracted is multiplied out once,
 //! and no identity is longer than the number of joints.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::modes::Settled;
 use super::unknowns::{AXES, HUB, Unknowns};
@@ -82,7 +82,7 @@ pub(super) fn write_out<'g>(e: Expr<'g>, written: &[(SymbolId, Expr<'g>)]) -> Ex
 }
 
 /// The symbols that `e` divides by.
-fn divisors(e: Expr<'_>) -> HashSet<SymbolId> {
+fn divisors(e: Expr<'_>) -> FxHashSet<SymbolId> {
     let graph = e.graph();
     let recips = graph.reachable([e.id()]).into_iter().filter_map(|id| match graph.node(id) {
         Node::Recip(of) => match graph.node(of) {

@@ -3,8 +3,10 @@
 //! Unknowns are the accelerations of B (v1 v2 v3), of the body rate (w1 w2 w3) and of the joints
 //! from the hub outwards.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::ops::Range;
+
+use rustc_hash::FxHashMap;
 
 use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Node, SymbolId};
@@ -96,9 +98,9 @@ impl<'g> Unknowns<'g> {
     pub(super) fn with_hub(
         &self,
         chain: &Chain<'g>,
-        values: &HashMap<String, Expr<'g>>,
+        values: &FxHashMap<String, Expr<'g>>,
         constant_share: &BTreeMap<String, Expr<'g>>,
-    ) -> HashMap<String, Expr<'g>> {
+    ) -> FxHashMap<String, Expr<'g>> {
         let zero = self.zero;
         let named = |name: &String| values.get(name).copied().unwrap_or(zero);
         let taken = |name: &String| constant_share.get(name).copied().unwrap_or(zero);

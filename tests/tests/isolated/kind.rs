@@ -2,12 +2,14 @@
 //! single precision.
 
 use nalgebra::{Matrix3, Vector3};
+#[cfg(feature = "lanes")]
 use precess_dynamics::lanes::Batch;
 use precess_dynamics::{
     Each, Hub, Inputs, Isolated, JointStates, LoadAxes, Passive, Platform, ReactionWheel, Scalar,
     Spacecraft, State, Suspension, platform,
 };
 use precess_tests::bounds::SINGLE_PRECISION;
+#[cfg(feature = "lanes")]
 use precess_tests::random::Random;
 
 /// Rates and coordinates of the tests: an arbitrary pose far from the singular one.
@@ -59,6 +61,7 @@ fn platform_by_itself_is_an_isolated_set_that_carries_nothing() {
     assert_eq!(loads.devices, of_set.expect("finite").devices.platform);
 }
 
+#[cfg(feature = "lanes")]
 #[test]
 fn platform_in_lanes_has_the_bits_of_the_scalar_path() {
     let (hub, devices) = (hub(), [platform::<f64>(); 2]);

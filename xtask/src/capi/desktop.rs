@@ -3,7 +3,8 @@
 use std::process::Command;
 
 use super::{COMPILERS, Host, is_there, printed};
-use crate::run::{cargo, say};
+use crate::run::cargo;
+use crate::say;
 use crate::skip::skip;
 
 /// Scenarios, each with the version of its table.

@@ -1,6 +1,6 @@
 //! A mutant that no law notices: the same function written otherwise, or not.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::device::{Device, PREPARE};
 use super::listing::Line;
@@ -28,7 +28,7 @@ pub(super) fn is_the_same(device: &Device<'_, '_>, index: usize, site: &Site) ->
 
 /// Whether a value of a function is zero once all that it is made of is put in, through the cuts.
 fn is_zero<'g>(device: &Device<'_, 'g>, index: usize, value: Expr<'g>) -> bool {
-    let mut behind: HashMap<NodeId, Expr<'g>> = HashMap::new();
+    let mut behind: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
     for line in &device.listings[index].lines {
         let Some(symbol) = line.cut else { continue };
         behind.insert(symbol.id(), put_in(line.value, &behind));
@@ -38,7 +38,7 @@ fn is_zero<'g>(device: &Device<'_, 'g>, index: usize, value: Expr<'g>) -> bool {
 }
 
 /// `e` with what its symbols stand for.
-fn put_in<'g>(e: Expr<'g>, behind: &HashMap<NodeId, Expr<'g>>) -> Expr<'g> {
+fn put_in<'g>(e: Expr<'g>, behind: &FxHashMap<NodeId, Expr<'g>>) -> Expr<'g> {
     e.rebuild(|symbol| behind.get(&e.graph().named(symbol).id()).copied())
 }
 
@@ -72,7 +72,7 @@ fn changed(graph: &Graph, node: NodeId, second: bool, change: Change) -> Option<
 
 /// `root` with another expression in place of one node.
 fn replaced<'g>(graph: &'g Graph, root: Expr<'g>, node: NodeId, by: Expr<'g>) -> Expr<'g> {
-    let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
+    let mut made: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
     for id in graph.reachable([root.id()]) {
         let new = match graph.node(id) {
             _ if id == node => by,

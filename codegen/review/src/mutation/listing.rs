@@ -1,6 +1,6 @@
 //! What an emitted function computes, statement by statement, and nothing that is not returned.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use precess_codegen::derivation::heading::Heading;
 use precess_codegen::derivation::script::{Section, Statement};
@@ -27,7 +27,7 @@ pub(super) struct Listing<'g> {
     /// Returned field and the name of its value.
     pub(super) fields: Vec<(String, String)>,
     /// The latest stage among the symbols of each node.
-    pub(super) stages: HashMap<NodeId, Stage>,
+    pub(super) stages: FxHashMap<NodeId, Stage>,
 }
 
 /// One statement, with the nodes that are computed there for the first time.
@@ -57,8 +57,8 @@ impl<'g> Listing<'g> {
     ) -> Self {
         let fields = output.leaves();
         let needed = needed(graph, sections, &fields);
-        let (mut lines, mut placed) = (Vec::new(), HashSet::new());
-        let mut stages = HashMap::new();
+        let (mut lines, mut placed) = (Vec::new(), FxHashSet::default());
+        let mut stages = FxHashMap::default();
         for section in sections {
             for statement in &section.statements {
                 if !needed.statement(graph, statement) {
@@ -101,8 +101,8 @@ impl<'g> Listing<'g> {
 
 /// Nodes that the returned values are made of, through the cuts, and the names returned.
 struct Needed {
-    returned: HashSet<String>,
-    nodes: HashSet<NodeId>,
+    returned: FxHashSet<String>,
+    nodes: FxHashSet<NodeId>,
 }
 
 impl Needed {
@@ -125,8 +125,8 @@ impl Needed {
 }
 
 fn needed(graph: &Graph, sections: &[Section<'_>], fields: &[(String, String)]) -> Needed {
-    let returned: HashSet<String> = fields.iter().map(|(_, source)| source.clone()).collect();
-    let mut nodes = HashSet::new();
+    let returned: FxHashSet<String> = fields.iter().map(|(_, source)| source.clone()).collect();
+    let mut nodes = FxHashSet::default();
     // Backwards: a statement comes before whatever uses the symbol it was cut at.
     for statement in sections.iter().flat_map(|section| &section.statements).rev() {
         let used = statement.cut.is_some_and(|symbol| nodes.contains(&symbol.id()));
@@ -137,7 +137,7 @@ fn needed(graph: &Graph, sections: &[Section<'_>], fields: &[(String, String)]) 
     Needed { returned, nodes }
 }
 
-fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {
+fn stage(graph: &Graph, id: NodeId, known: &FxHashMap<NodeId, Stage>) -> Stage {
     match graph.node(id) {
         Node::Symbol(symbol) => graph.symbol_info(symbol).stage,
         node => {

@@ -1,7 +1,8 @@
 //! The places of an emitted function at which one term can be wrong, and what can be done there.
 
-use std::collections::HashMap;
 use std::fmt;
+
+use rustc_hash::FxHashMap;
 
 use super::listing::Listing;
 use precess_codegen::graph::{Expr, Graph, Node, NodeId, Stage, SymbolId};
@@ -74,7 +75,7 @@ pub(super) struct Site {
 /// Every mutant of a function, in the order of its text. What depends on parameters only belongs
 /// to `prepare`, where it is computed.
 pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) -> Vec<Site> {
-    let mut names = HashMap::new();
+    let mut names = FxHashMap::default();
     let mut found = Vec::new();
     for line in &listing.lines {
         let own = |id: &&NodeId| (listing.stages[id] == Stage::Parameter) == hoisted;
@@ -151,7 +152,7 @@ pub(super) fn symbol(e: Expr<'_>) -> Option<SymbolId> {
 }
 
 /// An expression as one would write it, by the names it already has, and short.
-fn text(graph: &Graph, id: NodeId, names: &HashMap<NodeId, String>) -> String {
+fn text(graph: &Graph, id: NodeId, names: &FxHashMap<NodeId, String>) -> String {
     let whole = written(graph, id, names, 4);
     if whole.chars().count() <= SHORT {
         return whole;
@@ -160,7 +161,7 @@ fn text(graph: &Graph, id: NodeId, names: &HashMap<NodeId, String>) -> String {
     format!("{start} …")
 }
 
-fn written(graph: &Graph, id: NodeId, names: &HashMap<NodeId, String>, depth: usize) -> String {
+fn written(graph: &Graph, id: NodeId, names: &FxHashMap<NodeId, String>, depth: usize) -> String {
     if let Some(name) = names.get(&id) {
         return name.clone();
     }

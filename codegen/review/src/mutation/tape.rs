@@ -1,7 +1,9 @@
 //! An emitted function as a flat list of operations, evaluated in floating point with at most one
 //! of them changed.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
 
 use super::listing::Listing;
 use super::site::{Change, Place, partner, symbol};
@@ -25,7 +27,7 @@ enum Step {
 /// The operations of one function.
 pub(super) struct Tape {
     steps: Vec<Step>,
-    slots: HashMap<NodeId, usize>,
+    slots: FxHashMap<NodeId, usize>,
     returned: BTreeMap<String, usize>,
 }
 
@@ -49,8 +51,9 @@ pub(super) struct Changed {
 impl Tape {
     /// The operations of a listed function.
     pub(super) fn new(graph: &Graph, listing: &Listing<'_>) -> Self {
-        let mut made = Self { steps: Vec::new(), slots: HashMap::new(), returned: BTreeMap::new() };
-        let mut named = HashMap::new();
+        let mut made =
+            Self { steps: Vec::new(), slots: FxHashMap::default(), returned: BTreeMap::new() };
+        let mut named = FxHashMap::default();
         for line in &listing.lines {
             for id in &line.nodes {
                 made.place(graph, *id);

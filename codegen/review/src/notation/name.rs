@@ -240,7 +240,7 @@ mod tests {
     use precess_codegen::graph::Graph;
     use precess_codegen::kernel::{joint_accelerations, motors, parameters, pose, rates};
     use precess_codegen::kinds::{DGVSCMG, KINDS};
-    use std::collections::HashSet;
+    use rustc_hash::FxHashSet;
 
     #[test]
     fn names_are_the_papers_symbols() {
@@ -292,7 +292,7 @@ mod tests {
                 motors(kind),
                 joint_accelerations(kind),
             ]);
-            let mut seen = HashSet::new();
+            let mut seen = FxHashSet::default();
             for field in records.flat_map(|record| record.fields) {
                 let latex = symbol(&field.name, Accent::Plain);
                 let upright = latex.starts_with("\\mathrm") && !latex.starts_with("\\mathrm{s}\\,");

@@ -1,6 +1,6 @@
 //! The blocks of the pages as mathematics: Rust expression syntax to LaTeX.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use syn::{BinOp, Expr, UnOp};
 
@@ -91,7 +91,7 @@ fn form(piece: &impl quote::ToTokens) -> ReadError {
 /// Sets expressions, with the names that stand for a sine or a cosine.
 #[derive(Default)]
 struct Setter {
-    short: HashMap<String, Tex>,
+    short: FxHashMap<String, Tex>,
 }
 
 impl Setter {

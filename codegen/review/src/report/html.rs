@@ -1,8 +1,9 @@
 //! Markdown to one self-contained page: mathematics as `MathML`, pictures inline, no script and
 //! no network.
 
-use std::collections::HashMap;
 use std::fmt;
+
+use rustc_hash::FxHashMap;
 
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::DisplayMode;
@@ -82,7 +83,7 @@ struct Page {
     contents: Vec<(String, String)>,
     /// The heading that is open: its level and its text so far.
     heading: Option<(HeadingLevel, String, usize)>,
-    addresses: HashMap<String, usize>,
+    addresses: FxHashMap<String, usize>,
     /// Inside an image: what it says is not shown.
     image: bool,
 }

@@ -1,8 +1,9 @@
 //! Which statements of a function are needed, what their nodes are called, and how often each node
 //! is an operand.
 
-use std::collections::HashSet;
 use std::collections::hash_map::Entry;
+
+use rustc_hash::FxHashSet;
 
 use super::Writer;
 use crate::derivation::script::{Section, Statement};
@@ -10,10 +11,14 @@ use crate::graph::{Expr, Node, NodeId};
 
 impl<'g> Writer<'_, 'g> {
     /// Names of the statements that outputs need; names and use counts of their nodes.
-    pub(super) fn live(&mut self, sections: &[Section<'g>], outputs: &[String]) -> HashSet<String> {
+    pub(super) fn live(
+        &mut self,
+        sections: &[Section<'g>],
+        outputs: &[String],
+    ) -> FxHashSet<String> {
         let all: Vec<&Statement<'g>> = sections.iter().flat_map(|s| &s.statements).collect();
-        let mut live: HashSet<String> = outputs.iter().cloned().collect();
-        let mut nodes = HashSet::new();
+        let mut live: FxHashSet<String> = outputs.iter().cloned().collect();
+        let mut nodes = FxHashSet::default();
         // Backwards: a statement comes before whatever uses the symbol it was cut at.
         for statement in all.iter().rev() {
             let symbol = statement.cut.map(Expr::id);
@@ -25,7 +30,7 @@ impl<'g> Writer<'_, 'g> {
             }
         }
         let cut = all.iter().filter(|statement| statement.cut.is_some());
-        let cut: HashSet<&String> = cut.map(|statement| &statement.name).collect();
+        let cut: FxHashSet<&String> = cut.map(|statement| &statement.name).collect();
         // A name without a user of its own still names a node that is computed.
         for statement in &all {
             let (id, name) = (statement.value.id(), &statement.name);
@@ -60,7 +65,7 @@ impl<'g> Writer<'_, 'g> {
         live
     }
 
-    pub(super) fn collect(&self, root: NodeId, nodes: &mut HashSet<NodeId>) {
+    pub(super) fn collect(&self, root: NodeId, nodes: &mut FxHashSet<NodeId>) {
         let mut pending = vec![root];
         while let Some(id) = pending.pop() {
             if nodes.insert(id) && (self.given)(id).is_none() {
@@ -70,7 +75,7 @@ impl<'g> Writer<'_, 'g> {
     }
 
     /// A sign is no value of its own: the users of `-a` are users of `a`.
-    fn count_uses(&mut self, nodes: &HashSet<NodeId>) {
+    fn count_uses(&mut self, nodes: &FxHashSet<NodeId>) {
         let mut descending: Vec<_> = nodes.iter().copied().collect();
         descending.sort_unstable_by(|a, b| b.cmp(a));
         for id in descending.into_iter().filter(|id| (self.given)(*id).is_none()) {

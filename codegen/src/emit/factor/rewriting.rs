@@ -3,7 +3,7 @@
 //! A sum reaches through sums, signs and products that nothing else uses and that have no name. What
 //! it ends at is a factor, whatever that is made of: it is a sum of its own.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::sum::{Sum, Term, Written};
 use super::{Function, statements};
@@ -28,7 +28,7 @@ impl Shared {
 /// The sections of a function, each sum that gains by it rewritten.
 pub(super) fn rewritten<'g>(function: &Function<'_, 'g>, shared: Shared) -> Vec<Section<'g>> {
     let shape = function.shape();
-    let made = Rewriting { function, shape: &shape, shared, made: HashMap::new() }.all();
+    let made = Rewriting { function, shape: &shape, shared, made: FxHashMap::default() }.all();
     let mut sections = function.sections.clone();
     for statement in sections.iter_mut().flat_map(|section| &mut section.statements) {
         if shape.live.contains(&statement.name) {
@@ -43,11 +43,11 @@ struct Rewriting<'a, 'g> {
     shape: &'a Shape,
     shared: Shared,
     /// What has become of each node so far.
-    made: HashMap<NodeId, Expr<'g>>,
+    made: FxHashMap<NodeId, Expr<'g>>,
 }
 
 impl<'g> Rewriting<'_, 'g> {
-    fn all(mut self) -> HashMap<NodeId, Expr<'g>> {
+    fn all(mut self) -> FxHashMap<NodeId, Expr<'g>> {
         let (graph, live) = (self.function.graph, &self.shape.live);
         let roots = statements(&self.function.sections).filter(|s| live.contains(&s.name));
         for id in graph.reachable(roots.map(|statement| statement.value.id())) {

@@ -1,6 +1,7 @@
 //! Evaluates one state of one device in every service.
 
 use precess_dynamics::kind::{Each, JointStates, Kind};
+#[cfg(feature = "lanes")]
 use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
 
@@ -23,11 +24,29 @@ where
 {
     let Alone { hub, device, state, inputs } = case;
     let craft = Spacecraft::new(hub, &[*device]).expect("valid parameters");
+    let found = craft.accelerations(state, inputs);
+    let mut all = vec![("one state", found.map(|found| found.omega_dot.into()))];
+    #[cfg(feature = "lanes")]
+    all.extend(in_lanes(case));
+    all.push((
+        "list on board",
+        listed::<K, [Option<BuiltIn>; 2]>(case, &[Some((*device).into()), None]),
+    ));
+    all.push(("list", listed::<K, Vec<BuiltIn>>(case, &vec![(*device).into()])));
+    all
+}
+
+/// The result of each service in lanes, and of the fused one, by its name.
+#[cfg(feature = "lanes")]
+fn in_lanes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
+where
+    K: Kind<Scalar = f64>,
+{
+    let Alone { hub, device, state, inputs } = case;
     let across = AcrossDevices::new(hub, &[*device]).expect("valid parameters");
-    let mut all = vec![
-        ("one state", craft.accelerations(state, inputs).map(|found| found.omega_dot.into())),
-        ("fused", craft.fused().accelerations(state, inputs).map(|found| found.omega_dot.into())),
-    ];
+    let craft = Spacecraft::new(hub, &[*device]).expect("valid parameters").fused();
+    let found = craft.accelerations(state, inputs);
+    let mut all = vec![("fused", found.map(|found| found.omega_dot.into()))];
     for (name, across) in [("across", across.clone()), ("fused across", across.fused())] {
         let found = across.accelerations(state, inputs);
         all.push((name, found.map(|found| found.omega_dot.into())));
@@ -38,11 +57,6 @@ where
         batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
         all.extend(out.into_iter().map(|found| (name, found.map(|found| found.omega_dot.into()))));
     }
-    all.push((
-        "list on board",
-        listed::<K, [Option<BuiltIn>; 2]>(case, &[Some((*device).into()), None]),
-    ));
-    all.push(("list", listed::<K, Vec<BuiltIn>>(case, &vec![(*device).into()])));
     all
 }
 

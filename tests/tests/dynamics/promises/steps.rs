@@ -2,6 +2,7 @@
 //! holds, in every service that steps; one at that length keeps the energy ledger.
 
 use nalgebra::{Matrix3, Vector3};
+#[cfg(feature = "lanes")]
 use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{
     BuiltIn, HingedPanel, Hub, Inputs, Passive, ReactionWheel, SolveError, Spacecraft, State,
@@ -120,22 +121,30 @@ fn every_service_rejects_the_same_step() {
         let expected = craft.step(&state, &inputs, dt).unwrap_err();
         assert!(matches!(expected, SolveError::Unstable { .. }), "{expected:?}");
         assert_eq!(craft.step_with_work(&state, &inputs, dt).unwrap_err(), expected);
-        assert_eq!(craft.fused().step(&state, &inputs, dt).unwrap_err(), expected);
-
-        let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
-        assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
-        assert_eq!(across.fused().step(&state, &inputs, dt).unwrap_err(), expected);
-        let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
-        for batch in [batch.clone(), batch.fused()] {
-            let (mut states, mut out) = ([state; 9], Vec::new());
-            batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
-            assert!(out.iter().all(|done| *done == Err(expected)), "{out:?}");
-            assert_eq!(states, [state; 9]);
-        }
+        #[cfg(feature = "lanes")]
+        rejected_in_lanes(device, reversing, dt, expected);
         let on_board = [Some(BuiltIn::from(device)), None];
         assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("valid"), dt), expected);
         let list = vec![BuiltIn::from(device)];
         assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("valid"), dt), expected);
+    }
+}
+
+/// The services in lanes, and the fused one, give that error, too.
+#[cfg(feature = "lanes")]
+fn rejected_in_lanes(device: ReactionWheel, reversing: State<One>, dt: f64, expected: SolveError) {
+    let inputs = Inputs::<One>::none();
+    let craft = Spacecraft::new(&hub(2.0), &[device]).expect("valid parameters");
+    assert_eq!(craft.fused().step(&state, &inputs, dt).unwrap_err(), expected);
+    let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
+    assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
+    assert_eq!(across.fused().step(&state, &inputs, dt).unwrap_err(), expected);
+    let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
+    for batch in [batch.clone(), batch.fused()] {
+        let (mut states, mut out) = ([state; 9], Vec::new());
+        batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
+        assert!(out.iter().all(|done| *done == Err(expected)), "{out:?}");
+        assert_eq!(states, [state; 9]);
     }
 }
 

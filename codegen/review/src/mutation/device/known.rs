@@ -2,8 +2,9 @@
 //! again and again, and of functions that are not changed the result is the right ones'.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
 
 use super::exerted::{Carried, Pulled, Stand};
 use super::seen::{BodySeen, Moment};
@@ -36,7 +37,7 @@ pub(super) struct Known {
 }
 
 /// Results by what was requested.
-pub(super) struct Memo<V>(RefCell<HashMap<Asked, V>>);
+pub(super) struct Memo<V>(RefCell<FxHashMap<Asked, V>>);
 
 /// All that a result depends on; a case stands for its parameters and all else that it is put to.
 #[derive(PartialEq, Eq, Hash)]

@@ -13,9 +13,12 @@ use precess_review::mutation::{
 use precess_review::report::traceability;
 use precess_review::verdict::verdicts;
 
-use crate::files::{committed, differing, read_files, read_pages, write};
+use xtask::files::{differing, write};
+use xtask::run::root;
+use xtask::say;
+
+use crate::pages::{committed, read_pages, read_texts, texts};
 use crate::regen::PAGES;
-use crate::run::{root, say};
 
 /// The file of the engines' stored values.
 const ENGINES: &str = "tests/fixtures/engines.json";
@@ -39,13 +42,6 @@ pub(crate) struct Options {
     /// Write nothing; show what would change on the pages and fail if anything would
     #[arg(long, conflicts_with_all = ["kind", "kernel", "sample"])]
     check: bool,
-}
-
-impl Options {
-    /// `mutate --check`.
-    pub(crate) fn check_only() -> Self {
-        Self { kind: None, kernel: None, sample: 1, check: true }
-    }
 }
 
 impl Options {
@@ -99,10 +95,10 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
         files.extend(traces.map_err(|error| error.to_string())?);
     }
     if !check {
-        return write(&files, &root());
+        return write(texts(&files), &root());
     }
     let files = committed(files);
-    let (stale, all) = (differing(&files, &root()), files.len());
+    let (stale, all) = (differing(texts(&files), &root()), files.len());
     if stale > 0 {
         return Err(format!("{stale} of {all} pages are stale; run `cargo xtask mutate`"));
     }
@@ -112,7 +108,7 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
 
 /// The files of the derivation, by path from the root.
 fn sources() -> Result<Vec<Page>, String> {
-    let files = read_files(&root().join(DERIVATION), "rs")?;
+    let files = read_texts(&root().join(DERIVATION), "rs")?;
     let named = |page: Page| Page { name: format!("{DERIVATION}/{}", page.name), ..page };
     Ok(files.into_iter().map(named).collect())
 }

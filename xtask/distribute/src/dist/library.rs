@@ -8,8 +8,8 @@ use super::archive::{Entry, pack};
 use super::build::Stage;
 use super::licences;
 use super::sources::entry;
-use crate::capi::{GUIDE, HEADER, MANIFEST};
-use crate::run::{output, run_there};
+use xtask::capi::{GUIDE, HEADER, MANIFEST};
+use xtask::run::{output, run_there};
 
 /// Files of `pkg-config` and `CMake`, with `@VERSION@` and `@SONAME@` to be filled in.
 const FILES: [(&str, &str); 4] = [

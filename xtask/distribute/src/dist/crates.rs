@@ -4,7 +4,7 @@ use std::fs;
 
 use super::Package;
 use super::build::Stage;
-use crate::run::run_there;
+use xtask::run::run_there;
 
 /// The solver, and what derives and emits a kind in a crate of one's own.
 const CRATES: [&str; 2] = ["precess-dynamics", "precess-codegen"];

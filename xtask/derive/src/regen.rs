@@ -10,9 +10,12 @@ use precess_codegen::emit::{self, EmittedFile};
 use precess_codegen::proof::Row;
 use precess_review::regen::{Pages, Regeneration, regenerate};
 
-use crate::files::{committed, differing, read_pages, write};
+use xtask::files::{differing, write};
+use xtask::run::root;
+use xtask::say;
+
+use crate::pages::{committed, read_pages, texts};
 use crate::printed;
-use crate::run::{root, say};
 
 /// The folder of the hand-checked pages.
 pub(crate) const PAGES: &str = "tests/derivation";
@@ -54,11 +57,6 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// `regen --check --quiet`.
-    pub(crate) fn check_only() -> Self {
-        Self { check: true, quiet: true, ..Self::default() }
-    }
-
     /// The command that writes what these options would compare.
     fn remedy(&self) -> String {
         let options = [("--pages", &self.pages), ("--out", &self.out)].into_iter();
@@ -110,7 +108,7 @@ fn settle(made: Regeneration, options: &Options) -> Result<(), String> {
     if options.check {
         compare(&committed(files), &options.into(), &options.remedy())
     } else {
-        write(&files, &options.into())
+        write(texts(&files), &options.into())
     }
 }
 
@@ -155,7 +153,7 @@ fn print(made: &Regeneration, quiet: bool) {
 
 /// Shows the difference from the files on disk, where every file must be an emitted one.
 fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
-    let stale = differing(files, into);
+    let stale = differing(texts(files), into);
     if let Some(orphan) = orphan(files, into) {
         return Err(format!("{} is not emitted any more; delete it", orphan.display()));
     }
@@ -198,7 +196,10 @@ mod tests {
 
     #[test]
     fn the_committed_files_are_fresh() {
-        assert_eq!(settle(made(), &Options::check_only()), Ok(()));
+        assert_eq!(
+            settle(made(), &Options { check: true, quiet: true, ..Options::default() }),
+            Ok(())
+        );
     }
 
     #[test]
@@ -259,7 +260,7 @@ mod tests {
             text: String::new(),
         };
         let emitted = ["mod.rs", "dgvscmg/device.rs"].map(file);
-        write(&emitted, folder.path()).unwrap();
+        write(texts(&emitted), folder.path()).unwrap();
         assert_eq!(orphan(&emitted, folder.path()), None);
         let left = generated.join("dgvscmg/old.rs");
         fs::write(&left, "").unwrap();

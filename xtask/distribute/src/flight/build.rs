@@ -7,7 +7,7 @@ use std::process::Command;
 
 use super::board::Board;
 use super::tools::{CARGO, RUSTC};
-use crate::run::{root, target};
+use xtask::run::{root, target};
 
 /// What the outer build may have set, and must not decide here.
 const OUTER: [&str; 7] = [

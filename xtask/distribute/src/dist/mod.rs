@@ -20,8 +20,9 @@ use sha2::{Digest as _, Sha256};
 
 use self::archive::{Entry, pack};
 use self::build::Stage;
-use crate::run::{say, target};
 pub(crate) use wrapper::called;
+use xtask::run::target;
+use xtask::say;
 
 /// Where packages are written, in the build folder of cargo.
 const PACKAGES: &str = "dist";

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use crate::run::{cargo, output, root, run, say, target};
-use crate::skip::{all_required, skip};
 use crate::wheel;
+use xtask::run::{cargo, output, root, run, target};
+use xtask::say;
+use xtask::skip::{all_required, skip};
 
 /// What builds the wheel, and what the tests need.
 const REQUIREMENTS: &str = "python/tests/requirements.txt";

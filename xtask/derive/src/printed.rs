@@ -2,7 +2,7 @@
 
 use precess_review::verdict::{Cause, Component, Entry, Mended, Verdicts};
 
-use crate::run::say;
+use xtask::say;
 
 /// So many differing terms of an equation are listed, the others counted: past these a reader wants
 /// the notes, which say in one line what a thousand terms of the normal form do.

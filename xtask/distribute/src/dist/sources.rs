@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::archive::{Content, Entry};
-use crate::run::{output, root};
+use xtask::run::{output, root};
 
 /// Every tracked file as it is on disk now.
 pub(super) fn tracked() -> Result<Vec<Entry>, String> {

@@ -8,9 +8,10 @@ use super::archive::{Entry, unpack};
 use super::build::program;
 use super::python;
 use super::sources::lay_out;
-use crate::capi::GUIDE;
-use crate::run::{is_there, root, run_there, say};
-use crate::skip::skip;
+use xtask::capi::GUIDE;
+use xtask::run::{is_there, root, run_there};
+use xtask::say;
+use xtask::skip::skip;
 
 /// The page whose first program links the solver.
 const README: &str = "README.md";

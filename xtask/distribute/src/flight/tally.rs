@@ -1,6 +1,6 @@
 //! What passed and what failed.
 
-use crate::run::say;
+use xtask::say;
 
 /// Counts, and says each as it comes.
 #[derive(Default)]

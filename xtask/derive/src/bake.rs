@@ -8,8 +8,11 @@ use std::process::Command;
 use clap::Args;
 use precess_bake::{Baked, Description, Language, Options as Baking, bake as derive};
 
-use crate::files::{differing, write};
-use crate::run::{root, say};
+use xtask::files::{differing, write};
+use xtask::run::root;
+use xtask::say;
+
+use crate::pages::texts;
 
 /// The folder of the spacecraft that the tests know.
 const FOLDER: &str = "tests/baked";
@@ -41,14 +44,6 @@ pub(crate) struct Options {
     check: bool,
 }
 
-impl Options {
-    /// Nothing is written.
-    pub(crate) fn check_only() -> Self {
-        let language = Language::Rust;
-        Self { file: None, scenario: false, out: None, language, constants: false, check: true }
-    }
-}
-
 /// Derives, proves and writes, or compares.
 pub(crate) fn bake(options: &Options) -> Result<(), String> {
     let Some(file) = &options.file else { return all(options.check) };
@@ -66,7 +61,7 @@ pub(crate) fn bake(options: &Options) -> Result<(), String> {
         Some(out) => here(out)?,
         None => root().join("target/baked").join(&description.name),
     };
-    write(&baked.files, &out)?;
+    write(texts(&baked.files), &out)?;
     report(&baked, &out);
     Ok(())
 }
@@ -86,9 +81,9 @@ fn all(check: bool) -> Result<(), String> {
         let what = Baking { language: Language::Rust, constants };
         let baked = derive(&description, what).map_err(|error| error.to_string())?;
         if check {
-            stale += differing(&baked.files, folder);
+            stale += differing(texts(&baked.files), folder);
         } else {
-            write(&baked.files, folder)?;
+            write(texts(&baked.files), folder)?;
         }
         report(&baked, folder);
     }

@@ -17,13 +17,13 @@ use std::thread;
 
 use clap::Args;
 
-use crate::capi;
-use crate::skip::skip;
 use board::{BOARDS, Board};
 use gates::Library;
 use output::{lines, same, whole};
 use page::Figures;
 use tally::Tally;
+use xtask::capi;
+use xtask::skip::skip;
 
 /// The library that is checked and measured, and the programs with it.
 const LIBRARY: &str = "precess-flight-library";
@@ -142,7 +142,7 @@ fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
     let library =
         Library { package: LIBRARY, features: &["standalone"], exports: exports.collect() };
     let image = gates::passed(board, &library);
-    let images = crate::run::target().map(|folder| {
+    let images = xtask::run::target().map(|folder| {
         folder.join("flight").join(board.name).join(board.triple).join("release").join(COUNTS)
     });
     let counts = images.and_then(|path| lines(&mut board.emulate(&path))).and_then(whole);

@@ -7,7 +7,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::build::Stage;
-use crate::run::output;
+use xtask::run::output;
 
 /// How names of files with a licence begin.
 const NAMES: [&str; 5] = ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE"];

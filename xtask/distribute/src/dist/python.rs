@@ -10,9 +10,10 @@ use super::build::Stage;
 use super::first::nth_block;
 use super::licences;
 use super::sources::lay_out;
-use crate::run::{output, root, run_there, say};
-use crate::skip::skip;
 use crate::wheel;
+use xtask::run::{output, root, run_there};
+use xtask::say;
+use xtask::skip::skip;
 
 /// The Python package, in the sources.
 const MANIFEST: &str = "python/Cargo.toml";

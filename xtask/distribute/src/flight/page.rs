@@ -3,14 +3,14 @@
 use std::fmt::Write;
 use std::fs;
 
-use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::KINDS;
 
 use super::gates::LARGEST_STACK;
 use super::image::Image;
 use super::tally::Tally;
-use crate::files::write;
-use crate::run::{root, say};
+use xtask::files::write;
+use xtask::run::root;
+use xtask::say;
 
 /// The committed page.
 const PAGE: &str = "docs/flight.md";
@@ -101,10 +101,7 @@ pub(super) fn settle(
     tally: &mut Tally,
 ) -> Result<(), String> {
     if !check {
-        return write(
-            &[EmittedFile { path: PAGE.to_owned(), text: page(compiler, figures) }],
-            &root(),
-        );
+        return write([(PAGE, page(compiler, figures).as_str())], &root());
     }
     let committed = fs::read_to_string(root().join(PAGE)).unwrap_or_default();
     tally.check(
