@@ -1,9 +1,9 @@
 // Opens a report in Chromium and checks what it does; see build.mjs for the commands. Without --page,
-// the page is made from sample.mjs. Screenshots go to a temporary folder, which is printed.
+// the page is made from sample.mjs. Screenshots go to the folder of --out, else to a temporary one; it is printed.
 // CHROMIUM names the browser where it is not at /usr/bin/chromium.
 
 import assert from 'node:assert/strict';
-import { mkdtemp, readFile, writeFile } from 'node:fs/promises';
+import { mkdir, mkdtemp, readFile, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -14,8 +14,9 @@ import { bucketValues, decode } from './check-data.mjs';
 import { sampleContext, sampleData } from './sample.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const { values: options } = parseArgs({ options: { page: { type: 'string' } } });
-const folder = await mkdtemp(join(tmpdir(), 'precess-report-'));
+const { values: options } = parseArgs({ options: { page: { type: 'string' }, out: { type: 'string' } } });
+const folder = options.out ?? await mkdtemp(join(tmpdir(), 'precess-report-'));
+await mkdir(folder, { recursive: true });
 
 const QUIET = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-sandbox'];
 const WEBGL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
@@ -225,6 +226,8 @@ async function replay(page, name) {
   await page.getByRole('button', { name: 'Reset view' }).click();
 
   const play = page.locator('#replay-stage .play');
+  // At the lowest speed, so that a short run has not ended when the button pauses it.
+  await page.locator('#replay-stage select').nth(1).selectOption({ index: 0 });
   await set(0);
   await play.click();
   await page.waitForTimeout(900);

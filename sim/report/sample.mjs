@@ -266,7 +266,7 @@ export function sampleData() {
 /** What the template is filled with, except script, style and their hashes. */
 export function sampleContext(data) {
   return {
-    title: data.title, name: data.name,
+    title: data.title, name: data.name, subject: 'report of a run',
     verdict: { state: 'violated', word: 'One of three requirements is violated:', text: 'the body rate reaches 5.64 deg/s at 0.00 s, above its limit of 5.00 deg/s.' },
     summary: {
       paragraphs: ['A rigid hub of 810 kg with four single-gimbal gyros in a pyramid, two panels and one slosh mass, over 10 s.'],
