@@ -123,7 +123,7 @@ impl Header {
 }
 
 /// The digest of a text, hexadecimal.
-fn sha256(text: &str) -> String {
+pub(crate) fn sha256(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
         digits.extend(
             [byte >> 4, byte & 15]

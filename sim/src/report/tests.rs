@@ -1,4 +1,5 @@
-//! Tests of the page: what it contains, that it is complete, escaped, small and the same each time.
+//! Tests of the page: what it contains, that it is complete, escaped, small and the same each time; and that its
+//! script and style are built from their sources.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -7,6 +8,8 @@
     reason = "counts of samples"
 )]
 
+use std::collections::BTreeSet;
+use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
@@ -15,11 +18,14 @@ use super::Report;
 use crate::engine::{Drift, End, Event, Outcome, Steps, run};
 use crate::file::from_toml;
 use crate::record::columns::Quantity;
-use crate::record::{Columns, Header, Recorder};
+use crate::record::{Columns, Header, Recorder, sha256};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// Largest page of ten minutes with four double-gimbal devices at the default columns.
 const PAGE_MAX: usize = 1_500_000;
+
+/// Sources of the script and of the style.
+const FRONT_END: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/report");
 
 fn table1() -> Scenario {
     let text = include_str!("../../../scenarios/table1-printed-free.toml");
@@ -248,4 +254,38 @@ fn curves_that_lie_on_one_another_are_named_below_their_figure() {
     let (_, rest) = page.split_once(words).expect("equal rates");
     let names = rest.split_once('.').expect("an end").0;
     assert_eq!(names.split(", ").count(), 4, "{names}");
+}
+
+/// Every file below a folder of sim/report, by its path from there.
+fn files_of(folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(Path::new(FRONT_END).join(folder)).expect("a folder");
+    let paths = entries.map(|entry| {
+        let entry = entry.expect("an entry");
+        let path = format!("{folder}/{}", entry.file_name().to_str().expect("text"));
+        if entry.file_type().expect("a type").is_dir() { files_of(&path) } else { vec![path] }
+    });
+    paths.flatten().collect()
+}
+
+#[test]
+fn script_and_style_are_those_of_their_sources() {
+    let mut paths = files_of("src");
+    paths.extend(["build.mjs", "package.json", "package-lock.json"].map(str::to_owned));
+    let here: BTreeSet<_> = paths
+        .iter()
+        .map(|path| {
+            let text = fs::read_to_string(Path::new(FRONT_END).join(path)).expect("a source");
+            format!("{}  {path}", sha256(&text))
+        })
+        .collect();
+    let list = include_str!("../../report/dist/sources.sha256");
+    let built: BTreeSet<_> =
+        list.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect();
+    let path = |line: &String| line.split_once("  ").map(|(_, path)| path.to_owned());
+    let differing: BTreeSet<_> = here.symmetric_difference(&built).filter_map(path).collect();
+    assert!(
+        here == built,
+        "sim/report/dist was built from other sources ({differing:?}); in sim/report, run `npm ci && npm run build`, \
+         and commit dist"
+    );
 }
