@@ -12,6 +12,7 @@ mod instructions;
 mod members;
 mod object_code;
 mod program;
+mod reports;
 mod test;
 
 use std::process::ExitCode;
@@ -63,6 +64,10 @@ enum Command {
         after_help = "Examples: cargo xtask engines\n          cargo xtask engines --more 1000"
     )]
     Engines(engines::Options),
+    /// Build the script and the style of the report again, compare them with the committed files, and
+    /// check two pages in a browser, if Node.js and Chromium are installed
+    #[command(after_help = "Example: cargo xtask reports")]
+    Reports,
     /// Time every service and the peers in one run on one core, and write the page
     #[command(
         after_help = "Examples: cargo xtask bench --quick --skip-peers\n          cargo xtask bench --flexible"
@@ -119,6 +124,7 @@ fn main() -> ExitCode {
         Command::Test => test::test(),
         Command::Attack(options) => attack::attack(&options),
         Command::Engines(options) => engines::engines(&options),
+        Command::Reports => reports::reports(),
         Command::Bench(options) => bench::bench(&options),
         Command::Accuracy(options) => accuracy::accuracy(&options),
         Command::Instructions(options) => instructions::instructions(&options),

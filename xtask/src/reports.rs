@@ -1,0 +1,127 @@
+//! `reports`: builds the script and the style of the report from their sources, compares every file with the committed
+//! one, and checks two pages in a browser: the sample, and a run of Table 1.
+
+use std::collections::BTreeSet;
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use xtask::run::{cargo, is_there, output, root, run_there, target};
+use xtask::say;
+use xtask::skip::skip;
+
+/// The sources, with the programs that build and check.
+const SOURCES: &str = "sim/report";
+
+/// What the desktop tool contains.
+const COMMITTED: &str = "sim/report/dist";
+
+/// How the committed files become those of their sources.
+const REMEDY: &str = "in sim/report, run `npm ci && npm run build`, and commit dist";
+
+/// The run whose report is checked: its page has charts, replay and slow motion.
+const SCENARIO: &str = "table1-printed-250";
+
+/// The browser, where the variable `CHROMIUM` names no other.
+const CHROMIUM: &str = "/usr/bin/chromium";
+
+/// Compares the files, then checks the pages; what needs a program that is missing is skipped.
+pub(crate) fn reports() -> Result<(), String> {
+    let can_build = is_there("node") && is_there("npm");
+    if !can_build {
+        skip("script and style of the report against their sources", "apt-get install nodejs npm")?;
+    }
+    let browser = env::var("CHROMIUM").unwrap_or_else(|_| CHROMIUM.to_owned());
+    let can_check = can_build && is_there(&browser);
+    if !can_check {
+        skip("pages of the report in a browser", "apt-get install nodejs npm chromium")?;
+    }
+    if !can_build {
+        return Ok(());
+    }
+    let folder = target()?.join("reports");
+    // Install scripts of packages are not run: neither the build nor the checks need them.
+    run_there(&mut node("npm", &["ci", "--ignore-scripts", "--no-audit", "--no-fund"]))?;
+    let files = rebuild(&folder.join("dist"))?;
+    let files = format!("reports: {files} files are those of their sources");
+    if !can_check {
+        say!("{files}");
+        return Ok(());
+    }
+    let checks = check(&[], &folder.join("sample"))? + check_run(&folder)?;
+    say!("{files}, {checks} checks in the browser");
+    Ok(())
+}
+
+/// Builds into a folder and compares with the committed files; returns how many there are.
+fn rebuild(folder: &Path) -> Result<usize, String> {
+    if folder.exists() {
+        fs::remove_dir_all(folder)
+            .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
+    }
+    run_there(node("node", &["build.mjs", "--out"]).arg(folder))?;
+    let committed = root().join(COMMITTED);
+    let names: BTreeSet<_> = [names(folder)?, names(&committed)?].into_iter().flatten().collect();
+    let differing: Vec<_> = names
+        .iter()
+        .filter(|name| {
+            let [built, there] = [folder, &committed].map(|folder| fs::read(folder.join(name)));
+            !matches!((built, there), (Ok(built), Ok(there)) if built == there)
+        })
+        .map(|name| format!("{COMMITTED}/{name}"))
+        .collect();
+    if differing.is_empty() {
+        return Ok(names.len());
+    }
+    Err(format!("not what the sources build: {}; {REMEDY}", differing.join(", ")))
+}
+
+/// Names of the files of a folder.
+fn names(folder: &Path) -> Result<Vec<String>, String> {
+    let wrong = |error| format!("cannot read {}: {error}", folder.display());
+    let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
+    let entries = fs::read_dir(folder).map_err(wrong)?;
+    entries.map(|entry| entry.map(name).map_err(wrong)).collect()
+}
+
+/// Runs the scenario and checks its report; returns how many checks passed.
+fn check_run(folder: &Path) -> Result<usize, String> {
+    let scenario = format!("scenarios/{SCENARIO}.toml");
+    let results = folder.join("run");
+    let tool = ["run", "--quiet", "-p", "precess", "--", "run", &scenario, "--force", "--out"];
+    cargo(&[&tool[..], &[&results.to_string_lossy()]].concat())?;
+    let page = results.join(format!("{SCENARIO}.html"));
+    check(&["--page", &page.to_string_lossy()], &folder.join(SCENARIO))
+}
+
+/// Checks a page and writes pictures into a folder; returns how many checks passed.
+fn check(page: &[&str], pictures: &Path) -> Result<usize, String> {
+    let mut command = node("node", &["check.mjs"]);
+    let printed = output(command.args(page).arg("--out").arg(pictures))?;
+    eprint!("{printed}");
+    passed(&printed).ok_or_else(|| format!("check.mjs printed no number of checks: {printed}"))
+}
+
+/// The number that check.mjs prints at its end.
+fn passed(printed: &str) -> Option<usize> {
+    printed.lines().find_map(|line| line.split_once(" checks passed")?.0.parse().ok())
+}
+
+/// A program in the folder of the sources.
+fn node(program: &str, arguments: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(root().join(SOURCES));
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_checks_is_read() {
+        assert_eq!(passed("416 checks passed; pictures in a folder\n"), Some(416));
+        assert_eq!(passed("pictures in a folder\n"), None);
+    }
+}
