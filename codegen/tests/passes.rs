@@ -23,6 +23,7 @@ fn holds(kind: &'static Kind, passes: Passes) {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_long_chain_is_proven_after_each_pass() {
     for passes in Passes::EACH {
         holds(&DGVSCMG, passes);

@@ -16,9 +16,10 @@ mod numbers;
 
 use contents::contents;
 use numbers::Numbers;
+use precess_tests::cases;
 
 /// How often a run is killed.
-const ROUNDS: u32 = 100;
+const ROUNDS: u64 = 100;
 /// Moments are within this many times the duration of a run that is not killed, so that some come
 /// after its end.
 const SPREAD: f64 = 1.2;
@@ -92,7 +93,8 @@ fn a_run_that_is_killed_leaves_the_old_result_or_the_new_one_or_partial_ones() {
     let out = folder.join("out");
     let (mut killed, mut partial, mut replaced, mut rows_kept) = (0, 0, 0, 0);
     let shares = Numbers(0x9e37_79b9_7f4a_7c15).map(share);
-    for (round, share) in shares.take(ROUNDS as usize).enumerate() {
+    let rounds = usize::try_from(cases(ROUNDS)).expect("few");
+    for (round, share) in shares.take(rounds).enumerate() {
         let _ = fs::remove_dir_all(&out);
         fs::create_dir_all(&out).expect("a folder");
         for name in complete.keys() {
@@ -120,7 +122,7 @@ fn a_run_that_is_killed_leaves_the_old_result_or_the_new_one_or_partial_ones() {
         );
     }
     println!(
-        "{whole_run:?} a run; {killed} of {ROUNDS} killed, {partial} partial files with {rows_kept} \
+        "{whole_run:?} a run; {killed} of {rounds} killed, {partial} partial files with {rows_kept} \
          rows, {replaced} new results"
     );
     // Otherwise the moments were not those at which something can go wrong.

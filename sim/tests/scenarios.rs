@@ -167,6 +167,7 @@ fn brake_and_latch_take_the_energy_that_they_should() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn examples_with_requirements_meet_them() {
     for path in files() {
         let scenario = read(&path);

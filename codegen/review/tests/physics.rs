@@ -52,6 +52,7 @@ fn every_mutant_of_a_sample_is_killed_or_equivalent() {
 
 /// The kinds that no engine was asked about answer to conservation and differences alone.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_a_sample_of_every_kind_is_killed_or_equivalent() {
     let engines = Engines::parse(&DGVSCMG, &stored()).unwrap();
     let selection = Selection { kernel: None, every: SAMPLE };

@@ -58,6 +58,7 @@ fn document(name: &str) -> String {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn errata_and_letter_state_the_counts_of_the_verdicts() {
     let made = verdicts(&pages(""), &pages("printed")).unwrap();
     let counts = made.counts();
@@ -129,6 +130,7 @@ fn one_failed(right: &str, wrong: &str) -> (String, String, Vec<(String, Term)>)
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_wrong_note_fails_its_row_with_its_terms() {
     let note = "`m_gi*l_o_y*g_x_hat` -> `-m_gi*l_o_y*g_x_hat`";
     let (block, claim, terms) = one_failed(note, "`m_gi*l_o_y*g_x_hat` -> `0`");
@@ -138,6 +140,7 @@ fn a_wrong_note_fails_its_row_with_its_terms() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_wrong_mend_fails_its_row_with_what_it_leaves() {
     let (block, claim, terms) = one_failed(&format!("{MEND}l_i + r_wc_w`"), &format!("{MEND}l_i`"));
     assert_eq!((block.as_str(), claim.as_str()), ("(67) r_wc_b", "print, mended = page"));
@@ -145,6 +148,7 @@ fn a_wrong_mend_fails_its_row_with_what_it_leaves() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_slip_of_the_transcription_fails_notes_and_mends() {
     let right = "m_gi*cross(s_y_hat, r_gic_gi) + m_w*((d*st + l_i_z)*s_x_hat)";
     let made = with(right, &format!("{right} + m_w*d*s_y_hat")).unwrap();
@@ -212,6 +216,7 @@ fn an_unused_an_unknown_and_a_forgotten_cause_are_named() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn what_is_said_to_agree_must_and_what_is_equal_must_be_said_to() {
     let page = "3.2.4-wheel-system.md";
     let case = "given j_12 = 0, j_13 = 0, j_23 = 0, j_33 = j_22, theta = 0;\nlet j_a";

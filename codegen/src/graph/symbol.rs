@@ -102,6 +102,9 @@ impl Graph {
     }
 
     /// The symbol `name` for a sum of parameters, so that its reciprocal has a normal form: `m_d`.
+    ///
+    /// # Panics
+    /// If the sum was made after a symbol of that name.
     #[must_use]
     pub fn abbreviation<'g>(&'g self, name: &str, sum: Expr<'g>) -> Expr<'g> {
         let symbol = self.symbol(name, Stage::Parameter);

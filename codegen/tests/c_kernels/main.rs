@@ -94,6 +94,7 @@ fn compared(
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_kernel_has_the_bits_of_rust_from_every_compiler() {
     let kernels: usize = START.plans.iter().map(Plan::kernels).sum();
     let told = format!("{} results of {kernels} kernels", START.rust.len());
@@ -107,6 +108,7 @@ fn every_kernel_has_the_bits_of_rust_from_every_compiler() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_sum_in_another_order_is_noticed() {
     let (right, wrong) = (
         "b->omega_by * p->r_s_b_bz - b->omega_bz * p->r_s_b_by + v->x_dot",
@@ -127,6 +129,7 @@ fn a_sum_in_another_order_is_noticed() {
 /// With contraction on, a product and a sum are rounded once where the CPU can do both.
 #[cfg(target_arch = "x86_64")]
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn contraction_is_noticed() {
     if !std::arch::is_x86_feature_detected!("fma") {
         eprintln!("skipped: contraction (needs a CPU with FMA)");
@@ -141,6 +144,7 @@ fn contraction_is_noticed() {
 
 /// Parameters, sines, kernels, the hub's six equations: four devices, wheels of two prescribed.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_whole_evaluation_has_the_bits_of_rust() {
     let mut random = Random::new(SEED);
     let numbers: Vec<_> = (0..SPACECRAFT).flat_map(|_| random.spacecraft(4)).collect();

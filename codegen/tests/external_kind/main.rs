@@ -67,6 +67,7 @@ fn every_claim_about_a_kind_without_motors_is_proven() {
 /// The programs assert that both hinges of the arm obey the textbook's equations of a planar arm,
 /// and the hub of the rotor those of a rigid body with a constant momentum in it.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn they_compile_in_another_crate_and_move_as_the_textbook_says() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("external_kind");
     let source = folder.join("src");

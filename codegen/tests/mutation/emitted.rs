@@ -84,6 +84,7 @@ fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_the_kinematics_is_named() {
     for name in ["outer_gimbal", "inner_gimbal", "wheel", "first_moment"] {
         let (mutants, named) = every_mutant_is_caught(name, &[name]);
@@ -92,6 +93,7 @@ fn every_mutant_of_the_kinematics_is_named() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_the_elimination_is_named() {
     // What only another mount than none shows is judged with the constant share of the hub.
     for (name, judged, least) in [
@@ -104,12 +106,14 @@ fn every_mutant_of_the_elimination_is_named() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_energy_and_momentum_is_named() {
     let (mutants, named) = every_mutant_is_caught("energy_momentum", &["energy_momentum"]);
     assert!(mutants > 500 && named == mutants, "{named} of {mutants}");
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_beside_the_equations_of_motion_is_named() {
     for (name, least) in [("axes", 20), ("loads", 800), ("external", 120), ("gravity", 800)] {
         let (mutants, named) = every_mutant_is_caught(name, &[name]);
@@ -118,6 +122,7 @@ fn every_mutant_beside_the_equations_of_motion_is_named() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_prepare_is_named() {
     let (mutants, named) = every_mutant_is_caught("prepare", &ALL[1..]);
     assert!(mutants > 100 && named == mutants, "{named} of {mutants}");
@@ -125,6 +130,7 @@ fn every_mutant_of_prepare_is_named() {
 
 /// Every statement doubled: products have no operand to drop, but a wrong factor is caught too.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_doubled_statement_is_caught() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
@@ -217,6 +223,7 @@ fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_wrong_constant_returned_value_or_pivot_is_caught() {
     for (right, wrong) in [
         ("let mass_ww = p.j_11 + base_30;", "let mass_ww = p.j_11 + base_29;"),

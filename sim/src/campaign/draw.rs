@@ -297,6 +297,7 @@ mod tests {
     /// Of Gaussian values the coefficient is their correlation, whose error is `(1 - r²) / sqrt(n)`; of any the rank correlation is
     /// `6 / pi asin(r / 2)`, with an error below `1 / sqrt(n)`. Each is distributed as by itself.
     #[test]
+    #[ignore = "long: `cargo xtask test --all`"]
     fn a_sample_has_its_correlation_and_its_distributions() {
         const COEFFICIENT: f64 = -0.6;
         let rank = 6.0 / std::f64::consts::PI * (0.5 * COEFFICIENT).asin();

@@ -81,6 +81,7 @@ fn the_ledger_closes_and_momentum_is_conserved() {
 
 /// Both integrators find the same motion: dop853 at its tolerance, RK4 at a tenth of a millisecond.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn both_integrators_agree() {
     let mut scenario = text(
         &BEAM

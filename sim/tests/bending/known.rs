@@ -31,6 +31,7 @@ const MODES_MISS: f64 = 1e-12;
 const WHIRL_MISS: f64 = 1e-5;
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_tip_wheel_whirls_by_the_modal_receptance() {
     let scenario = file("known-tip-wheel.toml");
     let structure = scenario.structure.as_ref().expect("a structure");

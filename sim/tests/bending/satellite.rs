@@ -15,6 +15,7 @@ const ACCELERANCE_MISS: f64 = 1e-6;
 /// The committed file is what the program of its header computes: the same frequencies, and
 /// accelerances, on which the signs of the modes have no influence.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_file_is_what_its_program_writes() {
     let found = from_file(&folder().join("imaging-satellite-modes.npz")).expect("the file");
     let made = structure().expect("a positive definite mass matrix");
@@ -38,6 +39,7 @@ fn the_file_is_what_its_program_writes() {
 /// Rigid modes are left out, so the shapes at the nodes carry no momentum; 900 kg, and the checks
 /// of `precess structure show` hold.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_model_is_sound() {
     let structure = structure().expect("a positive definite mass matrix");
     let mass = structure.mass.expect("the file has a mass");
@@ -55,6 +57,7 @@ fn the_model_is_sound() {
 /// The gyros stand at their nodes, the hub is the file's, momentum and energy are conserved, and the
 /// camera sees more than the rigid satellite does.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_run_conserves_and_amplifies() {
     let mut scenario = file("imaging-satellite-flexible.toml");
     scenario.settings.duration = 0.2;

@@ -37,6 +37,7 @@ fn records(bytes: &[u8]) -> Vec<u32> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_sweep_that_is_killed_and_continued_has_the_result_of_one_that_was_not() {
     let (folder, file) = folder("killed");
     let whole = folder.join("whole");

@@ -54,6 +54,7 @@ fn expected(row: &BTreeMap<String, String>) -> f64 {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_near_linear_number_has_the_derivatives_of_its_closed_form_and_of_the_sample() {
     const NUMBER: &str = "acceleration rms [m/s²]";
     let (folder, file) = folder("derivatives");
@@ -109,6 +110,7 @@ fn a_near_linear_number_has_the_derivatives_of_its_closed_form_and_of_the_sample
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn percentiles_and_probabilities_are_those_of_the_closed_form() {
     let (folder, file) = folder("percentiles");
     // The acceleration is proportional to the imbalance: uniform from 0.09 to 0.11 of its middle, 0.0987 m/s^2.
@@ -297,6 +299,7 @@ deviation = "1 cm"
 /// same numbers. Steps of a hundredth of a deviation to either side leave a share of 1e-4 of the third derivative, and the
 /// rounding of a run.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn exact_derivatives_are_those_of_central_differences_of_runs() {
     const NEAR: f64 = 1e-4;
     let (folder, file) = folder("exact");

@@ -22,6 +22,7 @@ fn scenarios() -> PathBuf {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_budget_is_written_once_and_does_not_depend_on_threads() {
     let out = folder("files");
     let budget = scenarios().join("budgets/imaging-satellite-jitter.toml");
@@ -168,6 +169,7 @@ fn files_of_a_base_in_another_folder_are_beside_the_base() {
 
 /// The worked example of the page: its two files, and the verdict that it shows.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_example_of_the_page_has_the_verdict_of_the_page() {
     let out = folder("page");
     let page = std::fs::read_to_string(scenarios().join("../docs/jitter.md")).expect("the page");
@@ -222,6 +224,7 @@ fn files_of_another_kind_and_files_that_are_not_there_are_named() {
 
 /// What no body can have, and a speed outside the budget, is said on the terminal, too.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn warnings_of_the_scenario_are_printed() {
     let out = folder("warnings");
     let budget = scenarios().join("budgets/imaging-satellite-jitter.toml");
@@ -272,6 +275,7 @@ fn numbers(svg: &str, element: &str, attribute: &str) -> Vec<f64> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_campbell_diagram_of_many_orders_is_large_with_few_circles_and_labels_apart() {
     let out = folder("campbell");
     let base = scenarios().join("imaging-satellite-flexible.toml");

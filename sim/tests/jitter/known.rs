@@ -230,6 +230,7 @@ fn whirls_are_those_of_the_closed_form_and_orders_cross_them() {
 
 /// A grid of few speeds has the peaks of a fine one: speeds are added around every crossing.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_coarse_grid_does_not_miss_a_resonance() {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/imaging-satellite-flexible.toml");

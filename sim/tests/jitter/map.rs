@@ -11,6 +11,7 @@ use super::picture;
 const NEAR: f64 = 1e-5;
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_page_and_its_picture_are_fresh() {
     let page = map::page().expect("every cell");
     let picture = picture::picture().expect("every cell");

@@ -40,6 +40,7 @@ fn read(name: &str) -> Scenario {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn the_satellite_with_twenty_modes_off_resonance_and_at_it() {
     let scenario = read("imaging-satellite-flexible.toml");
     let budget = budget("camera");

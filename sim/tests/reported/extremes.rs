@@ -100,6 +100,7 @@ fn numbers(line: &str) -> Vec<std::ops::Range<usize>> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_finite_number_in_every_key_is_an_error_or_a_run_with_its_report() {
     let read = from_toml("extremes", SCENARIO, Path::new(""));
     let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));

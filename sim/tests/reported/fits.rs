@@ -113,6 +113,7 @@ fn row(shown: &str, name: &str) -> [f64; 3] {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn what_the_model_does_not_explain_is_a_failure_without_a_device() {
     let folder = folder("fit-wrong");
     write_records(&folder);
@@ -167,6 +168,7 @@ fn what_the_model_does_not_explain_is_a_failure_without_a_device() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn what_is_not_determined_is_refused() {
     let folder = folder("fit-undetermined");
     write_records(&folder);
@@ -249,6 +251,7 @@ fn fit_found(measurement: &Measurement, options: &Options) -> Fitted {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn speeds_are_found_in_records_of_any_number_of_turns() {
     // From 100 to 24,000 turns: up to 24 bins for one standard deviation of the speeds.
     let mut random = Random(20_261_126);

@@ -83,6 +83,7 @@ fn noise_has_the_cross_spectra_that_were_put_in() {
 
 /// Coherence of one and a phase of half a turn: what two components do is opposite at any time.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn components_that_share_all_their_noise_are_one_function_of_time() {
     let text = format!(
         "{WHEEL}[[source]]\nname = \"noise\"\non = \"rw\"\nseed = 3\n[source.broadband]\nband = \"5, 50 Hz\"\n\

@@ -153,6 +153,7 @@ fn noise_at_half_the_reference_rate_is_a_quarter() {
 
 /// Two runs in two threads at once, and one after them, to the bit.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_seed_is_the_same_run_in_any_thread() {
     let text = noise(
         "band = \"1, 200 Hz\"\nradial_force = \"1e-4 N^2/Hz\"\naxial_moment = \"1e-6 N^2 m^2/Hz\"\n",

@@ -9,6 +9,7 @@ use precess_tests::bounds::{
     SPACECRAFT,
 };
 use precess_tests::case::converted;
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
@@ -46,7 +47,7 @@ impl<F: Measure> Visitor for Measurement<F> {
 
 fn measure(name: &'static str, bound: f64, unit: &'static str, of: impl Measure) -> Figures {
     let mut measurement = Measurement { name, bound, unit, of, figures: Figures::default() };
-    visit(SPACECRAFT, &mut measurement);
+    visit(cases(SPACECRAFT), &mut measurement);
     let figures = measurement.figures;
     println!(
         "{name}: worst {:.2e} {unit}, median {:.2e} {unit}",

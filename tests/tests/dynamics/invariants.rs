@@ -11,6 +11,7 @@ use precess_dynamics::{
 use precess_tests::blocks::{Figures, errors, largest, worst};
 use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
 use precess_tests::case::Case;
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::newton_euler::vector::Vector;
@@ -42,7 +43,7 @@ impl<F: Measure> Visitor for Claim<F> {
 
 fn check(name: &str, bound: f64, error: impl Measure) {
     let mut claim = Claim { error, bound, figures: Figures::default() };
-    visit(SPACECRAFT, &mut claim);
+    visit(cases(SPACECRAFT), &mut claim);
     let Claim { figures, .. } = claim;
     println!("{name}: worst {:.2e}, median {:.2e}", figures.worst(), figures.median());
 }
@@ -151,7 +152,7 @@ fn halved(device: &Dgvscmg, motor: &MotorTorques) -> (Dgvscmg, MotorTorques) {
 #[test]
 fn device_and_its_two_halves_move_alike() {
     let mut figures = Figures::default();
-    for seed in 0..SPACECRAFT {
+    for seed in 0..cases(SPACECRAFT) {
         let sample = Sample::<4>::new(seed);
         let whole = sample.case::<f64>();
         let half: [_; 4] =

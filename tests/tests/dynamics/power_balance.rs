@@ -9,6 +9,7 @@ use precess_dynamics::{Real, Scalar, Spacecraft};
 use precess_tests::blocks::Figures;
 use precess_tests::bounds::{POWER_EPSILONS, SPACECRAFT};
 use precess_tests::case::{Case, Set, converted};
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 use precess_tests::table1::{self, SCENARIOS};
@@ -43,7 +44,7 @@ fn power_fed_in_is_the_rate_of_the_energy_on_random_spacecraft() {
         }
     }
     let mut check = Check(Figures::default());
-    visit(SPACECRAFT, &mut check);
+    visit(cases(SPACECRAFT), &mut check);
     println!("worst {:.2} eps, median {:.2} eps", check.0.worst(), check.0.median());
 }
 

@@ -112,6 +112,7 @@ fn drift<const N: usize>(case: &Case<N, Wide>, steps: u32) -> [f64; 3] {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn drift_of_the_reference_falls_sixteenfold() {
     for seed in 0..2 {
         let mut case = Sample::<2>::new(seed).case::<Wide>();

@@ -23,6 +23,7 @@ use precess_tests::bounds::{
     SPACECRAFT,
 };
 use precess_tests::case::{Case, Set, converted};
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
@@ -99,7 +100,7 @@ static MEASURED: LazyLock<Table> = LazyLock::new(|| {
         forward: Tally::default(),
         wide: Tally::default(),
     }));
-    visit(SPACECRAFT, &mut table);
+    visit(cases(SPACECRAFT), &mut table);
     println!("{table}");
     table
 });

@@ -11,6 +11,7 @@ use precess_dynamics::{About, Scalar, SolveError, State};
 use precess_tests::blocks::{Figures, errors, largest, worst};
 use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
 use precess_tests::case::{Case, Set};
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 
@@ -131,7 +132,7 @@ impl<F: Changes> Visitor for Claim<F> {
 
 fn check(row: &str, bound: f64, changes: impl Changes) {
     let mut claim = Claim { bound, changes, figures: Vec::new() };
-    visit(SPACECRAFT, &mut claim);
+    visit(cases(SPACECRAFT), &mut claim);
     for (what, figures) in claim.figures {
         let (worst, median) = (figures.worst(), figures.median());
         println!("{row}, whole turns, {what}: worst {worst:.2e}, median {median:.2e}");

@@ -195,6 +195,7 @@ fn two_imbalanced_vscmgs_move_as_basilisk_moves_them() {
 const CHANGE: f64 = 1.0 + 1e-8;
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_change_of_any_parameter_of_a_gyro_shows() {
     let file: Value = serde_json::from_str(TEXT).expect("written by engines/gyros.py");
     let names =

@@ -25,6 +25,7 @@ fn a_change_of_any_input_shows() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_change_of_any_input_of_the_lumped_wheels_shows() {
     changes_show(&lumped(), &[]);
 }

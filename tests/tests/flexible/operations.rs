@@ -23,6 +23,7 @@ const MANY: usize = 40;
 const A_MODE: u64 = 292;
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn modes_take_what_is_recorded_and_from_forty_on_each_the_same() {
     let counted = |modes: usize| {
         let Bending { craft, state, inputs } = Bending::<Counted>::new(modes);

@@ -205,6 +205,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: `cargo xtask test --all`"]
     fn every_addition_of_the_emitted_text_is_a_place() {
         let graph = Graph::new();
         let chain = Chain::new(&graph, &DGVSCMG);

@@ -51,6 +51,7 @@ fn a_gap_and_a_step_between_bands_are_edges() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn shares_of_exposures_are_those_of_fine_steps() {
     let all = densities(&[[5.0, 200.0]], &[], |f| f.powi(-2));
     for (time, near) in [(0.01, 1e-9), (1.0, 1e-9), (30.0, 1e-4)] {

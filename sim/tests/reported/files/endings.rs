@@ -35,6 +35,7 @@ fn a_wrong_command_line_ends_with_64() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 #[cfg(unix)]
 fn sigterm_ends_a_run_early_with_results_that_say_so() {
     for mut case in writing("terminated") {

@@ -17,6 +17,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 #[cfg(unix)]
 fn no_command_replaces_a_file_that_it_reads() {
     for mut case in writing("inputs") {
@@ -82,6 +83,7 @@ fn a_scenario_is_not_replaced_under_any_spelling_of_its_name() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 #[cfg(unix)]
 fn what_a_command_that_failed_leaves_is_removed_or_named() {
     for case in writing("limit") {

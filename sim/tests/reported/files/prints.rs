@@ -16,6 +16,7 @@ fn printing(folder: &str) -> Vec<Case> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn no_control_character_of_a_file_is_printed() {
     let is_raw = |text: &str| {
         text.chars().any(|letter| letter.is_control() && !matches!(letter, '\n' | '\t'))
@@ -43,6 +44,7 @@ fn no_control_character_of_a_file_is_printed() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 #[cfg(target_os = "linux")]
 fn every_command_says_that_standard_output_is_full() {
     let full = || Stdio::from(File::options().write(true).open("/dev/full").expect("a device"));
@@ -71,6 +73,7 @@ fn every_command_says_that_standard_output_is_full() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 #[cfg(unix)]
 fn a_closed_pipe_ends_every_command_quietly() {
     for case in printing("pipe") {

@@ -26,6 +26,7 @@ fn spectrum(folder: &Path, file: &str) -> Ended {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_result_that_was_cut_is_refused() {
     let (folder, text) = result("cut");
     assert!(text.contains("# samples: 401 (finished)"));
@@ -93,6 +94,7 @@ fn results_of_others_and_of_runs_in_progress_are_read() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_difference_is_an_exit_code_within_a_tolerance_it_is_none() {
     let (folder, text) = result("differ");
     let first = folder.join("results/wheel.csv");

@@ -23,6 +23,7 @@ fn locked(folder: &Path, name: &str) -> File {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn every_command_refuses_a_name_that_another_program_writes() {
     let bake = |case: &Case| case.name == "bake";
     let cases: Vec<_> = writing("locked")
@@ -104,6 +105,7 @@ fn raced(case: &Case, differ: [&str; 2]) {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn of_two_runs_into_one_folder_one_has_its_results() {
     let runs = writing("raced").into_iter().filter(|case| case.name == "run");
     for mut case in runs {

@@ -9,6 +9,7 @@ use precess_dynamics::{
     Spacecraft, WheelImbalance,
 };
 use precess_tests::blocks::Figures;
+use precess_tests::cases;
 use precess_tests::double_double::DoubleDouble as Wide;
 
 use crate::accuracy::{MEDIAN, WORST};
@@ -255,7 +256,7 @@ fn worst_block(drawn: &Drawn) -> (f64, String) {
 pub(crate) fn measured() -> (Figures, (f64, String, u64)) {
     let mut figures = Figures::default();
     let mut worst = (0.0, String::new(), 0);
-    for seed in SEED..SEED + SPACECRAFT {
+    for seed in SEED..SEED + cases(SPACECRAFT) {
         let (error, name) = worst_block(&Drawn::new(seed));
         figures.add(error);
         if error > WORST {

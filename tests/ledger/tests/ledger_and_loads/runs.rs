@@ -194,6 +194,7 @@ fn check(case: &Case<Mixed>, what: &str, about: About) -> Works {
 
 /// The fall of a minute brings 3 m/s: as much energy as the motion inside.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn books_close_over_a_minute_in_a_uniform_field() {
     let g = Vector3::new(0.03, -0.02, 0.04);
     let case = case(Gravity::Uniform(g), Vector3::zeros(), Vector3::new(0.1, 0.2, -0.1));
@@ -205,6 +206,7 @@ fn books_close_over_a_minute_in_a_uniform_field() {
 /// An ellipse of 10 to 20 m, once round in three quarters of a minute: a tenth of it is the
 /// spacecraft, so that the gradient matters and the orbit's energy does not hide the rest.
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn books_close_over_a_minute_around_a_centre() {
     let mu = 60.0;
     let case =

@@ -5,6 +5,7 @@ use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
     About, BuiltIn, Devices, Inputs, LoadAxes, Mode, SolveError, State, Wrench,
 };
+use precess_tests::cases;
 
 use super::balance::disturb;
 use super::case::{Case, World};
@@ -70,7 +71,7 @@ fn list_is_the_set_to_the_bit() {
 
 #[test]
 fn books_and_loads_of_a_list_are_those_of_the_set_to_the_bit() {
-    for seed in 1..=SEEDS {
+    for seed in 1..=cases(SEEDS) {
         let (set, list) = both(seed);
         let (of_set, of_list) = (set.accelerations(), list.accelerations());
         assert_eq!(
@@ -99,7 +100,7 @@ fn books_and_loads_of_a_list_are_those_of_the_set_to_the_bit() {
 
 #[test]
 fn stop_of_a_list_is_that_of_the_set_to_the_bit() {
-    for seed in 1..=SEEDS {
+    for seed in 1..=cases(SEEDS) {
         let (mut set, mut list) = both(seed);
         for modes in [&mut set.inputs.modes.0[1].wheel, &mut list.inputs.modes[1][0]] {
             *modes = Mode::Locked;

@@ -165,6 +165,7 @@ impl Limits {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn longest_step_is_that_of_the_eigenvalues_for_every_kind() {
     let random = Random::new(SEED + 3400);
     let mut limits = Limits { random, undamped: 0.0, damped: 0.0, checked: 0 };

@@ -135,16 +135,16 @@ fn every_service_rejects_the_same_step() {
 fn rejected_in_lanes(device: ReactionWheel, reversing: State<One>, dt: f64, expected: SolveError) {
     let inputs = Inputs::<One>::none();
     let craft = Spacecraft::new(&hub(2.0), &[device]).expect("valid parameters");
-    assert_eq!(craft.fused().step(&state, &inputs, dt).unwrap_err(), expected);
+    assert_eq!(craft.fused().step(&reversing, &inputs, dt).unwrap_err(), expected);
     let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
-    assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
-    assert_eq!(across.fused().step(&state, &inputs, dt).unwrap_err(), expected);
+    assert_eq!(across.step(&reversing, &inputs, dt).unwrap_err(), expected);
+    assert_eq!(across.fused().step(&reversing, &inputs, dt).unwrap_err(), expected);
     let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
     for batch in [batch.clone(), batch.fused()] {
-        let (mut states, mut out) = ([state; 9], Vec::new());
+        let (mut states, mut out) = ([reversing; 9], Vec::new());
         batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
         assert!(out.iter().all(|done| *done == Err(expected)), "{out:?}");
-        assert_eq!(states, [state; 9]);
+        assert_eq!(states, [reversing; 9]);
     }
 }
 
