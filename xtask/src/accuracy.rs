@@ -5,9 +5,10 @@ use std::process::Command;
 
 use clap::Args;
 
-use crate::members::{in_lanes, without_lanes};
+use crate::members::without_lanes;
+use crate::test::CASES;
 use xtask::files::{File, differing, write};
-use xtask::run::{cargo, root, run, target};
+use xtask::run::{cargo, program, root, run, target};
 use xtask::say;
 
 /// The page and its figure, in `docs`.
@@ -21,13 +22,6 @@ pub(crate) struct Options {
     check: bool,
 }
 
-impl Options {
-    /// `accuracy --check`.
-    pub(crate) fn check_only() -> Self {
-        Self { check: true }
-    }
-}
-
 /// Measures by the suite `linearize` and the example `accuracy`; writes the page with its figure, or compares.
 pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     let out = target()?.join("accuracy");
@@ -35,12 +29,19 @@ pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     // As `cargo test` builds them: a release build takes minutes, to the same bytes.
     let suite = ["--quiet", "--test", "linearize"];
     let only = ["--", "--ignored", "figures_for_the_accuracy_page"];
-    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let mut figures = Command::new(program);
+    let mut figures = Command::new(program());
     figures.arg("test").args(without_lanes()).args(suite).args(only);
-    run(figures.env("PRECESS_FIGURES", &derivatives))?;
-    let example = ["--profile", "test", "--quiet", "--example", "accuracy"];
-    cargo(&[&["build"], &in_lanes()[..], &example].concat())?;
+    run(figures.env("PRECESS_FIGURES", &derivatives).env(CASES, "all"))?;
+    let example = [
+        "--profile",
+        "test",
+        "--quiet",
+        "--features",
+        "precess-tests/shapes",
+        "--example",
+        "accuracy",
+    ];
+    cargo(&[&["build"], &without_lanes()[..], &example].concat())?;
     let program = format!("debug/examples/accuracy{}", std::env::consts::EXE_SUFFIX);
     let mut example = Command::new(target()?.join(program));
     run(example.arg("--out").arg(&out).arg("--derivatives").arg(&derivatives))?;

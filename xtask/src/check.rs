@@ -2,8 +2,10 @@
 
 use crate::members::without_lanes;
 use crate::program::DERIVE;
+use std::process::Command;
 use xtask::capi::MANIFEST;
-use xtask::run::{cargo, target};
+
+use xtask::run::{cargo, program, target};
 
 /// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
 /// broken generated file is named as such before anything tries to compile it.
@@ -17,8 +19,13 @@ pub(crate) fn check() -> Result<(), String> {
     cargo(&["test", "--lib", "--quiet", "-p", "precess-dynamics", "-p", "precess-tests"])
 }
 
-/// Format, and clippy with warnings denied, of both workspaces that are built for this machine.
+/// Format, and clippy with warnings denied, of both workspaces that are built for this machine; skipped where the
+/// toolchain has neither, which no test needs.
 pub(crate) fn lint() -> Result<(), String> {
+    if !["fmt", "clippy"].into_iter().all(is_subcommand) {
+        eprintln!("skipped: format and lints; install with `rustup component add rustfmt clippy`");
+        return Ok(());
+    }
     cargo(&["fmt", "--all", "--check"])?;
     let all = ["--workspace", "--all-targets", "--all-features"];
     cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
@@ -27,4 +34,10 @@ pub(crate) fn lint() -> Result<(), String> {
     let options = ["--manifest-path", MANIFEST, "--target-dir", &folder.to_string_lossy()];
     let options = [&options[..], &["--all-targets", "--", "--deny", "warnings"]].concat();
     cargo(&[&["clippy", "--quiet"][..], &options].concat())
+}
+
+/// Whether cargo has a subcommand.
+fn is_subcommand(name: &str) -> bool {
+    let output = Command::new(program()).args([name, "--version"]).output();
+    output.is_ok_and(|output| output.status.success())
 }

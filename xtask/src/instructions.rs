@@ -32,13 +32,6 @@ pub(crate) struct Options {
     check: bool,
 }
 
-impl Options {
-    /// `instructions --check`.
-    pub(crate) fn check_only() -> Self {
-        Self { check: true }
-    }
-}
-
 /// Counts every case; writes the table or compares with it.
 pub(crate) fn instructions(options: &Options) -> Result<(), String> {
     if !Command::new("valgrind").arg("--version").output().is_ok_and(|run| run.status.success()) {

@@ -9,6 +9,7 @@ mod check;
 mod demo;
 mod engines;
 mod instructions;
+mod measured;
 mod members;
 mod object_code;
 mod program;
@@ -48,11 +49,11 @@ enum Command {
     /// time, and check that a law of physics fails
     #[command(disable_help_flag = true)]
     Mutate(Forwarded),
-    /// Run all tests
+    /// Test each promise once; everything with `--all`, what a change can break with `--for`
     #[command(
         after_help = "Examples: cargo xtask test\n          cargo xtask test --for dynamics/src/solve\n          cargo xtask test --all"
     )]
-    Test,
+    Test(test::Options),
     /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print
     /// what fails as a test to paste
     #[command(
@@ -115,13 +116,17 @@ impl Forwarded {
 }
 
 fn main() -> ExitCode {
+    // `test` starts this program in place of others, to measure them.
+    if let Some(code) = measured::called() {
+        return code;
+    }
     xtask::ended(match Arguments::parse().command {
         Command::Regen(arguments) => arguments.run(DERIVE, "regen"),
         Command::Bake(arguments) => arguments.run(DERIVE, "bake"),
         Command::Check => check::check(),
         Command::Lint => check::lint(),
         Command::Mutate(arguments) => arguments.run(DERIVE, "mutate"),
-        Command::Test => test::test(),
+        Command::Test(options) => test::test(&options),
         Command::Attack(options) => attack::attack(&options),
         Command::Engines(options) => engines::engines(&options),
         Command::Reports => reports::reports(),

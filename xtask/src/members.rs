@@ -1,29 +1,51 @@
-//! The members of the workspace, in groups that are compiled apart.
+//! The members of the workspace, in groups that are compiled apart, and their features: the one place where features
+//! of a command are chosen.
 //!
 //! Features of one member reach what all others of a command are made of. So what is compiled with the solver's
 //! lanes has commands of its own: the desktop tool, which has none, is compiled once for all commands.
 
-/// Those whose tests need the solver's lanes.
-const IN_LANES: [&str; 7] = [
-    "precess-attack",
-    "precess-counts",
-    "precess-double-double",
-    "precess-dynamics",
-    "precess-measure",
-    "precess-point-masses",
-    "precess-tests",
-];
-
-/// What only the Python package is made of, whose tests are those of campaigns in lanes: minutes to compile.
-const OF_PYTHON: [&str; 1] = ["precess-lanes"];
-
-/// Arguments of cargo that select the members whose tests need lanes.
-pub(crate) fn in_lanes() -> Vec<&'static str> {
-    IN_LANES.iter().flat_map(|name| ["--package", *name]).collect()
+/// Members that are compiled by one command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Members {
+    /// Without the solver's lanes: the desktop tool, the generator, and in a default run the suites of the solver.
+    Plain,
+    /// With lanes of every width.
+    InLanes,
 }
 
-/// Arguments of cargo that select all others.
+/// Those that are tested in lanes, too, where everything is tested.
+const SOLVER: [&str; 4] =
+    ["precess-double-double", "precess-dynamics", "precess-point-masses", "precess-tests"];
+
+/// Those that are nothing without lanes, and what only the Python package is made of: minutes to compile.
+const LANES: [&str; 4] = ["precess-attack", "precess-counts", "precess-lanes", "precess-measure"];
+
+impl Members {
+    /// The group of a package: that of the solver's suites depends on whether everything is tested.
+    pub(crate) fn of(package: &str, everything: bool) -> Self {
+        let in_lanes = LANES.contains(&package) || (everything && SOLVER.contains(&package));
+        if in_lanes { Self::InLanes } else { Self::Plain }
+    }
+
+    /// Arguments of cargo that choose the features.
+    pub(crate) fn features(self) -> &'static [&'static str] {
+        match self {
+            Self::Plain => &[],
+            Self::InLanes => &["--features", "precess-tests/lanes"],
+        }
+    }
+
+    /// The group in a message.
+    pub(crate) fn says(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::InLanes => ", in lanes",
+        }
+    }
+}
+
+/// Arguments of cargo that select the members that are compiled without lanes in a default run.
 pub(crate) fn without_lanes() -> Vec<&'static str> {
-    let excluded = IN_LANES.iter().chain(&OF_PYTHON).flat_map(|name| ["--exclude", *name]);
+    let excluded = LANES.iter().flat_map(|name| ["--exclude", *name]);
     std::iter::once("--workspace").chain(excluded).collect()
 }

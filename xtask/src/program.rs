@@ -1,21 +1,57 @@
 //! Programs of the workbench that link much: built when a command of theirs is called for.
 
-use xtask::run::cargo;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use xtask::run::{program, run, target};
+
+use crate::measured;
 
 /// A package and its one program.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Program {
-    package: &'static str,
+    pub(crate) package: &'static str,
+    name: &'static str,
 }
 
 /// `regen`, `bake` and `mutate`: links the generator.
-pub(crate) const DERIVE: Program = Program { package: "precess-derive" };
+pub(crate) const DERIVE: Program = Program { package: "precess-derive", name: "derive" };
 /// `flight`, `dist` and `python`: reads object files, packs.
-pub(crate) const DISTRIBUTE: Program = Program { package: "precess-distribute" };
+pub(crate) const DISTRIBUTE: Program =
+    Program { package: "precess-distribute", name: "distribute" };
 
 impl Program {
+    /// The program with this command.
+    pub(crate) fn of(command: &str) -> Option<Self> {
+        match command {
+            "regen" | "bake" | "mutate" => Some(DERIVE),
+            "flight" | "dist" | "python" => Some(DISTRIBUTE),
+            _ => None,
+        }
+    }
+
+    /// Builds it; what rustc takes is noted in a file, if there is one.
+    pub(crate) fn build(self, notes: Option<&Path>) -> Result<(), String> {
+        let mut cargo = Command::new(program());
+        if let Some(notes) = notes {
+            measured::wrap(&mut cargo, notes);
+        }
+        run(cargo.args(["build", "--package", self.package]))
+    }
+
+    /// Where it is once it is built: started without cargo, it waits for no other build.
+    pub(crate) fn path(self) -> Result<PathBuf, String> {
+        Ok(target()?.join("debug").join(format!("{}{}", self.name, std::env::consts::EXE_SUFFIX)))
+    }
+
     /// Builds it and runs a command of it.
     pub(crate) fn run(self, arguments: &[&str]) -> Result<(), String> {
-        cargo(&[&["run", "--package", self.package, "--"], arguments].concat())
+        self.build(None)?;
+        self.start(arguments)
+    }
+
+    /// Runs a command of it, once it is built.
+    pub(crate) fn start(self, arguments: &[&str]) -> Result<(), String> {
+        run(Command::new(self.path()?).args(arguments))
     }
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use xtask::run::{cargo, is_there, output, root, run_there, target};
+use xtask::run::{is_there, output, root, run, run_there, target, tool};
 use xtask::say;
 use xtask::skip::skip;
 
@@ -89,8 +89,8 @@ fn names(folder: &Path) -> Result<Vec<String>, String> {
 fn check_run(folder: &Path) -> Result<usize, String> {
     let scenario = format!("scenarios/{SCENARIO}.toml");
     let results = folder.join("run");
-    let tool = ["run", "--quiet", "-p", "precess", "--", "run", &scenario, "--force", "--out"];
-    cargo(&[&tool[..], &[&results.to_string_lossy()]].concat())?;
+    let mut tool = Command::new(tool()?);
+    run(tool.args(["run", &scenario, "--force", "--out"]).arg(&results))?;
     let page = results.join(format!("{SCENARIO}.html"));
     check(&["--page", &page.to_string_lossy()], &folder.join(SCENARIO))
 }

@@ -31,13 +31,33 @@ pub fn target() -> Result<PathBuf, String> {
     folder.ok_or_else(|| format!("{} is in no build folder", here.display()))
 }
 
+/// Cargo itself.
+#[must_use]
+pub fn program() -> String {
+    std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
+}
+
 /// Runs cargo in the root and waits for it.
 ///
 /// # Errors
 /// A line that names the command that failed.
 pub fn cargo(arguments: &[&str]) -> Result<(), String> {
-    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    run(Command::new(program).args(arguments))
+    run(Command::new(program()).args(arguments))
+}
+
+/// The variable that names the desktop tool, where it has been built.
+pub const TOOL: &str = "PRECESS_COMMAND";
+
+/// The desktop tool: the one that [`TOOL`] names, or the one that cargo builds for the tests.
+///
+/// # Errors
+/// A line, where it is not built.
+pub fn tool() -> Result<PathBuf, String> {
+    if let Some(named) = std::env::var_os(TOOL) {
+        return Ok(named.into());
+    }
+    cargo(&["build", "--quiet", "--package", "precess", "--bin", "precess"])?;
+    Ok(target()?.join("debug").join(format!("precess{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// Runs a program in the root and waits for it.

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::wheel;
-use xtask::run::{cargo, output, root, run, target};
+use xtask::run::{TOOL, output, root, run, target, tool};
 use xtask::say;
 use xtask::skip::{all_required, skip};
 
@@ -14,8 +14,6 @@ use xtask::skip::{all_required, skip};
 const REQUIREMENTS: &str = "python/tests/requirements.txt";
 /// What functions for JAX and `CasADi` are tested with: 660 MB, so only where nothing may be skipped.
 const LARGE: &str = "python/tests/requirements-large.txt";
-/// The program that the same runs are compared with, for the tests.
-const COMMAND: &str = "PRECESS_COMMAND";
 const INSTALL: &str = "apt-get install python3-venv python3-pip";
 /// Longest time to import the package beyond `NumPy`, and largest wheel: printed beside what is measured.
 const IMPORT_MS: f64 = 50.0;
@@ -47,11 +45,8 @@ pub(crate) fn python() -> Result<(), String> {
         f64::from(u32::try_from(size.len()).unwrap_or(u32::MAX)) / 1e6
     );
     say!("import: {} ms beyond NumPy's, goal {IMPORT_MS} ms", imported(&python)?);
-    // As `cargo test --workspace` has built it.
-    cargo(&["build", "--quiet", "--package", "precess", "--bin", "precess"])?;
-    let program = format!("debug/precess{}", std::env::consts::EXE_SUFFIX);
     let mut tests = Command::new(&python);
-    tests.args(["-B", "-m", "pytest", "-q", "python/tests"]).env(COMMAND, target()?.join(program));
+    tests.args(["-B", "-m", "pytest", "-q", "python/tests"]).env(TOOL, tool()?);
     run(&mut tests)?;
     say!(
         "Python: {:.1} minutes to the wheel, {:.1} in all",

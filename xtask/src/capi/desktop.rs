@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use super::{COMPILERS, Host, is_there, printed};
-use crate::run::cargo;
+use crate::run::{run, tool};
 use crate::say;
 use crate::skip::skip;
 
@@ -26,12 +26,10 @@ impl Host {
         let table = self.programs.join(format!("{name}.table"));
         let (table_text, out) = (table.to_string_lossy(), self.programs.to_string_lossy());
         let scenario = format!("flight/capi/tests/{name}.toml");
-        // As the tests build it.
-        let tool = ["run", "--quiet", "-p", "precess", "--"];
         let export = ["export", "table", &scenario, "--force", "--to", &table_text];
-        cargo(&[&tool[..], &export].concat())?;
-        let run = ["run", &scenario, "--no-report", "--force", "--out", &out];
-        cargo(&[&tool[..], &run].concat())?;
+        run(Command::new(tool()?).args(export))?;
+        let arguments = ["run", &scenario, "--no-report", "--force", "--out", &out];
+        run(Command::new(tool()?).args(arguments))?;
         let options = ["-O2", &format!("-DPRECESS_TABLE_VERSION={version}")];
         for compiler in &COMPILERS {
             if !is_there(compiler.name) {

@@ -1,0 +1,217 @@
+//! `test`: each promise once; with `--all` everything; with `--for` what a change can break.
+//!
+//! Test programs are built first and then run, as many at a time as there are cores. What is built for others (boards,
+//! Python, reports) goes on beside them, in build folders of its own. What each suite took stands in a table at the
+//! end.
+
+mod cost;
+mod outcome;
+mod programs;
+mod queue;
+mod says;
+mod suites;
+mod table;
+
+#[cfg(test)]
+mod complete;
+#[cfg(test)]
+mod names;
+
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Instant;
+
+use clap::Args;
+use xtask::run::{root, target};
+use xtask::say;
+
+use crate::measured::of_children;
+use crate::members::Members;
+use crate::program::{self as command, DERIVE, DISTRIBUTE};
+use outcome::Outcome;
+use programs::Program;
+use queue::{Job, Queue};
+use suites::{How, SUITES, Suite, When};
+
+/// Options of `test`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Test everything that is asserted anywhere: every mutant, lanes, boards, Python, engines, reports in a browser
+    #[arg(long)]
+    all: bool,
+    /// Only the suites that a change of this file or folder can break
+    #[arg(long = "for", value_name = "PATH")]
+    path: Option<PathBuf>,
+    /// Print the suites that would run, and stop
+    #[arg(long)]
+    list: bool,
+    /// Write what each suite took to docs/testing.md
+    #[arg(long, requires = "all", conflicts_with_all = ["path", "list"])]
+    write: bool,
+}
+
+/// The variable by which tests take every case, as `all`, and not a tenth.
+pub(crate) const CASES: &str = "PRECESS_TESTS";
+
+/// Runs the suites, and prints what each took.
+pub(crate) fn test(options: &Options) -> Result<(), String> {
+    let chosen = chosen(options)?;
+    if options.list {
+        for suite in &chosen {
+            say!("{}: {}", suite.name(), suite.says());
+        }
+        return Ok(());
+    }
+    let begun = Instant::now();
+    let notes = notes()?;
+    let mut outcomes = run(&chosen, options.all, &notes)?;
+    outcomes.sort_by_key(|outcome| chosen.iter().position(|suite| suite.name() == outcome.name));
+    let spent = cost::Spent::of(begun.elapsed().as_secs_f64(), of_children(), &notes)?;
+    table::print(&outcomes, &spent);
+    let failed = outcomes.iter().filter(|outcome| outcome.failed()).count();
+    if failed > 0 {
+        let names = outcomes.iter().filter(|outcome| outcome.failed());
+        let names: Vec<_> = names.map(|outcome| outcome.name.as_str()).collect();
+        return Err(format!("{failed} of {} suites failed: {}", outcomes.len(), names.join("; ")));
+    }
+    if options.write {
+        return cost::write(&outcomes, &spent);
+    }
+    if options.all && options.path.is_none() { cost::held(&spent) } else { Ok(()) }
+}
+
+/// The suites that the options choose.
+fn chosen(options: &Options) -> Result<Vec<&'static Suite>, String> {
+    // A smaller check than one that runs, too, is left out: a sample of the mutants beside all of them.
+    let wanted = |suite: &&Suite| match suite.when {
+        When::Always => true,
+        When::All => options.all,
+        When::DefaultOnly => !options.all,
+    };
+    let Some(path) = &options.path else { return Ok(SUITES.iter().filter(wanted).collect()) };
+    let path = from_root(path)?;
+    let chosen: Vec<_> =
+        SUITES.iter().filter(wanted).filter(|suite| suite.can_break(&path)).collect();
+    if chosen.is_empty() {
+        return Err(format!("no suite can be broken by a change of {}", path.display()));
+    }
+    Ok(chosen)
+}
+
+/// A path from the repository's root, which it has to be in.
+fn from_root(path: &Path) -> Result<PathBuf, String> {
+    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    // As the caller sees it, or from the root; a file that is gone has been changed, too.
+    for place in [path.to_path_buf(), root().join(path)] {
+        let whole = place.canonicalize().or_else(|_| std::path::absolute(&place));
+        let whole = whole.map_err(|error| wrong(&error))?;
+        if let Ok(inner) = whole.strip_prefix(root()) {
+            return Ok(inner.to_path_buf());
+        }
+    }
+    Err(wrong(&format!("not in {}", root().display())))
+}
+
+/// The file in which rustc and the suites note what they take: empty.
+fn notes() -> Result<PathBuf, String> {
+    let file = target()?.join("measured.txt");
+    std::fs::write(&file, "").map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(file)
+}
+
+/// Runs suites: what checks the generated files before anything compiles them, what is built for others beside the
+/// rest.
+fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome>, String> {
+    let queue = Queue::new(all);
+    let commands = |first: bool| {
+        let some = chosen.iter().filter_map(|suite| match suite.how {
+            How::Command(words) => Some((suite, words)),
+            _ => None,
+        });
+        let some = some.filter(|(_, words)| FIRST.contains(&words[0]) == first);
+        some.map(|(suite, words)| Job::command(suite.name(), words)).collect::<Vec<_>>()
+    };
+    built_for(chosen, notes)?;
+    if !commands(true).into_iter().all(|job| queue.run(job)) {
+        return Ok(queue.outcomes());
+    }
+    let beside = || {
+        for job in commands(false) {
+            queue.run(job);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| queue.work());
+        }
+        let built = [Members::Plain, Members::InLanes].into_iter().try_for_each(
+            |members| -> Result<(), String> {
+                let of_group = of_group(chosen, members, all);
+                let built = programs::build(members, &of_group, all, notes)?;
+                // Two libraries of a command are built with all that it selects: what no row asked for is not run.
+                let wanted = |program: &Program| {
+                    of_group.iter().any(|suite| suite.is(&program.package, &program.target))
+                };
+                queue.add(built.into_iter().filter(wanted).map(Job::program));
+                if members == Members::Plain {
+                    // They use the desktop tool as it is tested.
+                    queue.has_tool(of_group.iter().any(|suite| suite.is_of("precess")));
+                    scope.spawn(beside);
+                }
+                Ok(())
+            },
+        );
+        if built.is_ok() && chosen.iter().any(|suite| suite.how == How::Documentation) {
+            queue.add(Job::documentation(all));
+        }
+        queue.close();
+        built
+    })?;
+    Ok(queue.outcomes())
+}
+
+/// Builds the programs of the commands, so that whoever waits sees cargo's progress.
+fn built_for(chosen: &[&'static Suite], notes: &Path) -> Result<(), String> {
+    [DERIVE, DISTRIBUTE].into_iter().try_for_each(|program| {
+        let needs = |suite: &&Suite| {
+            matches!(suite.how, How::Command(words) if command::Program::of(words[0]) == Some(program))
+        };
+        if chosen.iter().any(needs) { program.build(Some(notes)) } else { Ok(()) }
+    })
+}
+
+/// The suites whose programs are built by the command of a group.
+fn of_group(chosen: &[&'static Suite], members: Members, all: bool) -> Vec<&'static Suite> {
+    let is_of = |suite: &&Suite| matches!(suite.how, How::Target { package, .. } if Members::of(package, all) == members);
+    chosen.iter().copied().filter(is_of).collect()
+}
+
+/// Commands that everything else waits for.
+const FIRST: [&str; 5] = ["lint", "regen", "bake", "mutate", "demo"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_taken_from_the_root() {
+        let root = root();
+        assert_eq!(from_root(&root.join("sim/../docs")), Ok(PathBuf::from("docs")));
+        assert_eq!(from_root(&root.join("docs/gone.md")), Ok(PathBuf::from("docs/gone.md")));
+        let outside = from_root(&root.join("..")).unwrap_err();
+        assert!(outside.contains("not in"), "{outside}");
+    }
+
+    #[test]
+    fn a_default_run_has_a_sample_and_all_has_every_mutant() {
+        let names = |all: bool| {
+            let options = Options { all, path: None, list: false, write: false };
+            chosen(&options).unwrap().iter().map(|suite| suite.name()).collect::<Vec<_>>()
+        };
+        let (default, all) = (names(false), names(true));
+        assert!(default.contains(&"mutate --sample 100".to_owned()), "{default:?}");
+        assert!(!default.contains(&"flight --check".to_owned()), "{default:?}");
+        assert!(all.contains(&"mutate --check".to_owned()), "{all:?}");
+        assert!(!all.contains(&"mutate --sample 100".to_owned()), "{all:?}");
+    }
+}

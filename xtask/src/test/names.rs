@@ -1,0 +1,130 @@
+//! No test is lost: every test function of the committed list, and every number of cases, is in the sources.
+//!
+//! The list is that of the day on which the default run was made short (`names.txt`), made by [`list`] from the
+//! sources of that day. A test that is moved or renamed has a line in [`MOVED`].
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use xtask::run::root;
+
+/// Test functions and numbers as they were: `path name`, and for numbers `path name value`.
+const BEFORE: &str = include_str!("names.txt");
+
+/// Beginnings of lines, before and now.
+const MOVED: &[(&str, &str)] = &[
+    ("xtask/src/regen.rs ", "xtask/derive/src/regen.rs "),
+    ("xtask/src/bake.rs ", "xtask/derive/src/bake.rs "),
+    ("xtask/src/mutate.rs ", "xtask/derive/src/mutate.rs "),
+    ("xtask/src/dist/", "xtask/distribute/src/dist/"),
+    ("xtask/src/flight/", "xtask/distribute/src/flight/"),
+    ("xtask/src/wheel.rs ", "xtask/distribute/src/wheel.rs "),
+];
+
+/// Folders that hold tests, from the root.
+const FOLDERS: [&str; 7] = ["codegen", "dynamics", "flight", "python", "sim", "tests", "xtask"];
+
+/// Every test function of Rust and Python below a folder, and every whole number that a file of tests names or counts
+/// to.
+fn list(root: &Path) -> BTreeMap<String, u64> {
+    let mut found = BTreeMap::new();
+    for folder in FOLDERS {
+        walk(&root.join(folder), folder, &mut found);
+    }
+    found
+}
+
+fn walk(folder: &Path, name: &str, found: &mut BTreeMap<String, u64>) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let (path, file) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        let inner = format!("{name}/{file}");
+        if path.is_dir() {
+            // What is built or installed is no source.
+            if !["target", "node_modules", "generated"].contains(&file.as_str()) {
+                walk(&path, &inner, found);
+            }
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "py") {
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            functions(&inner, &text, found);
+            numbers(&inner, &text, found);
+        }
+    }
+}
+
+/// Test functions: after `#[test]` and other attributes in Rust, by their names in Python.
+fn functions(file: &str, text: &str, found: &mut BTreeMap<String, u64>) {
+    let mut is_test = false;
+    for line in text.lines().map(str::trim) {
+        // No function of Rust begins so.
+        is_test |= line == "#[test]" || line.starts_with("def test_");
+        let name = line.split_once("fn ").or_else(|| line.split_once("def "));
+        if let (true, Some((_, name))) = (is_test, name) {
+            let name = name.split(['(', '<']).next().unwrap_or(name);
+            *found.entry(format!("{file} {name}")).or_insert(0) += 1;
+            is_test = false;
+        }
+    }
+}
+
+/// Whole numbers by name, and the sum of the ends of ranges that are written as numbers.
+fn numbers(file: &str, text: &str, found: &mut BTreeMap<String, u64>) {
+    if !file.contains("tests/") {
+        return;
+    }
+    for line in text.lines().map(str::trim) {
+        let constant = line.split_once("const ").and_then(|(_, rest)| rest.split_once(": "));
+        if let Some((name, rest)) = constant
+            && let Some((_, value)) = rest.split_once(" = ")
+            && let Ok(value) = value.trim_end_matches(';').replace('_', "").parse::<u64>()
+        {
+            *found.entry(format!("{file} {name} =")).or_insert(0) += value;
+        }
+        // The end of a range, or the number of cases of which a default run takes a tenth.
+        let range = line.split_once(" in ").and_then(|(_, range)| range.split_once(".."));
+        let ends = [range, line.split_once("cases(")];
+        for (_, end) in ends.into_iter().flatten() {
+            let digits = end.trim_start_matches('=').chars().take_while(char::is_ascii_digit);
+            if let Ok(end) = digits.collect::<String>().parse::<u64>() {
+                *found.entry(format!("{file} ranges =")).or_insert(0) += end;
+            }
+        }
+    }
+}
+
+/// A line of the list, and its number: 1 for a function.
+fn read(line: &str) -> (String, u64) {
+    let line = MOVED
+        .iter()
+        .find_map(|(before, now)| Some(format!("{now}{}", line.strip_prefix(before)?)))
+        .unwrap_or_else(|| line.to_owned());
+    match line.split_once(" = ") {
+        Some((name, value)) => (format!("{name} ="), value.parse().expect("a number")),
+        None => (line, 1),
+    }
+}
+
+#[test]
+fn no_test_and_no_case_of_the_list_is_lost() {
+    let now = list(&root());
+    let lost: Vec<_> = BEFORE
+        .lines()
+        .map(read)
+        .filter(|(name, count)| now.get(name).is_none_or(|found| found < count))
+        .map(|(name, count)| format!("{name} {count} (now {:?})", now.get(&name)))
+        .collect();
+    assert!(lost.is_empty(), "lost since the list was made:\n{}", lost.join("\n"));
+}
+
+/// Prints the list of the sources in a folder, `PRECESS_TREE`; of these without it.
+#[test]
+#[ignore = "prints the list; in `cargo xtask test --all` that it can be made"]
+fn the_list_can_be_made_again() {
+    let tree = std::env::var_os("PRECESS_TREE").map_or_else(root, Into::into);
+    let list = list(&tree);
+    assert!(list.len() > 1000, "{}", list.len());
+    for (name, value) in list {
+        if name.ends_with('=') { println!("{name} {value}") } else { println!("{name}") }
+    }
+}

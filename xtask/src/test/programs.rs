@@ -1,0 +1,133 @@
+//! Test programs: built by cargo in one or two commands, and where each is.
+//!
+//! Features of one member reach what all others of a command are made of. So what is compiled with the solver's
+//! lanes has a command of its own, and every other member is compiled once for all commands.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+use xtask::run::{program, root};
+
+use super::suites::{How, Suite};
+use crate::measured;
+use crate::members::Members;
+
+/// A test program that was built.
+#[derive(Debug)]
+pub(crate) struct Program {
+    pub(crate) package: String,
+    /// `lib`, `bin` or the name of an integration test.
+    pub(crate) target: String,
+    pub(crate) path: PathBuf,
+    /// The folder of the package, in which cargo would run it.
+    pub(crate) folder: PathBuf,
+}
+
+/// Builds the test programs of some suites, all of whose packages are in a group; what rustc takes is noted in a file.
+pub(crate) fn build(
+    members: Members,
+    suites: &[&Suite],
+    optimised: bool,
+    notes: &Path,
+) -> Result<Vec<Program>, String> {
+    let mut cargo = Command::new(program());
+    cargo.args(["test", "--no-run", "--message-format=json-render-diagnostics"]);
+    cargo.args(members.features());
+    if optimised {
+        cargo.args(OPTIMISED.iter().flat_map(|setting| ["--config", setting]));
+    }
+    let (mut packages, mut kinds) = (BTreeSet::new(), BTreeSet::new());
+    for suite in suites {
+        let How::Target { package, target } = suite.how else { continue };
+        packages.insert(package);
+        match target {
+            "lib" => kinds.insert("--lib"),
+            "bin" => kinds.insert("--bins"),
+            name => {
+                cargo.args(["--test", name]);
+                continue;
+            }
+        };
+    }
+    cargo.args(kinds);
+    cargo.args(packages.iter().flat_map(|package| ["--package", *package]));
+    if packages.is_empty() {
+        return Ok(Vec::new());
+    }
+    eprintln!("$ cargo test --no-run ({} packages{})", packages.len(), members.says());
+    measured::wrap(&mut cargo, notes);
+    let output = cargo.stdout(Stdio::piped()).current_dir(root()).spawn();
+    let output = output.and_then(std::process::Child::wait_with_output);
+    let output = output.map_err(|error| format!("cargo did not start: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("the tests were not compiled ({})", output.status));
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(text.lines().filter_map(read).collect())
+}
+
+/// What `--all` optimises: the desktop tool and the solver behind it, whose fits and budgets then take a sixth of the
+/// time.
+pub(crate) const OPTIMISED: &[&str] = &[
+    "profile.dev.package.precess.opt-level=1",
+    "profile.dev.package.precess-craft.opt-level=1",
+    // Runs of a minute.
+    "profile.dev.package.precess-ledger.opt-level=1",
+];
+
+/// The test program of a message of cargo, if it is about one.
+fn read(line: &str) -> Option<Program> {
+    let message: Value = serde_json::from_str(line).ok()?;
+    if message["reason"] != "compiler-artifact" || message["profile"]["test"] != true {
+        return None;
+    }
+    let path = PathBuf::from(message["executable"].as_str()?);
+    let manifest = Path::new(message["manifest_path"].as_str()?);
+    let kind = message["target"]["kind"][0].as_str()?;
+    let target = if kind == "test" { message["target"]["name"].as_str()? } else { kind };
+    Some(Program {
+        package: package(message["package_id"].as_str()?).to_owned(),
+        target: target.to_owned(),
+        path,
+        folder: manifest.parent()?.to_path_buf(),
+    })
+}
+
+/// The package's name: after `#` and before `@`, or the folder where the two are the same.
+fn package(id: &str) -> &str {
+    let (folder, name) = id.rsplit_once('#').unwrap_or((id, id));
+    match name.split_once('@') {
+        Some((name, _)) => name,
+        None => folder.rsplit('/').next().unwrap_or(folder),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_package_is_named_in_both_forms_of_its_identifier() {
+        assert_eq!(package("path+file:///p/sim#precess@0.1.0"), "precess");
+        assert_eq!(package("path+file:///p/xtask#0.1.0"), "xtask");
+    }
+
+    #[test]
+    fn only_a_test_program_is_read() {
+        let line = |executable: &str, test: bool| {
+            format!(
+                r#"{{"reason":"compiler-artifact","package_id":"path+file:///p/sim#precess@0.1.0",
+                "manifest_path":"/p/sim/Cargo.toml","target":{{"kind":["test"],"name":"fit"}},
+                "profile":{{"test":{test}}},"executable":{executable}}}"#
+            )
+        };
+        let found = read(&line("\"/t/fit-1\"", true)).unwrap();
+        assert_eq!((found.package.as_str(), found.target.as_str()), ("precess", "fit"));
+        assert_eq!(found.folder, Path::new("/p/sim"));
+        assert!(read(&line("null", true)).is_none());
+        assert!(read(&line("\"/t/precess\"", false)).is_none());
+        assert!(read("   Compiling").is_none());
+    }
+}

@@ -1,0 +1,273 @@
+//! The suites: one row for each program of tests and each command that tests.
+//!
+//! A row states the folders whose change can break it, so that `cargo xtask test --for PATH` runs what matters. Tests
+//! in `complete` hold the table against the targets of the workspace and the folders of its sources.
+
+use std::path::Path;
+
+/// When a suite runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum When {
+    /// In every `cargo xtask test`.
+    Always,
+    /// In `cargo xtask test --all` only.
+    All,
+    /// Not there: a sample of what `--all` does in full.
+    DefaultOnly,
+}
+
+/// How a suite is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum How {
+    /// A test program of cargo: package and target, which is `lib`, `bin` or the name of an integration test.
+    Target { package: &'static str, target: &'static str },
+    /// Examples in the documentation of libraries.
+    Documentation,
+    /// A command of the workbench, with its arguments.
+    Command(&'static [&'static str]),
+}
+
+/// A suite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Suite {
+    pub(crate) how: How,
+    pub(crate) when: When,
+    /// Folders and files whose change can break it, from the repository's root.
+    pub(crate) broken_by: &'static [&'static [&'static str]],
+}
+
+/// The derivation, its proofs, and what is emitted.
+const GENERATOR: &[&str] = &["codegen/src", "tests/derivation"];
+/// Kernels of one spacecraft.
+const BAKING: &[&str] = &["codegen/bake", "codegen/description", "tests/baked"];
+/// The solver but for its lanes.
+const SOLVER: &[&str] = &[
+    "dynamics/Cargo.toml",
+    "dynamics/src/attitude",
+    "dynamics/src/derivatives",
+    "dynamics/src/equations",
+    "dynamics/src/flexible",
+    "dynamics/src/generated",
+    "dynamics/src/integrate",
+    "dynamics/src/isolation",
+    "dynamics/src/lib.rs",
+    "dynamics/src/model",
+    "dynamics/src/numbers",
+    "dynamics/src/results",
+    "dynamics/src/sets",
+    "dynamics/src/solve",
+    "dynamics/src/validation",
+];
+/// Several states or devices at a time.
+const LANES: &[&str] = &["dynamics/src/lanes"];
+/// References and random spacecraft that suites share.
+const REFERENCES: &[&str] =
+    &["tests/src", "tests/double_double", "tests/point_masses", "tests/Cargo.toml"];
+/// What is stored of the engines, and the scripts that store it.
+const ENGINES: &[&str] = &["tests/engines", "tests/fixtures"];
+/// The desktop tool, whichever of its commands.
+const DESKTOP: &[&str] = &["sim/Cargo.toml", "sim/craft", "sim/src", "scenarios"];
+/// What goes on board.
+const BOARD: &[&str] = &["flight"];
+/// Pages.
+const PAGES: &[&str] = &["docs", "README.md", "CHANGELOG.md"];
+
+const fn always(
+    package: &'static str,
+    target: &'static str,
+    broken_by: &'static [&'static [&'static str]],
+) -> Suite {
+    Suite { how: How::Target { package, target }, when: When::Always, broken_by }
+}
+
+const fn all(
+    package: &'static str,
+    target: &'static str,
+    broken_by: &'static [&'static [&'static str]],
+) -> Suite {
+    Suite { how: How::Target { package, target }, when: When::All, broken_by }
+}
+
+const fn command(
+    words: &'static [&'static str],
+    when: When,
+    broken_by: &'static [&'static [&'static str]],
+) -> Suite {
+    Suite { how: How::Command(words), when, broken_by }
+}
+
+/// The suite of examples in the documentation.
+pub(crate) const DOCUMENTATION: &str = "examples in documentation";
+
+/// Every suite, in the order of their run: a broken generated file is named before anything compiles it.
+pub(crate) const SUITES: &[Suite] = &[
+    command(
+        &["lint"],
+        When::All,
+        &[&["codegen", "dynamics", "sim", "tests", "xtask", "flight", "Cargo.toml"]],
+    ),
+    command(
+        &["regen", "--check", "--quiet"],
+        When::Always,
+        &[GENERATOR, &["codegen/review", "dynamics/src/generated", "docs"]],
+    ),
+    command(&["bake", "--check"], When::Always, &[GENERATOR, BAKING]),
+    command(
+        &["mutate", "--sample", "100"],
+        When::DefaultOnly,
+        &[GENERATOR, &["codegen/review", "tests/fixtures"]],
+    ),
+    command(
+        &["mutate", "--check"],
+        When::All,
+        &[GENERATOR, &["codegen/review", "tests/fixtures", "docs"]],
+    ),
+    command(&["demo"], When::All, &[GENERATOR, SOLVER, DESKTOP]),
+    // The generator.
+    always("precess-codegen", "lib", &[GENERATOR]),
+    always("precess-codegen", "c_kernels", &[GENERATOR, SOLVER]),
+    always("precess-codegen", "chains", &[GENERATOR]),
+    always("precess-codegen", "external_kind", &[GENERATOR, SOLVER, &["codegen/tests", "docs"]]),
+    always("precess-codegen", "flexible_wheels", &[GENERATOR]),
+    always("precess-codegen", "limits", &[GENERATOR]),
+    always("precess-codegen", "modes", &[GENERATOR]),
+    always("precess-codegen", "mutation", &[GENERATOR]),
+    always("precess-codegen", "passes", &[GENERATOR]),
+    always("precess-codegen", "point_masses", &[GENERATOR]),
+    always("precess-codegen", "registry", &[GENERATOR, SOLVER, DESKTOP, BOARD, PAGES]),
+    always("precess-bake", "lib", &[GENERATOR, BAKING]),
+    always("precess-bake", "c_reference", &[GENERATOR, BAKING]),
+    always("precess-bake", "missions", &[GENERATOR, BAKING]),
+    all("precess-bake", "mutation", &[GENERATOR, BAKING]),
+    always("precess-description", "lib", &[BAKING]),
+    always("precess-review", "lib", &[GENERATOR, &["codegen/review"]]),
+    always("precess-review", "physics", &[GENERATOR, &["codegen/review", "tests/fixtures"]]),
+    always("precess-review", "printed", &[GENERATOR, &["codegen/review"]]),
+    all(
+        "precess-derive",
+        "bin",
+        &[GENERATOR, BAKING, &["codegen/review", "xtask/derive", "xtask/src"]],
+    ),
+    // The solver.
+    always("precess-dynamics", "lib", &[SOLVER, LANES]),
+    always("precess-dynamics", "floors", &[SOLVER, LANES]),
+    always("precess-double-double", "lib", &[SOLVER, REFERENCES]),
+    always("precess-tests", "lib", &[SOLVER, REFERENCES]),
+    always("precess-tests", "dynamics", &[SOLVER, LANES, REFERENCES, &["tests/tests/dynamics"]]),
+    always("precess-tests", "flexible", &[SOLVER, REFERENCES, &["tests/tests/flexible"]]),
+    always(
+        "precess-tests",
+        "isolated",
+        &[SOLVER, LANES, REFERENCES, &["tests/tests/isolated", "tests/fixtures"]],
+    ),
+    always(
+        "precess-tests",
+        "engines",
+        &[SOLVER, LANES, REFERENCES, ENGINES, &["tests/tests/engines"]],
+    ),
+    always("precess-tests", "links", &[PAGES, &["tests/tests/links.rs", "sim/fuzz", "sim/report"]]),
+    all("precess-tests", "code_size", &[SOLVER, &["tests/tests/code_size.rs", "tests/fixtures"]]),
+    all("precess-tests", "no_panic", &[SOLVER, &["tests/tests/no_panic.rs", "tests/fixtures"]]),
+    always("precess-derivatives", "linearize", &[SOLVER, REFERENCES, &["tests/derivatives"]]),
+    always("precess-ledger", "ledger_and_loads", &[SOLVER, REFERENCES, &["tests/ledger"]]),
+    always("precess-baked", "agreement", &[SOLVER, REFERENCES, BAKING]),
+    always("precess-baked", "operations", &[BAKING]),
+    always("four-wheels", "reference", &[BAKING]),
+    always("imaging-satellite", "reference", &[BAKING]),
+    always("imaging-satellite-constants", "lib", &[BAKING]),
+    always("imaging-satellite-constants", "reference", &[BAKING]),
+    always("parked-spare", "reference", &[BAKING]),
+    always("table1", "reference", &[BAKING]),
+    all("precess-attack", "numbers", &[&["tests/attack"]]),
+    all("precess-attack", "printed", &[SOLVER, LANES, &["tests/attack"]]),
+    all("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
+    // The desktop tool.
+    always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
+    always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),
+    always("precess", "campaign", &[SOLVER, DESKTOP, &["sim/tests/campaign"]]),
+    always("precess", "command", &[SOLVER, DESKTOP, &["sim/tests/command.rs"]]),
+    always("precess", "corpus", &[SOLVER, DESKTOP, &["sim/tests/corpus.rs", "sim/fuzz"]]),
+    always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
+    always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
+    always("precess", "jitter", &[SOLVER, DESKTOP, &["sim/tests/jitter"]]),
+    always("precess", "kill", &[DESKTOP, &["sim/tests/kill.rs"]]),
+    always("precess", "known_answers", &[SOLVER, DESKTOP, &["sim/tests/known_answers.rs"]]),
+    always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs"]]),
+    always("precess", "picture", &[SOLVER, DESKTOP, &["docs"]]),
+    always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms.rs"]]),
+    always("precess", "reported", &[SOLVER, DESKTOP, &["sim/tests/reported"]]),
+    always("precess", "scenarios", &[SOLVER, DESKTOP, &["docs"]]),
+    always("precess", "schema", &[DESKTOP, &["sim/tests/schema"]]),
+    always("precess", "sources", &[SOLVER, DESKTOP, &["sim/tests/sources"]]),
+    always("precess", "spectra", &[SOLVER, DESKTOP, &["sim/tests/spectra"]]),
+    always("precess", "structure", &[SOLVER, DESKTOP, &["sim/tests/structure", "tests/engines"]]),
+    always("precess", "table1", &[SOLVER, DESKTOP, REFERENCES, &["codegen/review"]]),
+    // The workbench.
+    always("xtask", "lib", &[&["xtask/src"]]),
+    always("xtask", "bin", &[&["xtask/src", "xtask/features", "Cargo.toml"]]),
+    all("precess-distribute", "bin", &[&["xtask/src", "xtask/distribute"]]),
+    Suite { how: How::Documentation, when: When::Always, broken_by: &[SOLVER, DESKTOP, GENERATOR] },
+    // What is measured, and what is built for others.
+    command(
+        &["accuracy", "--check"],
+        When::All,
+        &[SOLVER, REFERENCES, &["tests/derivatives", "tests/examples", "docs"]],
+    ),
+    command(&["instructions", "--check"], When::All, &[SOLVER, LANES, &["tests/counts", "docs"]]),
+    command(&["reports"], When::All, &[&["sim/report", "sim/src/report"]]),
+    command(&["engines"], When::All, &[ENGINES]),
+    command(
+        &["flight", "--check"],
+        When::All,
+        &[SOLVER, BOARD, BAKING, &["xtask/distribute", "docs"]],
+    ),
+    command(
+        &["python"],
+        When::All,
+        &[SOLVER, LANES, DESKTOP, &["sim/lanes", "python", "xtask/distribute"]],
+    ),
+];
+
+/// Folders of sources that no test can see broken, each with its reason.
+#[cfg(test)]
+pub(crate) const UNTESTED: &[(&str, &str)] = &[
+    ("tests/benches", "benchmarks: timed, not asserted"),
+    ("sim/benches", "benchmarks: timed, not asserted"),
+    ("tests/measure", "`cargo xtask bench`: timed, not asserted"),
+    ("tests/peers", "scripts of `cargo xtask bench` with other engines"),
+];
+
+/// The packages whose library has tests; their documentation has examples.
+pub(crate) fn libraries() -> impl Iterator<Item = &'static str> {
+    SUITES.iter().filter_map(|suite| match suite.how {
+        How::Target { package, target: "lib" } => Some(package),
+        _ => None,
+    })
+}
+
+impl Suite {
+    /// As it is called in tables.
+    pub(crate) fn name(&self) -> String {
+        match self.how {
+            How::Target { package, target } => format!("{package} {target}"),
+            How::Documentation => DOCUMENTATION.to_owned(),
+            How::Command(words) => words.join(" "),
+        }
+    }
+
+    /// Whether its program is that of a package and target.
+    pub(crate) fn is(&self, of: &str, named: &str) -> bool {
+        matches!(self.how, How::Target { package, target } if package == of && target == named)
+    }
+
+    /// Whether its program is of a package.
+    pub(crate) fn is_of(&self, of: &str) -> bool {
+        matches!(self.how, How::Target { package, .. } if package == of)
+    }
+
+    /// Whether a change of a file or in a folder can break it.
+    pub(crate) fn can_break(&self, path: &Path) -> bool {
+        let folders = self.broken_by.iter().flat_map(|group| group.iter()).map(Path::new);
+        folders.into_iter().any(|folder| path.starts_with(folder) || folder.starts_with(path))
+    }
+}
