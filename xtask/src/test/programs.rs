@@ -74,7 +74,7 @@ pub(crate) const OPTIMISED: &[&str] = &[
     "profile.dev.package.precess.opt-level=1",
     "profile.dev.package.precess-craft.opt-level=1",
     // Runs of a minute.
-    "profile.dev.package.precess-ledger.opt-level=1",
+    "profile.dev.package.precess-ledger.opt-level=2",
 ];
 
 /// The test program of a message of cargo, if it is about one.

@@ -207,24 +207,24 @@ pub(crate) const SUITES: &[Suite] = &[
     always("xtask", "bin", &[&["xtask/src", "xtask/features", "Cargo.toml"]]),
     all("precess-distribute", "bin", &[&["xtask/src", "xtask/distribute"]]),
     Suite { how: How::Documentation, when: When::Always, broken_by: &[SOLVER, DESKTOP, GENERATOR] },
-    // What is measured, and what is built for others.
-    command(
-        &["accuracy", "--check"],
-        When::All,
-        &[SOLVER, REFERENCES, &["tests/derivatives", "tests/examples", "docs"]],
-    ),
-    command(&["instructions", "--check"], When::All, &[SOLVER, LANES, &["tests/counts", "docs"]]),
-    command(&["reports"], When::All, &[&["sim/report", "sim/src/report"]]),
-    command(&["engines"], When::All, &[ENGINES]),
+    // What is built for others, in build folders of its own; then what waits for cargo in the common one.
     command(
         &["flight", "--check"],
         When::All,
         &[SOLVER, BOARD, BAKING, &["xtask/distribute", "docs"]],
     ),
+    command(&["engines"], When::All, &[ENGINES]),
+    command(&["reports"], When::All, &[&["sim/report", "sim/src/report"]]),
     command(
         &["python"],
         When::All,
         &[SOLVER, LANES, DESKTOP, &["sim/lanes", "python", "xtask/distribute"]],
+    ),
+    command(&["instructions", "--check"], When::All, &[SOLVER, LANES, &["tests/counts", "docs"]]),
+    command(
+        &["accuracy", "--check"],
+        When::All,
+        &[SOLVER, REFERENCES, &["tests/derivatives", "tests/examples", "docs"]],
     ),
 ];
 
