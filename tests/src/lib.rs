@@ -44,13 +44,14 @@ mod pages {
     #[doc = include_str!("../../README.md")]
     struct Readme;
 
+    // It has examples in lanes.
+    #[cfg(feature = "lanes")]
     #[doc = include_str!("../../docs/guide.md")]
     struct Guide;
 }
 
 /// How many of so many seeded cases a test takes: each in `cargo xtask test --all`, which sets `PRECESS_TESTS` to
-/// `all`; otherwise the first tenth, and
-/// fifteen at least, one more than there are kinds.
+/// `all`; otherwise the first tenth, and fifteen at least, one more than there are kinds.
 #[must_use]
 pub fn cases(all: u64) -> u64 {
     let each = std::env::var_os("PRECESS_TESTS").is_some_and(|value| value == "all");
