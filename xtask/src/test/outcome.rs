@@ -92,9 +92,11 @@ fn numbers(text: &str, ending: &str) -> Vec<u64> {
         if after.starts_with(|next: char| next.is_alphanumeric()) {
             continue;
         }
-        let before = before.split(" of ").next().unwrap_or(before);
-        let digits = before.rsplit(|c: char| !c.is_ascii_digit()).next().unwrap_or("");
-        found.extend(digits.parse::<u64>());
+        let mut words = before.split_whitespace().rev();
+        let last = words.next();
+        let number = if words.next() == Some("of") { words.next() } else { last };
+        let digits = number.unwrap_or("").rsplit(|c: char| !c.is_ascii_digit()).next();
+        found.extend(digits.unwrap_or("").parse::<u64>());
     }
     found
 }
@@ -110,6 +112,8 @@ mod tests {
         assert_eq!(sum(cargo, " ignored"), 2);
         assert_eq!(cases("1230 of 1230 claims proven equal\n36 files are fresh"), Some(1266));
         assert_eq!(cases("==== 121 passed in 40.1s ===="), Some(121));
+        let report = "reports: 5 files are those of their sources, 1082 checks in the browser";
+        assert_eq!(cases(report), Some(1082));
         assert_eq!(cases("nothing passedover"), None);
     }
 
