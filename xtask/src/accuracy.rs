@@ -8,7 +8,7 @@ use clap::Args;
 use crate::members::without_lanes;
 use crate::test::CASES;
 use xtask::files::{File, differing, write};
-use xtask::run::{cargo, program, root, run, target};
+use xtask::run::{built, cargo, program, root, run, target};
 use xtask::say;
 
 /// The page and its figure, in `docs`.
@@ -42,8 +42,7 @@ pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
         "accuracy",
     ];
     cargo(&[&["build"], &without_lanes()[..], &example].concat())?;
-    let program = format!("debug/examples/accuracy{}", std::env::consts::EXE_SUFFIX);
-    let mut example = Command::new(target()?.join(program));
+    let mut example = Command::new(built("examples/accuracy")?);
     run(example.arg("--out").arg(&out).arg("--derivatives").arg(&derivatives))?;
     let files = FILES.map(|name| {
         let text = fs::read_to_string(out.join(name));

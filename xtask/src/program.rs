@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use xtask::run::{program, run, target};
+use xtask::run::{built, program, run};
 
 use crate::measured;
 
@@ -41,7 +41,7 @@ impl Program {
 
     /// Where it is once it is built: started without cargo, it waits for no other build.
     pub(crate) fn path(self) -> Result<PathBuf, String> {
-        Ok(target()?.join("debug").join(format!("{}{}", self.name, std::env::consts::EXE_SUFFIX)))
+        built(self.name)
     }
 
     /// Builds it and runs a command of it.

@@ -57,7 +57,15 @@ pub fn tool() -> Result<PathBuf, String> {
         return Ok(named.into());
     }
     cargo(&["build", "--quiet", "--package", "precess", "--bin", "precess"])?;
-    Ok(target()?.join("debug").join(format!("precess{}", std::env::consts::EXE_SUFFIX)))
+    built("precess")
+}
+
+/// Where cargo puts a program of the profile that the tests have.
+///
+/// # Errors
+/// As [`target`].
+pub fn built(name: &str) -> Result<PathBuf, String> {
+    Ok(target()?.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// Runs a program in the root and waits for it.

@@ -1,4 +1,4 @@
-//! Scenarios with a structure that bends: against closed forms, against the library called
+//! Scenarios with a flexible structure: against closed forms, against the library called
 //! directly, and errors of every key.
 
 mod direct;

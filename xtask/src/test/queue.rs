@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
 
-use xtask::run::{TOOL, program, root, target};
+use xtask::run::{TOOL, built, program, root};
 
 use super::CASES;
 use super::cost::stated_of;
@@ -155,9 +155,8 @@ impl Queue {
 
     /// The desktop tool is built.
     pub(crate) fn has_tool(&self, is_built: bool) {
-        let name = format!("debug/precess{}", std::env::consts::EXE_SUFFIX);
-        if let (true, Ok(target)) = (is_built, target()) {
-            self.tool.get_or_init(|| target.join(name));
+        if let (true, Ok(tool)) = (is_built, built("precess")) {
+            self.tool.get_or_init(|| tool);
         }
     }
 
