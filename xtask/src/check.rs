@@ -1,10 +1,10 @@
 //! `check`: what every commit passes; `lint`: its part that needs rustfmt and clippy.
 
+use std::process::Command;
+
 use crate::members::without_lanes;
 use crate::program::DERIVE;
-use std::process::Command;
 use xtask::capi::MANIFEST;
-
 use xtask::run::{cargo, program, target};
 
 /// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or

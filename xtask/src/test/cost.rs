@@ -141,8 +141,7 @@ fn stated(page: &str) -> Vec<(String, f64)> {
 }
 
 /// CPU seconds of a suite as the page states them, so that what takes longest is begun first; 0 if it has no row.
-pub(crate) fn stated_of(suite: &str) -> f64 {
-    let page = read_page().unwrap_or_default();
+pub(crate) fn stated_of(page: &str, suite: &str) -> f64 {
     let begin = format!("| `{suite}` |");
     let row = page.lines().find_map(|line| line.strip_prefix(&begin));
     let cell = row.and_then(|row| row.split(" | ").nth(2)).map(str::trim);
@@ -184,7 +183,8 @@ fn tables(outcomes: &[Outcome], spent: &Spent) -> String {
     text
 }
 
-fn read_page() -> Result<String, String> {
+/// The page as it is.
+pub(crate) fn read_page() -> Result<String, String> {
     fs::read_to_string(root().join(PAGE)).map_err(|error| format!("cannot read {PAGE}: {error}"))
 }
 

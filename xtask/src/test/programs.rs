@@ -29,15 +29,13 @@ pub(crate) struct Program {
 pub(crate) fn build(
     members: Members,
     suites: &[&Suite],
-    optimised: bool,
+    all: bool,
     notes: &Path,
 ) -> Result<Vec<Program>, String> {
     let mut cargo = Command::new(program());
     cargo.args(["test", "--no-run", "--message-format=json-render-diagnostics"]);
     cargo.args(members.features());
-    if optimised {
-        cargo.args(OPTIMISED.iter().flat_map(|setting| ["--config", setting]));
-    }
+    cargo.args(optimisation(all));
     let (mut packages, mut kinds) = (BTreeSet::new(), BTreeSet::new());
     for suite in suites {
         let How::Target { package, target } = suite.how else { continue };
@@ -70,12 +68,18 @@ pub(crate) fn build(
 
 /// What `--all` optimises: the desktop tool and the solver behind it, whose fits and budgets then take a sixth of the
 /// time.
-pub(crate) const OPTIMISED: &[&str] = &[
+const OPTIMISED: &[&str] = &[
     "profile.dev.package.precess.opt-level=1",
     "profile.dev.package.precess-craft.opt-level=1",
     // Runs of a minute.
     "profile.dev.package.precess-ledger.opt-level=2",
 ];
+
+/// Arguments of cargo by which everything is optimised that is in `--all`.
+pub(crate) fn optimisation(all: bool) -> impl Iterator<Item = &'static str> {
+    let settings = if all { OPTIMISED } else { &[] };
+    settings.iter().flat_map(|setting| ["--config", *setting])
+}
 
 /// The test program of a message of cargo, if it is about one.
 fn read(line: &str) -> Option<Program> {

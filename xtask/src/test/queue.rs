@@ -9,9 +9,9 @@ use std::time::Instant;
 use xtask::run::{TOOL, built, program, root};
 
 use super::CASES;
-use super::cost::stated_of;
+use super::cost::{read_page, stated_of};
 use super::outcome::Outcome;
-use super::programs::{OPTIMISED, Program};
+use super::programs::{Program, optimisation};
 use super::suites::{DOCUMENTATION, libraries};
 use crate::measured;
 use crate::members::Members;
@@ -61,11 +61,7 @@ impl Job {
         let libraries = libraries().filter(|package| Members::of(package, all) == members);
         arguments.extend(libraries.flat_map(|package| ["--package", package]).map(str::to_owned));
         arguments.extend(members.features().iter().map(|word| (*word).to_owned()));
-        if all {
-            arguments.extend(
-                OPTIMISED.iter().flat_map(|setting| ["--config".to_owned(), (*setting).to_owned()]),
-            );
-        }
+        arguments.extend(optimisation(all).map(str::to_owned));
         Self { name, program: PathBuf::from(program()), arguments, folder: root(), is_test: false }
     }
 
@@ -147,7 +143,9 @@ impl Queue {
 
     /// Adds jobs for the workers, who begin with what takes longest.
     pub(crate) fn add(&self, jobs: impl IntoIterator<Item = Job>) {
-        let mut jobs: Vec<_> = jobs.into_iter().map(|job| (stated_of(&job.name), job)).collect();
+        let page = read_page().unwrap_or_default();
+        let stated = |job: Job| (stated_of(&page, &job.name), job);
+        let mut jobs: Vec<_> = jobs.into_iter().map(stated).collect();
         jobs.sort_by(|a, b| b.0.total_cmp(&a.0));
         held(&self.waiting).jobs.extend(jobs.into_iter().map(|(_, job)| job));
         self.changed.notify_all();
