@@ -25,14 +25,16 @@ fn holds(kind: &'static Kind, passes: Passes) {
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn a_long_chain_is_proven_after_each_pass() {
-    for passes in Passes::EACH {
-        holds(&DGVSCMG, passes);
+    for kind in [&VSCMG, &BALANCED_VSCMG, &DGVSCMG] {
+        for passes in Passes::EACH {
+            holds(kind, passes);
+        }
     }
 }
 
 #[test]
 fn short_chains_are_proven_after_each_pass() {
-    for kind in [&VSCMG, &BALANCED_VSCMG, &REACTION_WHEEL, &HINGED_PANEL, &SLOSH_MASS] {
+    for kind in [&REACTION_WHEEL, &HINGED_PANEL, &SLOSH_MASS] {
         for passes in Passes::EACH {
             holds(kind, passes);
         }

@@ -54,6 +54,12 @@ mod pages {
 /// `all`; otherwise the first tenth, and fifteen at least, one more than there are kinds.
 #[must_use]
 pub fn cases(all: u64) -> u64 {
+    all_or(all, all.min(all.div_ceil(10).max(15)))
+}
+
+/// The first number in `cargo xtask test --all`, the second otherwise: for what takes long with few cases.
+#[must_use]
+pub fn all_or(all: u64, some: u64) -> u64 {
     let each = std::env::var_os("PRECESS_TESTS").is_some_and(|value| value == "all");
-    if each { all } else { all.min(all.div_ceil(10).max(15)) }
+    if each { all } else { some }
 }

@@ -66,6 +66,7 @@ mod tests {
 
     /// The page on the architecture names them, and says what they are for.
     #[test]
+    #[ignore = "long: `cargo xtask test --all`"]
     fn functions_without_an_operation_are_those_that_only_return_constants() {
         let none = |kind: &'static Kind| {
             let functions = counted(kind, Passes::ALL).into_iter();
@@ -81,6 +82,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: `cargo xtask test --all`"]
     fn no_function_with_a_state_costs_more_after_factoring() {
         for kind in KINDS {
             let [before, after] = [Passes::CHAIN, Passes::ALL].map(|passes| counted(kind, passes));

@@ -19,6 +19,7 @@ fn wheels_with_lumped_imbalances_and_friction_move_as_basilisk_moves_them() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask test --all`"]
 fn a_change_of_any_input_shows() {
     // There is no friction.
     changes_show(&coupled(), &["friction"]);

@@ -6,6 +6,7 @@ use precess_dynamics::{
     BalancedDgvscmg, Devices, Dgvscmg, HingedPanel, ReactionWheel, Sgcmg, SloshMass,
 };
 use precess_point_masses::Chain;
+use precess_tests::cases;
 
 use super::case::{Found, Joint, LIMITS, SEEDS, World, joints};
 use super::devices::Drawn;
@@ -87,7 +88,7 @@ fn order_of_devices_does_not_matter() {
 #[test]
 fn nesting_of_devices_does_not_even_change_rounding() {
     let mut random = Random::new(1);
-    for _ in 0..SEEDS {
+    for _ in 0..cases(SEEDS) {
         let world = World::drawn(&mut random);
         let (devices, settings) = drawn(&mut random, world.hub.m_b);
         let ([first, second], sgcmg, double, (panel, slosh)) = devices;

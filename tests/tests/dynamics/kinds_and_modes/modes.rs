@@ -7,13 +7,14 @@ use precess_dynamics::{
     BalancedVscmg, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, LoadAxes,
     Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg,
 };
+use precess_tests::all_or;
 
 use super::balance::pair;
 use super::case::{Case, Joint, LIMITS};
 use super::devices::Drawn;
 use super::random::{Random, errors_of};
 
-/// Spacecraft per combination of modes; a double gimbal has 729 of them.
+/// Spacecraft per combination of modes, two in a default run; a double gimbal has 729 of them.
 const SEEDS: u64 = 10;
 
 /// The most combinations on a spacecraft. The kinds with flexible bearings have 3^12 and 3^14: of these so many
@@ -36,7 +37,7 @@ fn every_combination<K: Drawn>(claim: impl Fn(&Case<[K; 2]>) -> f64) {
         });
         super::case::largest(errors)
     };
-    errors_of(SEEDS, error).are_within(LIMITS);
+    errors_of(all_or(SEEDS, 2), error).are_within(LIMITS);
 }
 
 /// The modes that are the digits of a number to base three, from the first joint.
