@@ -1,6 +1,8 @@
 //! `demo`: derive, prove, solve the paper's scenario, draw the report.
 
-use xtask::run::cargo;
+use std::process::Command;
+
+use xtask::run::{TOOL, cargo, run, tool};
 
 use crate::program::DERIVE;
 
@@ -16,14 +18,17 @@ const VARIANTS: [&str; 6] = [
 
 /// `regen --check`, then every variant of Table 1, with its figures, into `target/demo`.
 pub(crate) fn demo() -> Result<(), String> {
-    // One command, so that neither waits for the end of the other.
-    cargo(&["build", "--package", DERIVE.package, "--package", "precess"])?;
+    // One command, so that neither waits for the end of the other; a tool that is named is used as it is.
+    if std::env::var_os(TOOL).is_none() {
+        cargo(&["build", "--package", DERIVE.package, "--package", "precess"])?;
+    }
     DERIVE.start(&["regen", "--check", "--quiet"])?;
+    // As the tests build it: a release build takes minutes, and the runs take seconds.
+    let tool = tool()?;
     for command in ["run", "plot"] {
-        // As the tests build it: a release build takes minutes, and the runs take seconds.
-        let first = ["run", "-p", "precess", "--", command];
-        let last = ["--out", "target/demo", "--force"];
-        cargo(&[&first[..], &VARIANTS, &last].concat())?;
+        let mut tool = Command::new(&tool);
+        tool.arg(command).args(VARIANTS).args(["--out", "target/demo", "--force"]);
+        run(&mut tool)?;
     }
     Ok(())
 }

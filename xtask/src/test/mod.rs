@@ -187,7 +187,7 @@ fn of_group(chosen: &[&'static Suite], members: Members, all: bool) -> Vec<&'sta
 }
 
 /// Commands that everything else waits for.
-const FIRST: [&str; 5] = ["lint", "regen", "bake", "mutate", "demo"];
+const FIRST: [&str; 4] = ["lint", "regen", "bake", "mutate"];
 
 #[cfg(test)]
 mod tests {
