@@ -18,6 +18,7 @@ mod complete;
 mod names;
 
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Instant;
 
@@ -135,8 +136,11 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
     if !commands(true).into_iter().all(|job| queue.run(job)) {
         return Ok(queue.outcomes());
     }
+    // Two at a time: the last of them would leave a core without work.
+    let others = Mutex::new(commands(false).into_iter());
     let beside = || {
-        for job in commands(false) {
+        let next = || others.lock().unwrap_or_else(PoisonError::into_inner).next();
+        while let Some(job) = next() {
             queue.run(job);
         }
     };
@@ -156,6 +160,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
                 if members == Members::Plain {
                     // They use the desktop tool as it is tested.
                     queue.has_tool(of_group.iter().any(|suite| suite.is_of("precess")));
+                    scope.spawn(beside);
                     scope.spawn(beside);
                 }
                 Ok(())
