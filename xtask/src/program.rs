@@ -30,6 +30,11 @@ impl Program {
         }
     }
 
+    /// Whether a command is its own, or starts one of its own.
+    pub(crate) fn is_needed_by(self, command: &str) -> bool {
+        Self::of(command) == Some(self) || (self == DERIVE && command == "demo")
+    }
+
     /// Builds it; what rustc takes is noted in a file, if there is one.
     pub(crate) fn build(self, notes: Option<&Path>) -> Result<(), String> {
         let mut cargo = Command::new(program());
@@ -53,5 +58,17 @@ impl Program {
     /// Runs a command of it, once it is built.
     pub(crate) fn start(self, arguments: &[&str]) -> Result<(), String> {
         run(Command::new(self.path()?).args(arguments))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_demonstration_needs_the_program_that_derives() {
+        assert!(DERIVE.is_needed_by("demo") && DERIVE.is_needed_by("regen"));
+        assert!(!DERIVE.is_needed_by("flight") && DISTRIBUTE.is_needed_by("flight"));
+        assert!(!DISTRIBUTE.is_needed_by("demo"));
     }
 }

@@ -18,7 +18,7 @@ mod complete;
 mod names;
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::thread;
 use std::time::Instant;
 
@@ -28,10 +28,10 @@ use xtask::say;
 
 use crate::measured::of_children;
 use crate::members::Members;
-use crate::program::{self as command, DERIVE, DISTRIBUTE};
+use crate::program::{DERIVE, DISTRIBUTE};
 use outcome::Outcome;
 use programs::Program;
-use queue::{Job, Queue};
+use queue::{Job, Queue, held};
 use suites::{How, SUITES, Suite, When};
 
 /// Options of `test`.
@@ -139,7 +139,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
     // Two at a time: the last of them would leave a core without work.
     let others = Mutex::new(commands(false).into_iter());
     let beside = || {
-        let next = || others.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let next = || held(&others).next();
         while let Some(job) = next() {
             queue.run(job);
         }
@@ -179,7 +179,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
 fn built_for(chosen: &[&'static Suite], notes: &Path) -> Result<(), String> {
     [DERIVE, DISTRIBUTE].into_iter().try_for_each(|program| {
         let needs = |suite: &&Suite| {
-            matches!(suite.how, How::Command(words) if command::Program::of(words[0]) == Some(program))
+            matches!(suite.how, How::Command(words) if program.is_needed_by(words[0]))
         };
         if chosen.iter().any(needs) { program.build(Some(notes)) } else { Ok(()) }
     })

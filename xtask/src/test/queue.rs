@@ -193,6 +193,6 @@ impl Queue {
 }
 
 /// What a lock guards, also after a panic of another thread: an outcome is pushed whole.
-fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(super) fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
     lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
