@@ -4,7 +4,7 @@ use std::fmt;
 use std::thread::scope;
 
 use crate::report::{self, KindText, ReportError};
-use crate::verdict::{VerdictError, Verdicts, verdicts};
+use crate::verdict::{JudgementError, VerdictError, Verdicts, verdicts};
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::quantities::quantities;
 use precess_codegen::emit::{self, EmitError, Emitted, EmittedFile, Home, shared};
@@ -100,9 +100,12 @@ impl From<ReportError> for RegenError {
     }
 }
 
-impl From<VerdictError> for RegenError {
-    fn from(error: VerdictError) -> Self {
-        Self::Verdict(error)
+impl From<JudgementError> for RegenError {
+    fn from(error: JudgementError) -> Self {
+        match error {
+            JudgementError::Page(error) => Self::Page(error),
+            JudgementError::Verdict(error) => Self::Verdict(error),
+        }
     }
 }
 

@@ -4,8 +4,9 @@
 use precess_codegen::kinds::{DGVSCMG, KINDS};
 use precess_review::mutation::{
     Computed, EngineError, Engines, Fate, Kind, Law, Mutant, MutationError, NOTICED, Outcome,
-    Report, Selection, mutate, mutate_all, pages,
+    Report, Selection, mutate, mutate_all,
 };
+use precess_review::report::mutation;
 use serde_json::Value;
 
 /// Every so many mutants: a prime, so that all changes and all places are met.
@@ -93,7 +94,7 @@ fn rows_are_found_by_equation() {
     let report = run(&Selection { kernel: Some("wheel"), every: SAMPLE }).unwrap();
     let acceleration = report.by_tag().into_iter().find(|(tag, _)| tag == "(14)").unwrap().1;
     assert!(acceleration.mutants > 0 && acceleration.any == acceleration.mutants);
-    let [markdown, html] = pages(&[report]).unwrap().try_into().unwrap();
+    let [markdown, html] = mutation(&[report]).unwrap().try_into().unwrap();
     assert_eq!(
         (markdown.path.as_str(), html.path.as_str()),
         ("docs/mutation.md", "target/docs/mutation.html")

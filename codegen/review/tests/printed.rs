@@ -10,8 +10,7 @@ use folder::pages;
 use precess_codegen::normal::Term;
 use precess_codegen::page::Page;
 use precess_codegen::proof::{Row, Verdict};
-use precess_review::regen::RegenError;
-use precess_review::verdict::{Counts, HandChecked, Printed, Verdicts, verdicts};
+use precess_review::verdict::{Counts, HandChecked, JudgementError, Printed, Verdicts, verdicts};
 
 #[test]
 fn every_number_has_its_verdict_and_every_row_holds() {
@@ -104,7 +103,7 @@ fn errata_and_letter_state_the_counts_of_the_verdicts() {
 }
 
 /// The verdicts on the pages with `right`, which stands there once, replaced by `wrong`.
-fn with(right: &str, wrong: &str) -> Result<Verdicts, RegenError> {
+fn with(right: &str, wrong: &str) -> Result<Verdicts, JudgementError> {
     let mut found = 0;
     let mut changed = |folder: &str| -> Vec<Page> {
         let page = |page: Page| {

@@ -7,10 +7,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use precess_codegen::kinds::{self, DGVSCMG, KINDS};
 use precess_codegen::page::Page;
-use precess_review::mutation::{
-    self, Engines, Kind, Progress, Report, Selection, Tally, mutate_all,
-};
-use precess_review::report::traceability;
+use precess_review::mutation::{Engines, Kind, Progress, Report, Selection, Tally, mutate_all};
+use precess_review::report::{self, traceability};
 use precess_review::verdict::verdicts;
 
 use xtask::files::{differing, write};
@@ -89,7 +87,7 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
     let pages = root().join(PAGES);
     let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
     let verdicts = verdicts.map_err(|error| error.to_string())?;
-    let mut files = mutation::pages(reports).map_err(|error| error.to_string())?;
+    let mut files = report::mutation(reports).map_err(|error| error.to_string())?;
     for report in reports.iter().filter(|report| report.kind.name == DGVSCMG.name) {
         let traces = traceability(&verdicts, report, &sources()?);
         files.extend(traces.map_err(|error| error.to_string())?);

@@ -20,6 +20,10 @@ const MOVED: &[(&str, &str)] = &[
     ("xtask/src/dist/", "xtask/distribute/src/dist/"),
     ("xtask/src/flight/", "xtask/distribute/src/flight/"),
     ("xtask/src/wheel.rs ", "xtask/distribute/src/wheel.rs "),
+    (
+        "codegen/review/src/mutation/physics/mod.rs ",
+        "codegen/review/src/mutation/physics/trial.rs ",
+    ),
 ];
 
 /// Folders that hold tests, from the root.

@@ -9,6 +9,7 @@
 //! The right system drifts too, by rounding and by the integrator's error: [`floor`] says how far.
 
 mod assembled;
+mod effect;
 mod elimination;
 mod error;
 mod ledger;
@@ -20,10 +21,9 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
-
+pub use effect::{Drift, Effect, RESOLUTION, Slip};
 pub use error::ConsequenceError;
-pub use run::{DURATION, RESOLUTION, STEP};
+pub use run::{DURATION, STEP};
 
 use assembled::{Equations, Pages, equal};
 use ledger::Accountant;
@@ -49,47 +49,6 @@ pub struct Consequence {
     pub line: usize,
     /// What it does.
     pub effect: Effect,
-}
-
-/// What a printed form does to a run of Table 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Effect {
-    /// No path leads from it to the assembled equations.
-    Unchanged,
-    /// It enters them, but Table 1 sets every term to zero in which they differ.
-    Vanishes,
-    /// The run drifts.
-    Drift(Drift),
-    /// The run blows up.
-    Diverges {
-        /// Time, s.
-        at: f64,
-    },
-    /// The equations do not determine the accelerations.
-    Singular {
-        /// Time, s.
-        at: f64,
-    },
-}
-
-/// The largest departures from the start, each in its own unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drift {
-    /// Energy less work; unit: largest kinetic energy plus integral of sum |u rate|.
-    pub energy: f64,
-    /// Linear momentum; unit: sum over the bodies of magnitudes.
-    pub linear: f64,
-    /// Angular momentum about the centre of mass; unit likewise.
-    pub angular: f64,
-}
-
-/// Some of the differences of a printed block.
-#[derive(Clone, Debug)]
-pub struct Slip<'a> {
-    /// The block.
-    pub block: &'a Block,
-    /// Those of its notes whose change is made; the rest of the block is right.
-    pub notes: Vec<&'a Note>,
 }
 
 /// The consequence of every printed block that differs in value, in the order of the pages. Words,
@@ -191,30 +150,4 @@ fn differing(printed: &[Page]) -> Result<Vec<Block>, ConsequenceError> {
         differs && !block.is_words() && block.given.is_empty()
     });
     Ok(found)
-}
-
-impl fmt::Display for Effect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unchanged => write!(f, "does not enter the assembled equations"),
-            Self::Vanishes => write!(f, "vanishes with Table 1's numbers"),
-            Self::Drift(drift) => drift.fmt(f),
-            Self::Diverges { at } => write!(f, "diverges after {at:.2} s"),
-            Self::Singular { at } => write!(f, "singular after {at:.2} s"),
-        }
-    }
-}
-
-impl fmt::Display for Drift {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = [("energy", self.energy), ("linear", self.linear), ("angular", self.angular)];
-        let figure = |(name, drift): (&str, f64)| {
-            if drift < RESOLUTION {
-                format!("{name} below {RESOLUTION:.0e}")
-            } else {
-                format!("{name} {drift:.1e}")
-            }
-        };
-        write!(f, "{}", parts.map(figure).join(", "))
-    }
 }

@@ -18,10 +18,6 @@ pub(super) const STEPS: u32 = 4000;
 /// The step of a run, s.
 pub const STEP: f64 = DURATION / STEPS as f64;
 
-/// Drifts below this are the integrator's. A slip that leaves (16) and (75) alone cannot disturb the
-/// momenta, and such runs drift by 8e-11; the smallest drift that a slip causes is 3e-9.
-pub const RESOLUTION: f64 = 1e-9;
-
 /// Every how many steps the conserved quantities are looked at: fifty times in a turn of the wheel.
 const LOOK: u32 = 10;
 

@@ -13,7 +13,6 @@ mod device;
 mod equivalence;
 mod held;
 mod listing;
-mod page;
 mod physics;
 mod report;
 mod site;
@@ -21,7 +20,6 @@ mod state;
 mod tape;
 
 pub use listing::Computed;
-pub use page::pages;
 pub use physics::{EngineError, Engines, Kind, Law};
 pub use report::{Fate, Outcome, Report, Tally};
 pub use site::{Change, Mutant};

@@ -7,6 +7,7 @@ mod figures;
 mod frames;
 mod html;
 mod kinds;
+mod mutation;
 mod traceability;
 mod words;
 
@@ -17,6 +18,7 @@ pub use derivation::NotationError;
 use figures::Figures;
 pub use html::HtmlError;
 pub use kinds::KindText;
+pub use mutation::mutation;
 use tera::{Context, Tera};
 
 use crate::consequence::ConsequenceError;
@@ -168,7 +170,7 @@ fn page_links(entry: &Entry) -> String {
 }
 
 /// A document as Markdown, which is committed, and as HTML for a browser, which is not.
-pub(crate) fn document(
+fn document(
     path: &str,
     template: &str,
     context: &Context,

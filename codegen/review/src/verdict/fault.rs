@@ -2,6 +2,17 @@
 
 use std::fmt;
 
+use precess_codegen::page::PageError;
+
+/// Why the print is not judged.
+#[derive(Debug)]
+pub enum JudgementError {
+    /// A page cannot be read.
+    Page(PageError),
+    /// The print, its notes and their causes do not fit together.
+    Verdict(VerdictError),
+}
+
 /// A fault with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VerdictError {
@@ -112,3 +123,26 @@ impl fmt::Display for Fault {
 }
 
 impl std::error::Error for VerdictError {}
+
+impl fmt::Display for JudgementError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Page(error) => error.fmt(f),
+            Self::Verdict(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for JudgementError {}
+
+impl From<PageError> for JudgementError {
+    fn from(error: PageError) -> Self {
+        Self::Page(error)
+    }
+}
+
+impl From<VerdictError> for JudgementError {
+    fn from(error: VerdictError) -> Self {
+        Self::Verdict(error)
+    }
+}

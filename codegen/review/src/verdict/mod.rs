@@ -15,9 +15,8 @@ mod sorted;
 pub use cause::{Cause, Mended};
 pub use counts::Counts;
 pub use entry::{Component, Entry, Form, HandChecked, Printed};
-pub use fault::{Fault, VerdictError};
+pub use fault::{Fault, JudgementError, VerdictError};
 
-use crate::regen::RegenError;
 use cause::{effects, fitting};
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::quantities::quantities;
@@ -73,7 +72,7 @@ impl Verdicts {
 /// # Errors
 /// When a page cannot be read, a number lacks its entry, or notes and causes do not fit together.
 /// A note that does not add up and a mend that leaves a term are no errors but rows.
-pub fn verdicts(pages: &[Page], printed: &[Page]) -> Result<Verdicts, RegenError> {
+pub fn verdicts(pages: &[Page], printed: &[Page]) -> Result<Verdicts, JudgementError> {
     let print = Pages::read(printed)?;
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);

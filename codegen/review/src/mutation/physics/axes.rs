@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, Matrix3};
 
-use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
+use super::law::Law;
+use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{Device, Fault, Stand};
 use precess_codegen::kinds::{Link, Motion};
 

@@ -6,7 +6,8 @@ use std::rc::Rc;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::differences::lagrange;
-use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
+use super::law::Law;
+use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{BodySeen, Device, Fault};
 use crate::mutation::held::{Held, Packed};
 use crate::mutation::state::{Case, Motion};

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3x2, SMatrix, Vector3};
 
-use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
+use super::law::Law;
+use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{BodySeen, Device, Fault};
 use crate::mutation::state::{Accelerations, Case, Mode, Motion};
 

@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
+use super::law::Law;
 use super::stored::{Body, EngineError, Stored, tensor};
-use super::{Law, Residuals, Role, concerns, gap};
+use super::trial::{Residuals, Role, concerns, gap};
 use crate::mutation::device::{Device, Fault};
 use crate::mutation::held::Held;
 use crate::mutation::state::Accelerations;

@@ -1,6 +1,7 @@
 //! What acts on the bodies, as what joints and hub receive of it.
 
-use super::{Law, Residuals, Role, Trial, concerns, gap};
+use super::law::Law;
+use super::trial::{Residuals, Role, Trial, concerns, gap};
 use crate::mutation::device::{Device, Fault, Stand};
 use crate::mutation::state::Wrench;
 

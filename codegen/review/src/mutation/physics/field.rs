@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
+use super::law::Law;
+use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{BodySeen, Device, Fault, Stand};
 use crate::mutation::state::Wrench;
 

@@ -3,10 +3,8 @@
 use serde::Serialize;
 use tera::Context;
 
-use super::NOTICED;
-use super::physics::{Kind, Law};
-use super::report::{Fate, Outcome, Report, Tally};
-use crate::report::{ReportError, document};
+use super::{ReportError, document};
+use crate::mutation::{Fate, Kind, Law, NOTICED, Outcome, Report, Tally};
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::DGVSCMG;
 
@@ -77,7 +75,7 @@ struct LawText {
 ///
 /// # Errors
 /// When the template cannot be filled; when no report is of the DGVSCMG, there is no page.
-pub fn pages(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
+pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
     let full = |report: &&Report| report.kind.name == DGVSCMG.name;
     let Some(report) = reports.iter().find(full) else { return Ok(Vec::new()) };
     let elsewhere = reports.iter().filter(|report| !full(report));
