@@ -9,9 +9,9 @@ use tera::Context;
 use crate::error::BakeError;
 use crate::numbers::c;
 use crate::shape::{Derived, Shape};
+use crate::templates::{COMMAND, templates};
 use crate::test_values::reference;
 use crate::values::device;
-use crate::{COMMAND, templates};
 
 /// The templates.
 const TEMPLATES: [(&str, &str); 11] = [

@@ -4,20 +4,19 @@
 //! evaluated as it is written, what is written by hand is the same file. The emitted tests compare
 //! all bits.
 
-use precess_codegen::derivation::assumed::{Exchange, Mount};
 use precess_codegen::kinds::{Link, Motion};
 use precess_description::{Description, Device};
 use serde::Serialize;
 use tera::Context;
 
 use crate::by_hand::body::{Body, Joint, outboard};
-use crate::by_hand::mount::{Turned, turned};
+use crate::by_hand::mount::Turned;
 use crate::by_hand::rigid::RigidBody;
 use crate::by_hand::sin_cos::sin_cos;
 use crate::error::BakeError;
 use crate::evaluate::{Numbers, evaluate};
 use crate::numbers::{float, list};
-use crate::shape::{Derived, Shape};
+use crate::shape::{Derived, Shape, turns};
 use crate::sources::{Source, source};
 
 /// Hub and constant shares of the devices.
@@ -140,14 +139,6 @@ fn of_device(
         scales: list(scales.into_iter()),
     };
     Ok((share, folded))
-}
-
-/// The turns of a device's mount, where it is made of some.
-pub(crate) fn turns(shape: &Shape<'_>, device: &Device) -> Result<Option<Turned>, BakeError> {
-    let Mount::Turned { outer, turns, inner } = shape.assumed.mount else { return Ok(None) };
-    let rows = |of: Exchange| [0, 1, 2].map(|row| [0, 1, 2].map(|column| of.entry(row, column)));
-    let found = turned(&device.mount, &rows(outer), &rows(inner), turns.angles().len());
-    found.map(Some).map_err(|off| BakeError::Mount(device.name.clone(), off.off, off.bound))
 }
 
 /// The number that a source has.

@@ -19,28 +19,25 @@ mod evaluate;
 mod fold;
 mod mount;
 mod numbers;
+mod options;
 mod parameters;
 mod records_c;
 mod reference;
 mod rust;
 mod shape;
 mod sources;
+mod templates;
 mod test_values;
 mod values;
 mod whole;
 
-use clap::ValueEnum;
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::proof::Row;
 pub use precess_description::Description;
-use serde::Serialize;
-use tera::Tera;
 
 pub use error::BakeError;
-pub use shape::{HUB_OPERATIONS, SUM_OPERATIONS};
-
-/// What is written in every emitted file.
-const COMMAND: &str = "precess bake";
+pub use options::{Language, Options};
+pub use shape::{HUB_OPERATIONS, Operations, SUM_OPERATIONS};
 
 /// What is emitted of a spacecraft.
 pub struct Baked {
@@ -52,33 +49,6 @@ pub struct Baked {
     pub assumptions: Vec<String>,
     /// Operations of an evaluation.
     pub operations: Operations,
-}
-
-/// Operations of one evaluation, sines apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Operations {
-    /// Of the emitted kernels, sums into the hub's equations and their solution included.
-    pub baked: usize,
-    /// Of the general kernels of the same devices, counted alike.
-    pub general: usize,
-}
-
-/// What is written of a spacecraft.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// In which language.
-    pub language: Language,
-    /// Whether the values are folded, too: constants instead of a constructor.
-    pub constants: bool,
-}
-
-/// The language of the emitted files, also as an option of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Language {
-    /// A crate without dependencies
-    Rust,
-    /// C99
-    C,
 }
 
 /// Derives, proves and lays out the kernels of a spacecraft.
@@ -106,14 +76,4 @@ pub fn bake(description: &Description, options: Options) -> Result<Baked, BakeEr
         Language::C => c::files(description, &shapes, &derived, whole)?,
     };
     Ok(Baked { files, proof, assumptions, operations })
-}
-
-/// Templates of this crate, by name.
-fn templates(list: &[(&str, &str)]) -> Tera {
-    let mut tera = Tera::default();
-    tera.autoescape_on(Vec::<&str>::new());
-    for (name, text) in list {
-        tera.add_raw_template(name, text).expect("the templates are those of this crate");
-    }
-    tera
 }

@@ -1,10 +1,9 @@
 //! The records that the emitted C fills before it calls `eliminate`.
 
-use precess_codegen::kinds::Link;
+use precess_codegen::kinds::{Link, Motion};
 use serde::Serialize;
 
 use crate::shape::Shape;
-use crate::values::joint;
 
 /// A record that `eliminate` takes in C, and the lines that fill it.
 #[derive(Serialize)]
@@ -39,7 +38,7 @@ fn part(shape: &Shape<'_>, name: &'static str, upper: &str) -> Option<PartC> {
     let (record, lines): (_, Vec<_>) = match name {
         "q" => ("trig", turning.map(sines).collect()),
         "s" => {
-            let sliding = moving.filter(|link| joint(link).slides);
+            let sliding = moving.filter(|link| matches!(link.joint.motion, Motion::Slide(_)));
             ("positions", sliding.map(|link| copied("s", link.joint.coordinate)).collect())
         }
         "v" => ("rates", moving.map(|link| copied("v", link.joint.rate)).collect()),

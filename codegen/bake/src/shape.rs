@@ -3,7 +3,7 @@
 //! Invariant: shapes are in the order of their first device, and so are the devices of each; the
 //! hub's equations are added up in that order.
 
-use precess_codegen::derivation::assumed::{Assumed, Mount, Turns};
+use precess_codegen::derivation::assumed::{Assumed, Exchange, Mount, Turns};
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::emit::{Alone, alone};
 use precess_codegen::graph::Graph;
@@ -11,13 +11,15 @@ use precess_codegen::kernel::{Record, parameters_of};
 use precess_codegen::kinds::{KINDS, Kind, Link};
 use precess_codegen::proof::{Row, prove_assumed};
 use precess_description::{Body, Description, Device};
+use serde::Serialize;
 
 use crate::assumed::assumed;
-use crate::constants::turns;
+use crate::by_hand::mount::{Turned, turned};
 use crate::error::BakeError;
 use crate::fold::only_tested;
+use crate::options::{Language, Options};
 use crate::parameters::check;
-use crate::{COMMAND, Language, Operations, Options};
+use crate::templates::COMMAND;
 
 /// Devices that share a kernel.
 pub(crate) struct Shape<'a> {
@@ -119,6 +121,23 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         }
     }
     Ok(list)
+}
+
+/// The turns of a device's mount, where it is made of some.
+pub(crate) fn turns(shape: &Shape<'_>, device: &Device) -> Result<Option<Turned>, BakeError> {
+    let Mount::Turned { outer, turns, inner } = shape.assumed.mount else { return Ok(None) };
+    let rows = |of: Exchange| [0, 1, 2].map(|row| [0, 1, 2].map(|column| of.entry(row, column)));
+    let found = turned(&device.mount, &rows(outer), &rows(inner), turns.angles().len());
+    found.map(Some).map_err(|off| BakeError::Mount(device.name.clone(), off.off, off.bound))
+}
+
+/// Operations of one evaluation, sines apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Operations {
+    /// Of the emitted kernels, sums into the hub's equations and their solution included.
+    pub baked: usize,
+    /// Of the general kernels of the same devices, counted alike.
+    pub general: usize,
 }
 
 /// Whether something moves with each joint that has a motor.

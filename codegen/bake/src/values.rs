@@ -26,7 +26,7 @@ pub(crate) struct JointText {
     torque: &'static str,
     unit: &'static str,
     axis: usize,
-    pub(crate) slides: bool,
+    slides: bool,
 }
 
 /// A number that must vanish: its name, what it is assumed to be, by how much it is off, its scale.
@@ -55,7 +55,7 @@ impl Assigned {
     }
 }
 
-pub(crate) fn joint(link: &Link) -> JointText {
+fn joint(link: &Link) -> JointText {
     let slides = matches!(link.joint.motion, Motion::Slide(_));
     JointText {
         tag: link.joint.tag,

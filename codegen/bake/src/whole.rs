@@ -5,8 +5,7 @@ use precess_description::Description;
 use serde::Serialize;
 use tera::Context;
 
-use crate::Operations;
-use crate::shape::{Derived, Shape};
+use crate::shape::{Derived, Operations, Shape};
 use crate::values::{checks, listed};
 
 /// A shape.
