@@ -12,7 +12,7 @@
 use super::Share;
 use super::base::{Based, based, origin_words};
 use super::carriers::{Carrying, carriers};
-use super::chain::{Chain, XYZ};
+use super::chain::Chain;
 use super::heading::Heading;
 use super::joint::AtJoint;
 use super::lump::Lump;
@@ -23,7 +23,7 @@ use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::Expr;
 use crate::kinds::{Body, Link, Motion, units};
-use crate::space::{Hub, Own, Turn, Vector};
+use crate::space::{Hub, Own, Turn, Vector, XYZ};
 
 /// The share of a device, with its steps written to `script`: first moment and inertia of what
 /// moves, blocks of the joints, and the bias without what the hub's own motion requires. Expressed

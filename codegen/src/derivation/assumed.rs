@@ -7,7 +7,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::chain::mount_entry;
 use crate::graph::{Expr, Graph, Stage};
 use crate::space::{Axis, Carrier, Hub, Own, Turn, Vector};
 
@@ -157,6 +156,12 @@ fn turned<'g>(graph: &'g Graph, turns: Turns) -> [Vector<'g, Hub>; 3] {
         let v = if turns == Turns::None { v } else { back(v, Axis::Z, "mount_a") };
         Vector::new(v.components())
     })
+}
+
+/// The name of an entry of `mount`, counted from zero.
+#[must_use]
+pub fn mount_entry(row: usize, column: usize) -> String {
+    format!("mount_{}{}", row + 1, column + 1)
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Outwards along the chain: origin of each joint and axes of its body, expressed in B.
 
-use super::chain::{Chain, Link, XYZ};
+use super::chain::{Chain, Link};
 use super::heading::Heading;
 use super::script::{Script, pairs, triple};
-use crate::space::{Axis, Carrier, Frame, Hub, Own, Vector};
+use crate::space::{Axis, Carrier, Frame, Hub, Own, Vector, XYZ};
 
 /// Writes the axes of every body and the origin of its joint to `script`.
 pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {

@@ -4,10 +4,7 @@ use super::assumed::{Assumed, Mount};
 use super::base::Passes;
 use crate::graph::{Expr, Graph, Node, Stage};
 use crate::kinds::{self, Centre, Kind, Motion};
-use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector};
-
-/// Suffixes of three components.
-pub const XYZ: [&str; 3] = ["x", "y", "z"];
+use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector, XYZ};
 
 /// A device kind with its symbols in a graph.
 pub struct Chain<'g> {
@@ -179,12 +176,6 @@ impl<'g> Chain<'g> {
     pub fn mount_is_turned(&self) -> bool {
         self.assumed.as_ref().is_some_and(|assumed| assumed.mount != Mount::Any)
     }
-}
-
-/// The name of an entry of `mount`, counted from zero.
-#[must_use]
-pub fn mount_entry(row: usize, column: usize) -> String {
-    format!("mount_{}{}", row + 1, column + 1)
 }
 
 impl<'g> Chain<'g> {

@@ -3,10 +3,9 @@
 //! A *named* value keeps the name the paper gives it and is expanded like any other in the proof.
 //! A *cut* value becomes a symbol for all that follows: the proof shows once what it stands for.
 
-use super::chain::XYZ;
 use super::heading::Heading;
 use crate::graph::{Expr, Graph, Node};
-use crate::space::ENTRIES;
+use crate::space::{ENTRIES, XYZ};
 
 /// One named value.
 #[derive(Clone, Debug)]

@@ -6,7 +6,8 @@ use tera::Context;
 
 use super::cost::CountText;
 use super::device::Signatures;
-use super::file::{EmitError, EmittedFile, kind_file, record_text, rust_file, templates};
+use super::error::EmitError;
+use super::file::{EmittedFile, kind_file, record_text, rust_file, templates};
 use super::home::Home;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;

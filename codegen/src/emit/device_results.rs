@@ -8,7 +8,7 @@ use super::device::body_name;
 use super::device_calls::{A, P, Q, V, W};
 use super::device_items::Items;
 use super::text::ident;
-use crate::derivation::chain::XYZ;
+use crate::space::XYZ;
 
 impl Items<'_> {
     pub(super) fn energy_momentum(&self) -> TokenStream {

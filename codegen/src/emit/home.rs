@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Path;
 
-use super::file::EmitError;
+use super::error::EmitError;
 use super::text::ident;
 
 /// The crate that emitted code is part of.

@@ -16,6 +16,7 @@ mod device_calls;
 mod device_items;
 mod device_parameters;
 mod device_results;
+mod error;
 mod factor;
 mod file;
 mod functions;
@@ -29,7 +30,8 @@ mod text;
 
 pub use alone::{Alone, alone, alone_records};
 pub use body::{Counts, FunctionBody};
-pub use file::{EmitError, Emitted, EmittedFile, of_kind};
+pub use error::EmitError;
+pub use file::{Emitted, EmittedFile, of_kind};
 pub use functions::{Functions, functions};
 pub use home::Home;
 pub use shared::{every_kind, files, shared};

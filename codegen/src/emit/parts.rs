@@ -4,7 +4,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::body::{FunctionBody, Writer};
-use super::file::EmitError;
+use super::error::EmitError;
 use super::functions::{Functions, functions};
 use super::inputs::{self, Stated};
 use super::prepare::Prepared;

@@ -4,7 +4,8 @@
 
 use tera::Context;
 
-use super::file::{EmitError, Emitted, EmittedFile, of_kind, record_text, rust_file, templates};
+use super::error::EmitError;
+use super::file::{Emitted, EmittedFile, of_kind, record_text, rust_file, templates};
 use super::home::Home;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;

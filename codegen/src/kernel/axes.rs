@@ -3,9 +3,10 @@
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::axes::axes;
 use crate::derivation::by_body::bodies;
-use crate::derivation::chain::{Chain, XYZ};
+use crate::derivation::chain::Chain;
 use crate::derivation::script::Script;
 use crate::kinds::Kind;
+use crate::space::XYZ;
 
 /// Axes and origin of every body.
 #[must_use]

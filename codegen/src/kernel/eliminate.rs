@@ -1,6 +1,7 @@
 //! The kernel `eliminate`: the hot path.
 
-use super::{Claim, Kernel, Record, inputs, records};
+use super::function::inputs;
+use super::{Claim, Kernel, Record, records};
 use crate::derivation::aboard::aboard;
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};

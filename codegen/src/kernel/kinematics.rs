@@ -4,7 +4,8 @@
 //! velocity and inertia along the body's own. Second derivatives are returned as what the
 //! second-order states multiply and the remainder.
 
-use super::{Claim, Kernel, Record, inputs};
+use super::function::inputs;
+use super::{Claim, Kernel, Record};
 use crate::derivation::by_body::{BodyInHub, bodies};
 use crate::derivation::chain::Chain;
 use crate::derivation::composite;

@@ -1,6 +1,7 @@
 //! The kernel `loads`: inverse dynamics.
 
-use super::{Claim, Kernel, Record, inputs, records};
+use super::function::inputs;
+use super::{Claim, Kernel, Record, records};
 use crate::derivation::by_body::exerted;
 use crate::derivation::chain::Chain;
 use crate::derivation::loads::loads;

@@ -1,7 +1,8 @@
 //! The kernel `energy_momentum`.
 
 use super::eliminate::claims;
-use super::{Kernel, inputs, records};
+use super::function::inputs;
+use super::{Kernel, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::heading::Heading;
 use crate::derivation::motion::Observer;

@@ -9,17 +9,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::Row;
-use super::factors;
 use super::laws::Laws;
 use super::modes::divisor;
-use super::mounted;
-use super::potential;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
-use super::stages;
 use super::unknowns::{Unknowns, moving};
+use super::{Row, factors, mounted, potential, stages};
+use crate::derivation::assumed::mount_entry;
 use crate::derivation::by_body;
-use crate::derivation::chain::{Chain, mount_entry};
+use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters_of};
 use crate::normal::Ring;

@@ -9,7 +9,8 @@ use rustc_hash::FxHashMap;
 
 use super::Row;
 use super::pages::frame_of;
-use crate::derivation::chain::{Chain, XYZ, mount_entry};
+use crate::derivation::assumed::mount_entry;
+use crate::derivation::chain::Chain;
 use crate::derivation::elimination::is_of_elimination;
 use crate::derivation::heading::Heading;
 use crate::derivation::script::Statement;
@@ -19,6 +20,7 @@ use crate::normal::Ring;
 use crate::page::{
     Block, Equation, Kind, Page, PageError, ReadError, Reader, Value, in_the_case, read_on,
 };
+use crate::space::XYZ;
 
 /// The kernels whose statements the pages derive.
 const KERNELS: [&str; 3] = ["constant_share", "eliminate", "back_substitute"];

@@ -11,11 +11,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Row;
 use super::read_back::{EmittedError, Reading, function, read};
-use crate::derivation::chain::{Chain, XYZ, mount_entry};
+use crate::derivation::assumed::mount_entry;
+use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Node, Stage, SymbolId};
 use crate::kernel::{Kernel, parameters_of};
 use crate::normal::Ring;
-use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector};
+use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector, XYZ};
 
 /// Vectors expressed in B that statements read or make.
 fn vectors(chain: &Chain<'_>) -> Vec<String> {

@@ -6,13 +6,13 @@
 use super::Row;
 use super::laws::labelled;
 use crate::derivation::by_body::{acting, bodies, field};
-use crate::derivation::chain::{Chain, XYZ};
+use crate::derivation::chain::Chain;
 use crate::derivation::gravity::gradient;
 use crate::derivation::wrench::Wrench;
 use crate::graph::Expr;
 use crate::kinds::Link;
 use crate::normal::Ring;
-use crate::space::{ENTRIES, Hub, Own, Symmetric, Vector};
+use crate::space::{ENTRIES, Hub, Own, Symmetric, Vector, XYZ};
 
 /// One row for each joint, and two for the hub: the force is G times the first moment, and the
 /// moment about B is what turns S.

@@ -6,4 +6,4 @@ mod vector;
 
 pub use frame::{Axis, Carrier, Frame, Hub, Own, Turn};
 pub use tensor::{ENTRIES, Symmetric};
-pub use vector::Vector;
+pub use vector::{Vector, XYZ};

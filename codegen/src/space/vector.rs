@@ -6,6 +6,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::frame::{Axis, Carrier, Frame, Hub, Own, Turn};
 use crate::graph::{Expr, Graph, Stage};
 
+/// Suffixes of three components.
+pub const XYZ: [&str; 3] = ["x", "y", "z"];
+
 /// A vector resolved along the axes of `F`. Vectors of two frames do not mix.
 pub struct Vector<'g, F> {
     components: [Expr<'g>; 3],

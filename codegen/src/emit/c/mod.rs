@@ -12,7 +12,8 @@ pub use declaration::{function, tag};
 use serde::Serialize;
 use tera::{Context, Tera};
 
-use super::file::{EmitError, EmittedFile, describe, symmetric};
+use super::error::EmitError;
+use super::file::{EmittedFile, describe, symmetric};
 use super::parts::{Part, parts};
 use super::text::{capital, fnv1a64};
 use crate::derivation::chain::Chain;
