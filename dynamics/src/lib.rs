@@ -107,7 +107,6 @@ pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
 pub use isolation::parameters::Platform;
-pub use isolation::set::Isolated;
 pub use isolation::suspension::{Coupled, Strut, Suspension};
 pub use model::joint_array::{JointArray, MAX_JOINTS};
 pub use model::kind::{self, ImbalanceModel};
@@ -126,6 +125,7 @@ pub use results::momentum::{About, CentreOfMass, EnergyAndMomentum, Momentum};
 pub use sets::built_in::{BuiltIn, BuiltInKind};
 pub use sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 pub use sets::devices::{DeviceSet, Devices, FixedSet};
+pub use sets::isolated::Isolated;
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;
 pub use solve::state::{Accelerations, State};
@@ -143,13 +143,14 @@ pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
     pub use crate::flexible::on_mount::OnMount;
-    pub use crate::isolation::set::{Carrier, PreparedIsolated};
+    pub use crate::isolation::carrier::Carrier;
     pub use crate::sets::bundle::{Bundle, Given, Maybe, Part, Shared, Unique};
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
     pub use crate::sets::held::{Held, HeldMut};
+    pub use crate::sets::isolated::PreparedIsolated;
     pub use crate::sets::per_device::{
         Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,
     };

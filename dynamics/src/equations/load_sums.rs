@@ -1,7 +1,7 @@
 //! What the loads of the devices add up to for the hub and the ledger, and the axes they are
 //! expressed in.
 
-use crate::isolation::suspension::Forces;
+use crate::equations::suspension_forces::Forces;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;

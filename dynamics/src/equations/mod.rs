@@ -27,4 +27,5 @@ pub(crate) mod pivot_bound;
 #[cfg(feature = "lanes")]
 pub(crate) mod sines;
 pub(crate) mod stiffness;
+pub(crate) mod suspension_forces;
 pub(crate) mod system;

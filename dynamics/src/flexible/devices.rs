@@ -13,11 +13,11 @@ use crate::equations::system::Solution;
 use crate::flexible::modes_error::ModesError;
 use crate::flexible::mount::MountMotion;
 use crate::flexible::on_mount::OnMount;
-use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{ConstantShares, DeviceSet, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::solve::elimination::{BackSubstitution, Elimination};
 

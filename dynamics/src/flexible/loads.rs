@@ -23,7 +23,6 @@ use crate::flexible::on_mount::OnMount;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
 use crate::flexible::storage::ModalStorage;
-use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};
@@ -36,6 +35,7 @@ use crate::results::loads::{LoadAxes, Loads, Weighing as OnBase};
 use crate::results::momentum::FirstMoments;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 
 /// The loads of a [`FlexibleSpacecraft`].

@@ -15,7 +15,6 @@ use crate::flexible::on_mount::OnMount;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::FlexibleState;
 use crate::flexible::storage::ModalStorage;
-use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{
@@ -29,6 +28,7 @@ use crate::results::momentum::{
 use crate::sets::bundle::{Bundle, Shared};
 use crate::sets::counts::check_counts;
 use crate::sets::devices::{DeviceSet, Devices, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
 use crate::solve::finite::reject;
 

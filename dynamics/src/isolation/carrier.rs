@@ -2,6 +2,7 @@
 //! then its joints, by their modes, into those of its base.
 
 use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
 use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
@@ -12,13 +13,24 @@ use crate::isolation::kernels::moved_second_moment;
 use crate::isolation::motion::{Motion, Pose};
 use crate::isolation::parameters::Platform;
 use crate::isolation::records::{Joints, PerJoint, at_rest};
-use crate::isolation::set::Carrier;
+use crate::isolation::suspension::Suspension;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::numbers::each::{Each, JointStates, filled};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::zeros;
+
+/// A platform, precomputed.
+#[derive(Clone, Copy, Debug)]
+pub struct Carrier<T: Scalar> {
+    pub(crate) device: Device<Platform<T>>,
+    pub(crate) suspension: Suspension<T>,
+    /// The platform with the constant shares of what it carries, about P, platform axes.
+    pub(crate) body: HubConstants<T>,
+    /// Of what it carries, the mass, kg.
+    pub(crate) carried_mass: T,
+}
 
 /// A platform whose carried devices are to be eliminated.
 pub(crate) struct Carrying<'a, T: Scalar> {

@@ -1,7 +1,8 @@
 //! Checks of a [`Suspension`]: finite numbers, matrices that are symmetric and positive
 //! semidefinite, struts with a length and a direction.
 
-use crate::isolation::suspension::{Six, Strut, Suspension};
+use crate::equations::suspension_forces::Six;
+use crate::isolation::suspension::{Strut, Suspension};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{components, dot};
 use crate::validation::check::{finite, rounding};

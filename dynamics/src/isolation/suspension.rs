@@ -14,6 +14,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use crate::equations::suspension_forces::{Forces, Six};
 use crate::isolation::motion::Pose;
 use crate::isolation::records::Joints;
 use crate::numbers::real::{Scalar, half, one, two, zero};
@@ -75,30 +76,12 @@ impl<T: Scalar> Suspension<T> {
     }
 }
 
-/// A number for each joint, in order.
-pub(crate) type Six<T> = [T; 6];
-
-/// Forces of a suspension on the joints, and its energy.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Forces<T> {
-    pub(crate) springs: Six<T>,
-    pub(crate) dampers: Six<T>,
-    /// V, J.
-    pub(crate) potential: T,
-}
-
 /// A strut as it is with the platform in some pose.
 struct Stretched<T> {
     /// `∂l/∂q`.
     slope: Six<T>,
     /// `l - l_0`.
     stretch: T,
-}
-
-impl<T: Scalar> Forces<T> {
-    fn none() -> Self {
-        Self { springs: [zero(); 6], dampers: [zero(); 6], potential: zero() }
-    }
 }
 
 /// `a . b`, in order.

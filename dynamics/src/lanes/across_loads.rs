@@ -4,9 +4,9 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::constants::DeviceBlocks;
-use super::loads::{OnBodies, Summed, put_wrenches, wrenches_in_lanes};
+use super::loads::{OnBodies, Summed, wrenches_in_lanes};
 use super::passive::with_own;
-use super::slot::NO_WRENCH;
+use super::slot::{NO_WRENCH, put_wrenches};
 use crate::equations::assembly::Assembly;
 use crate::equations::gravity::Central;
 use crate::equations::stiffness::Stiffness;

@@ -23,7 +23,7 @@ use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::model::wrench::Wrench;
-use crate::numbers::each::{Each, JointStates};
+use crate::numbers::each::JointStates;
 use crate::numbers::laned::{Block, Number, Work};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, dot, rotate, scale};
@@ -149,23 +149,6 @@ pub(super) fn wrenches_in_lanes<K: Kernels, T: Number>(
         #[inline(always)]
         |wrench, _| wrench.zip(&wrench, |block, _| like.load(&block)),
     )
-}
-
-/// Puts wrenches on bodies into one lane, in place.
-#[inline(always)]
-pub(super) fn put_wrenches<K: Kernels>(
-    blocks: &mut K::PerJoint<Wrench<Block>>,
-    lane: usize,
-    wrenches: &K::PerJoint<Wrench<f64>>,
-) {
-    for (blocks, wrench) in blocks.values_mut().zip(wrenches.values()) {
-        blocks.force.x.put(lane, wrench.force.x);
-        blocks.force.y.put(lane, wrench.force.y);
-        blocks.force.z.put(lane, wrench.force.z);
-        blocks.moment.x.put(lane, wrench.moment.x);
-        blocks.moment.y.put(lane, wrench.moment.y);
-        blocks.moment.z.put(lane, wrench.moment.z);
-    }
 }
 
 /// A central field at the hub: what it adds to the field at B, and the lanes where its powers are

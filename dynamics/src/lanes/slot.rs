@@ -12,7 +12,6 @@ use nalgebra::Vector3;
 use super::constants::{DeviceBlocks, EachConstants};
 use super::gather::joints_in_lanes;
 use super::laned_set::LanedSet;
-use super::loads::put_wrenches;
 use super::states::States;
 use crate::equations::device::Device;
 use crate::model::kernels::Kernels;
@@ -364,5 +363,22 @@ impl<T: Number> EachSlot<T> for Leave {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());
+    }
+}
+
+/// Puts wrenches on bodies into one lane, in place.
+#[inline(always)]
+pub(super) fn put_wrenches<K: Kernels>(
+    blocks: &mut K::PerJoint<Wrench<Block>>,
+    lane: usize,
+    wrenches: &K::PerJoint<Wrench<f64>>,
+) {
+    for (blocks, wrench) in blocks.values_mut().zip(wrenches.values()) {
+        blocks.force.x.put(lane, wrench.force.x);
+        blocks.force.y.put(lane, wrench.force.y);
+        blocks.force.z.put(lane, wrench.force.z);
+        blocks.moment.x.put(lane, wrench.moment.x);
+        blocks.moment.y.put(lane, wrench.moment.y);
+        blocks.moment.z.put(lane, wrench.moment.z);
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! Evaluated only where they are called for; a step does not pass here.
 
+pub(crate) mod carried_loads;
 pub(crate) mod ledger;
 pub(crate) mod loads;
 pub(crate) mod momentum;

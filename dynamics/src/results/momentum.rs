@@ -11,7 +11,6 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::BodySums;
-use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{
@@ -21,6 +20,7 @@ use crate::numbers::vec3::{
 use crate::sets::bundle::Shared;
 use crate::sets::counts::check_counts;
 use crate::sets::devices::{DeviceSet, Devices, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
 use crate::solve::finite::{not_finite_in_vector, reject};
 use crate::solve::spacecraft::Spacecraft;

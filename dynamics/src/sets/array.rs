@@ -1,13 +1,8 @@
 //! Members in a row: arrays and, with the feature `alloc`, vectors.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
-
 use crate::model::kind::JointInfo;
 use crate::sets::bundle::{Bundle, Part};
-use crate::sets::devices::{DeviceSet, FixedSet, List, Visit};
+use crate::sets::devices::{DeviceSet, FixedSet, List, Visit, compare};
 use crate::sets::per_device::PerDevice;
 use crate::validation::parameter_error::ParameterError;
 
@@ -95,22 +90,6 @@ macro_rules! row {
             }
         }
     };
-}
-
-/// Tells a visitor of how many members the data are.
-#[inline(always)]
-pub(crate) fn compare<W: DeviceSet, B: Bundle<W::Scalar>, V: Visit<W::Scalar, B>>(
-    expected: usize,
-    data: &B::Of<'_, W>,
-    visitor: &mut V,
-) -> Result<(), V::Error> {
-    let mut compared = Ok(());
-    B::counts::<W>(data, &mut |found| {
-        if compared.is_ok() {
-            compared = visitor.compare(expected, found);
-        }
-    });
-    compared
 }
 
 row!(array, array_of, _data => None, N);

@@ -11,7 +11,7 @@ use core::fmt::Debug;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
-use crate::isolation::set::{Carrier, Isolated, PreparedIsolated, only_mass};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -20,6 +20,7 @@ use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::Bundle;
 use crate::sets::enumeration::{DeviceEnum, Visited};
+use crate::sets::isolated::{Isolated, PreparedIsolated, only_mass};
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, PerDevice, PerJoint};
 use crate::validation::parameter_error::ParameterError;
 
@@ -267,6 +268,23 @@ impl<T: Scalar> List<T> for AreLumped {
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = bool> {
         core::iter::once(device.lumped.is_some())
     }
+}
+
+/// Tells a visitor of how many members the data are.
+#[expect(clippy::inline_always, reason = "part of a visit, which is inlined into its operation")]
+#[inline(always)]
+pub(crate) fn compare<W: DeviceSet, B: Bundle<W::Scalar>, V: Visit<W::Scalar, B>>(
+    expected: usize,
+    data: &B::Of<'_, W>,
+    visitor: &mut V,
+) -> Result<(), V::Error> {
+    let mut compared = Ok(());
+    B::counts::<W>(data, &mut |found| {
+        if compared.is_ok() {
+            compared = visitor.compare(expected, found);
+        }
+    });
+    compared
 }
 
 /// Writes the modes that the kinds give their joints: a result would be moved.

@@ -7,9 +7,8 @@
 use crate::equations::device::Device;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::Kind;
-use crate::sets::array::compare;
 use crate::sets::bundle::Bundle;
-use crate::sets::devices::{DeviceSet, List, Visit};
+use crate::sets::devices::{DeviceSet, List, Visit, compare};
 use crate::sets::held::{Held, HeldMut};
 use crate::sets::per_device::PerDevice;
 

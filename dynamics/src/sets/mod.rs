@@ -15,6 +15,8 @@ pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
 pub(crate) mod held;
+pub(crate) mod isolated;
+mod isolated_numbers;
 pub(crate) mod one;
 pub(crate) mod optional;
 pub(crate) mod per_device;

@@ -8,9 +8,8 @@
 )]
 
 use crate::numbers::each::{Each, JointStates, Value};
-use crate::sets::array::compare;
 use crate::sets::bundle::{Bundle, Part};
-use crate::sets::devices::{DeviceSet, List, Visit};
+use crate::sets::devices::{DeviceSet, List, Visit, compare};
 use crate::sets::per_device::PerDevice;
 use crate::validation::parameter_error::ParameterError;
 

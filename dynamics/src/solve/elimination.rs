@@ -17,13 +17,13 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::generated::hub::BodyAcceleration;
 use crate::isolation::carrier::Carrying;
-use crate::isolation::set::{Isolated, PreparedIsolated, parts};
 use crate::model::kind::Kind;
 use crate::numbers::each::Each;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::counts::compare_counts;
 use crate::sets::devices::{DeviceSet, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated, parts};
 use crate::sets::per_device as data;
 
 /// State and inputs of the joints, and the gains that come of them.

@@ -8,13 +8,13 @@ use crate::isolation::kernels::moved_second_moment;
 use crate::isolation::motion::{Motion, transposed};
 use crate::isolation::parameters::Platform;
 use crate::isolation::records::{JointAccelerations, Joints};
-use crate::isolation::set::PreparedIsolated;
 use crate::model::kernels::Kernels;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{Vec3, cross, dot, map, rotate_transposed, scale, sub};
 use crate::results::momentum::first_moments;
 use crate::sets::devices::DeviceSet;
+use crate::sets::isolated::PreparedIsolated;
 use crate::sets::per_device as data;
 
 /// A platform as the base of the devices that it carries, for known accelerations.

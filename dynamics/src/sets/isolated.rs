@@ -4,10 +4,9 @@
 //! carries. An operation that needs the motion of a device's base enters the platform's frame in
 //! [`Visit::visit_isolated`]; all others visit the members in order.
 
-use crate::equations::device::Device;
-use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
+use crate::isolation::carrier::Carrier;
 use crate::isolation::checks::check_suspension;
 use crate::isolation::parameters::Platform;
 use crate::isolation::records::Data;
@@ -37,17 +36,6 @@ pub struct Isolated<D: DeviceSet> {
     pub suspension: Suspension<D::Scalar>,
     /// The devices on it.
     pub carried: D,
-}
-
-/// A platform, precomputed.
-#[derive(Clone, Copy, Debug)]
-pub struct Carrier<T: Scalar> {
-    pub(crate) device: Device<Platform<T>>,
-    pub(crate) suspension: Suspension<T>,
-    /// The platform with the constant shares of what it carries, about P, platform axes.
-    pub(crate) body: HubConstants<T>,
-    /// Of what it carries, the mass, kg.
-    pub(crate) carried_mass: T,
 }
 
 /// [`Isolated`], precomputed.

@@ -1,10 +1,11 @@
 //! [`WithNumbers`] of an isolated set: platform and suspension in other numbers, then what is carried.
 
+use crate::isolation::carrier::Carrier;
 use crate::isolation::parameters::Platform;
-use crate::isolation::set::{Carrier, Isolated, PreparedIsolated};
 use crate::isolation::suspension::{Coupled, Strut, Suspension};
 use crate::numbers::real::Scalar;
 use crate::sets::devices::DeviceSet;
+use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::with_numbers::{Change, WithNumbers};
 
 impl<T: Scalar> Suspension<T> {
