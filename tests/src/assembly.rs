@@ -27,7 +27,7 @@ use nalgebra::Vector3;
 use precess_dynamics::dgvscmg::Joints;
 use precess_dynamics::{Accelerations, Hub, Scalar, State};
 
-use crate::case::{Case, Set};
+use crate::case::{Case, REGULAR, Set};
 use crate::newton_euler::equations::System;
 use crate::newton_euler::vector::{Tensor, Vector};
 use crate::newton_euler::{elimination, from_list};
@@ -149,6 +149,24 @@ impl<T: Scalar> Device<T> {
         let positions = Positions::new(&known);
         let inertias = Inertias::new(&known, &positions);
         Self { known, positions, inertias }
+    }
+}
+
+impl<const N: usize, T: Scalar> Case<N, T> {
+    /// The system of the paper's own assembly.
+    #[must_use]
+    pub fn assembly(&self) -> System<T> {
+        system(self)
+    }
+
+    /// The accelerations by the paper's own assembly.
+    ///
+    /// # Panics
+    ///
+    /// If its matrix is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn assembled(&self) -> Accelerations<Set<N, T>> {
+        accelerations(self).expect(REGULAR)
     }
 }
 

@@ -6,13 +6,10 @@ use core::fmt::Display;
 
 use precess_dynamics::{Accelerations, Dgvscmg, Hub, Inputs, Scalar, Spacecraft, State};
 
-use crate::newton_euler::equations::System;
-use crate::newton_euler::{self, Snapshot};
-use crate::{assembly, spatial};
-
 pub use conversion::converted;
 
-const REGULAR: &str = "the mass matrix of a spacecraft with massive bodies is regular";
+/// Why references have a result.
+pub(crate) const REGULAR: &str = "the mass matrix of a spacecraft with massive bodies is regular";
 
 /// The set of devices that the references know: `N` of the paper's.
 pub type Set<const N: usize, T = f64> = [Dgvscmg<T>; N];
@@ -60,54 +57,5 @@ impl<const N: usize, T: Scalar> Case<N, T> {
         self.spacecraft(&whose)
             .accelerations(&self.state, &self.inputs)
             .unwrap_or_else(|error| panic!("{whose}: {error}"))
-    }
-
-    /// All bodies placed, for the reference.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot<T> {
-        Snapshot::new(&self.hub, &self.devices, &self.state, &self.inputs)
-    }
-
-    /// The reference's system of equations.
-    #[must_use]
-    pub fn system(&self) -> System<T> {
-        System::new(&self.snapshot())
-    }
-
-    /// The system of the paper's own assembly.
-    #[must_use]
-    pub fn assembly(&self) -> System<T> {
-        assembly::system(self)
-    }
-
-    /// The accelerations by the paper's own assembly.
-    ///
-    /// # Panics
-    ///
-    /// If its matrix is singular: no spacecraft of these suites is.
-    #[must_use]
-    pub fn assembled(&self) -> Accelerations<Set<N, T>> {
-        assembly::accelerations(self).expect(REGULAR)
-    }
-
-    /// The accelerations by recursion over articulated bodies.
-    ///
-    /// # Panics
-    ///
-    /// If the hub's articulated inertia is singular: no spacecraft of these suites is.
-    #[must_use]
-    pub fn recursive(&self) -> Accelerations<Set<N, T>> {
-        spatial::accelerations(self).expect(REGULAR)
-    }
-
-    /// The reference's accelerations.
-    ///
-    /// # Panics
-    ///
-    /// If the reference's matrix is singular: no spacecraft of these suites is.
-    #[must_use]
-    pub fn reference(&self) -> Accelerations<Set<N, T>> {
-        newton_euler::accelerations(&self.hub, &self.devices, &self.state, &self.inputs)
-            .expect(REGULAR)
     }
 }

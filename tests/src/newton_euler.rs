@@ -25,7 +25,7 @@ use nalgebra::Vector3;
 use precess_dynamics::dgvscmg::{JointAccelerations, MotorTorques};
 use precess_dynamics::{Accelerations, Hub, Inputs, Quaternion, Scalar, State};
 
-use crate::case::Set;
+use crate::case::{Case, REGULAR, Set};
 use affine::UNKNOWNS;
 use bodies::{Body, Device, hub_body};
 use equations::System;
@@ -145,4 +145,28 @@ fn direction_cosines<T: Scalar>(attitude: &Quaternion<T>) -> Tensor<T> {
             (diagonal + two * (q.0[i] * q.0[k] - q0 * turning.0[i][k])) * share
         })
     }))
+}
+
+impl<const N: usize, T: Scalar> Case<N, T> {
+    /// All bodies placed, for the reference.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot<T> {
+        Snapshot::new(&self.hub, &self.devices, &self.state, &self.inputs)
+    }
+
+    /// The reference's system of equations.
+    #[must_use]
+    pub fn system(&self) -> System<T> {
+        System::new(&self.snapshot())
+    }
+
+    /// The reference's accelerations.
+    ///
+    /// # Panics
+    ///
+    /// If the reference's matrix is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn reference(&self) -> Accelerations<Set<N, T>> {
+        accelerations(&self.hub, &self.devices, &self.state, &self.inputs).expect(REGULAR)
+    }
 }

@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 use precess_dynamics::dgvscmg::JointAccelerations;
 use precess_dynamics::{Accelerations, Scalar};
 
-use crate::case::{Case, Set};
+use crate::case::{Case, REGULAR, Set};
 use crate::newton_euler::elimination;
 use algebra::{Matrix, Spatial, force_cross};
 use articulated_body::Articulated;
@@ -70,6 +70,18 @@ fn solve<T: Scalar>(inertia: Matrix<T>, force: Spatial<T>) -> Option<Spatial<T>>
 
 fn components<T: Scalar>(v: &Vector3<T>) -> [T; 3] {
     [v.x, v.y, v.z]
+}
+
+impl<const N: usize, T: Scalar> Case<N, T> {
+    /// The accelerations by recursion over articulated bodies.
+    ///
+    /// # Panics
+    ///
+    /// If the hub's articulated inertia is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn recursive(&self) -> Accelerations<Set<N, T>> {
+        accelerations(self).expect(REGULAR)
+    }
 }
 
 #[cfg(test)]
