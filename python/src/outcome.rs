@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyReadonlyArray1;
-use precess::engine::{Drift, End, Event, Outcome, RunError, Steps};
-use precess::record::{Columns, Csv, Header, Npz, Recorder, Verdict, replay};
+use precess::record::{Columns, Csv, Drift, End, Event, Header, Npz, Outcome, Recorder, RunError, Steps, Verdict, replay};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -66,3 +66,4 @@ pub mod spectra;
 pub mod structure;
 pub mod tables;
 pub mod units;
+pub mod variation;

@@ -12,9 +12,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use precess::engine::{End, Outcome, run};
+use precess::engine::run;
 use precess::file::from_file;
-use precess::record::Samples;
+use precess::record::{End, Outcome, Samples};
 use precess::scenario::Scenario;
 
 /// A scenario and its run.

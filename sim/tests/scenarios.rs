@@ -4,9 +4,9 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use precess::engine::{End, Outcome, RunError, run};
+use precess::engine::run;
 use precess::file::{from_file, from_toml, to_toml};
-use precess::record::{Columns, Many, Statistics};
+use precess::record::{Columns, End, Many, Outcome, RunError, Statistics};
 use precess::scenario::{IntegratorChoice, Scenario};
 use precess_dynamics::{BuiltInKind, SolveError};
 

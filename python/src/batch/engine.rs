@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use precess::engine::RunError;
+use precess::record::RunError;
 use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
 use precess::scenario::Scenario;
 use precess_dynamics::{BuiltIn, Each as _, Hub, ParameterError, SolveError};

@@ -1,6 +1,7 @@
 //! [`Axis`]: a key of the scenario and the values that it takes, from `KEY=600..6000 rpm:181`.
 
 use super::{CampaignError, SAMPLES_MAX};
+use crate::file::is_key;
 use crate::spectra::float;
 use crate::units::{Dimension, parse_quantity};
 
@@ -30,13 +31,6 @@ pub enum Spacing {
     Logarithmic,
     /// Listed.
     Listed,
-}
-
-/// Whether a text can be the key of an override, with the signs that stand for several keys or a component.
-#[must_use]
-pub fn is_key(text: &str) -> bool {
-    let letter = |c: char| c.is_alphanumeric() || "_-.+*[]".contains(c);
-    !text.is_empty() && text.chars().all(letter)
 }
 
 impl Axis {

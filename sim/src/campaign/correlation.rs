@@ -11,20 +11,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::distribution::normal_score;
-use super::{CampaignError, Distribution, Variation};
+use super::CampaignError;
+use crate::variation::{Correlation, Distribution, Variation, normal_score};
 
 /// A pivot that is not above this is no pivot: numbers are stated with some digits, and a smaller one has no meaning.
 const PIVOT_MIN: f64 = 1e-9;
-
-/// A correlation with another variation.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Correlation {
-    /// The key of the other one.
-    pub key: String,
-    /// Of the normal scores: above -1, below 1.
-    pub coefficient: f64,
-}
 
 /// Some variations that are correlated, and the factor of their matrix.
 #[derive(Clone, Debug)]

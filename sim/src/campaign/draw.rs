@@ -12,8 +12,9 @@ use sha2::{Digest as _, Sha256};
 
 use super::axis::set;
 use super::correlation::Copula;
-use super::{CampaignError, Plan, SAMPLES_MAX, Sample, Variation};
+use super::{CampaignError, Plan, SAMPLES_MAX, Sample};
 use crate::spectra::float;
+use crate::variation::Variation;
 
 /// A uniform number between zero and one, ends left out.
 fn uniform(seed: u64, sample: usize, key: &str) -> f64 {
@@ -183,7 +184,8 @@ fn check(variations: &[Variation], samples: usize) -> Result<(), CampaignError> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::{Correlation, Distribution, spearman};
+    use crate::campaign::spearman;
+    use crate::variation::{Correlation, Distribution};
 
     const COUNT: usize = 20_000;
     /// Standard errors that a moment of a fixed seed may be off by: exceeded once in 16000 seeds.

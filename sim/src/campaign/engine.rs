@@ -9,10 +9,10 @@ use std::thread;
 
 use super::journal::kept;
 use super::{CampaignError, Journal, Plan, Reducer, Selection};
-use crate::engine::{End, Keep, Outcome, RunError, SIDE_BY_SIDE, run_side_by_side};
+use crate::engine::{Keep, SIDE_BY_SIDE, run_side_by_side};
 use crate::file::{Override, Template};
 use crate::record::columns::Quantity;
-use crate::record::{Columns, Recorder};
+use crate::record::{Columns, End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 
 /// A finished sample.

@@ -8,9 +8,8 @@
 //! | `journal` | [`Journal`]: a checksummed record of each finished sample, for a campaign that is killed |
 //! | `engine` | [`execute`]: the samples that are missing, on any number of threads; [`run_reduced`]: some of them |
 //! | `table` | the rows as CSV and NPZ |
-//! | `distribution` | [`Variation`]: a key and its distribution |
 //! | `draw` | [`draw`]: seeded samples |
-//! | `correlation` | [`Correlation`] of two variations: a Gaussian copula |
+//! | `correlation` | variations that are correlated: a Gaussian copula |
 //! | `inference` | [`percentile`], [`probability`], [`spearman`] |
 //! | `sensitivity` | derivatives by central differences; a plane through a sample |
 //! | `tangent` | exact derivatives: the run over dual numbers |
@@ -21,7 +20,6 @@
 
 mod axis;
 mod correlation;
-mod distribution;
 mod draw;
 mod engine;
 mod error;
@@ -34,9 +32,7 @@ mod sensitivity;
 pub mod table;
 mod tangent;
 
-pub use axis::{Axis, Spacing, is_key};
-pub use correlation::Correlation;
-pub use distribution::{Distribution, Variation};
+pub use axis::{Axis, Spacing};
 pub use draw::draw;
 pub use engine::{Execution, Finished, Row, execute, run_reduced};
 pub use error::CampaignError;

@@ -4,8 +4,7 @@
 
 use std::collections::VecDeque;
 
-use crate::engine::Outcome;
-use crate::record::{Header, RecordError, Recorder, Statistics};
+use crate::record::{Header, Outcome, RecordError, Recorder, Statistics};
 use crate::scenario::{Requirement, Scenario};
 use crate::spectra::{AmplitudeSpectrum, Detrend, WelchSettings, Window, amplitude_spectrum};
 

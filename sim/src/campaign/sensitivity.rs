@@ -4,8 +4,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::axis::set;
-use super::{Plan, Sample, Variation};
+use super::{Plan, Sample};
 use crate::spectra::float;
+use crate::variation::Variation;
 
 /// Steps to either side, of a standard deviation: small against it, and large against what a run's tolerance leaves.
 const STEP: f64 = 0.05;

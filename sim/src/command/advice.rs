@@ -20,10 +20,9 @@ use std::fmt;
 use precess_dynamics::{Gravity, JointStates as _};
 
 use super::table::six;
-use crate::file::read::joint_key;
 use crate::file::{Diagnostic, Severity};
 use crate::scenario::mass::MassProperties;
-use crate::scenario::{IntegratorChoice, Scenario};
+use crate::scenario::{IntegratorChoice, Scenario, joint_key};
 
 /// Fewer, and a figure shows another frequency than the wheel's.
 const SAMPLES_PER_TURN_MIN: f64 = 2.0;

@@ -11,8 +11,9 @@ use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::Set;
 use super::outputs::Outputs;
-use super::{Set, note, print};
+use super::terminal::{note, print};
 use crate::file::from_file;
 
 /// The program that derives, beside this one or on the path.

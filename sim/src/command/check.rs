@@ -6,15 +6,17 @@ use std::fmt::Write as _;
 use clap::Args;
 use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, units};
 
+use super::error::CommandError;
 use super::exit::Exit;
+use super::options::{Files, Form};
 use super::table::{aligned, six};
-use super::{CommandError, Files, Form, advice, note, print, sources};
+use super::terminal::{note, print};
+use super::{advice, sources};
 use crate::engine::device_of;
 use crate::evaluation::Evaluator;
 use crate::file::from_file;
-use crate::file::read::joint_key;
-use crate::scenario::Scenario;
 use crate::scenario::mass::{JointInertia, MassMatrix, MassProperties, imbalance};
+use crate::scenario::{Scenario, joint_key};
 
 /// The options of `check`.
 #[derive(Debug, Args)]

@@ -3,9 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::engine::RunError;
 use crate::file::Diagnostics;
-use crate::record::RecordError;
+use crate::record::{RecordError, RunError};
 
 /// What ends a command early.
 #[derive(Debug)]

@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::{Form, Set};
 use super::table::{aligned, six};
-use super::{Form, Set, print};
+use super::terminal::print;
 use crate::engine::run;
 use crate::file::from_file;
 use crate::record::{Columns, Samples};

@@ -13,8 +13,9 @@ use precess_dynamics::{Coupled, MAX_JOINTS, Passive, Strut, Suspension};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::Set;
 use super::outputs::{Outputs, name_of};
-use super::{Set, print};
+use super::terminal::print;
 use crate::file::from_file;
 use crate::scenario::{Scenario, members};
 

@@ -12,8 +12,8 @@ use indicatif::ProgressBar;
 use super::error::CommandError;
 use super::exit::Exit;
 use super::outputs::Outputs;
-use super::print;
 use super::table::{aligned, six};
+use super::terminal::print;
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
 use crate::fit::{

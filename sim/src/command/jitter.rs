@@ -9,10 +9,11 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::{Threads, as_toml};
 use super::outputs::Outputs;
-use super::run::progress_bar;
+use super::progress::progress_bar;
 use super::table::{aligned, six};
-use super::{Threads, as_toml, note, print};
+use super::terminal::{note, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};

@@ -6,10 +6,11 @@ use clap::Args;
 use precess_dynamics::kind::{JointInfo, Kind, ParameterInfo};
 use precess_dynamics::{BuiltInKind, Platform};
 
+use super::error::CommandError;
 use super::exit::Exit;
 use super::table::aligned_left;
-use super::{CommandError, print};
-use crate::file::read::{body_key, joint_key};
+use super::terminal::print;
+use crate::scenario::{body_key, joint_key};
 
 /// The options of `kinds`.
 #[derive(Debug, Args)]

@@ -15,10 +15,13 @@ mod fit;
 mod jitter;
 mod kinds;
 mod new;
+mod options;
 mod outputs;
 mod plot;
+mod progress;
 mod result;
 mod run;
+mod scenarios;
 mod schema;
 mod sources;
 mod spectrum;
@@ -27,15 +30,14 @@ mod table;
 mod terminal;
 
 use std::io::{ErrorKind, Write as _};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 pub use error::CommandError;
 
 use exit::Exit;
-use terminal::{note, notes_are_written, print};
+use terminal::{note, notes_are_written};
 
 use campaign::{montecarlo, sweep};
 
@@ -108,69 +110,6 @@ enum Command {
     Export(export::Export),
 }
 
-/// Scenario files and what replaces keys in them.
-#[derive(Debug, Args)]
-struct Files {
-    /// Scenario files.
-    #[arg(required = true, value_name = "FILE")]
-    files: Vec<PathBuf>,
-    #[command(flatten)]
-    overrides: Set,
-}
-
-/// What replaces keys of a scenario file.
-#[derive(Debug, Args)]
-struct Set {
-    /// Replace a key: hub.mass="900 kg", device.cmg1.wheel.rate="3000 rpm"; may be repeated. A
-    /// value that is no TOML is taken as text.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
-/// How many threads a command has.
-#[derive(Clone, Copy, Debug, Args)]
-struct Threads {
-    /// Threads; the result does not depend on them. All cores without this option.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-}
-
-impl Threads {
-    /// The number of threads.
-    fn count(self) -> usize {
-        self.threads.map_or_else(run::all_cores, usize::from)
-    }
-}
-
-/// How a command prints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Form {
-    /// For people.
-    #[default]
-    Text,
-    /// For programs.
-    Json,
-}
-
-impl Set {
-    /// The overrides as TOML: a shell takes the quotation marks off `hub.mass="900 kg"`.
-    fn overrides(&self) -> Vec<String> {
-        self.set.iter().map(|text| as_toml(text)).collect()
-    }
-}
-
-fn as_toml(text: &str) -> String {
-    let Some((key, value)) = text.split_once('=') else { return text.to_owned() };
-    let bare = value.trim();
-    let is_toml = bare.parse::<f64>().is_ok()
-        || matches!(bare, "true" | "false")
-        || bare.starts_with(['"', '\'', '[', '{']);
-    if is_toml {
-        return text.to_owned();
-    }
-    format!("{} = {}", key.trim(), toml::Value::String(bare.to_owned()))
-}
-
 impl Cli {
     /// Executes the command line of this process: prints help or what is wrong with it, or executes the command.
     #[must_use]
@@ -237,15 +176,6 @@ fn with_exit_codes(command: clap::Command) -> clap::Command {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_override_needs_no_quotation_marks_of_its_own() {
-        assert_eq!(as_toml("hub.mass=900 kg"), "hub.mass = \"900 kg\"");
-        assert_eq!(as_toml("hub.mass=\"900 kg\""), "hub.mass=\"900 kg\"");
-        assert_eq!(as_toml("run.tolerance=1e-9"), "run.tolerance=1e-9");
-        let table = "gravity={ central = \"1 m^3/s^2\" }";
-        assert_eq!(as_toml(table), table);
-    }
 
     #[test]
     fn every_command_is_declared_without_conflict() {

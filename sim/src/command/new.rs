@@ -8,8 +8,9 @@ use precess_dynamics::kind::JointInfo;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::print;
-use crate::file::read::{body_key, has_inertia, has_mass};
+use super::terminal::print;
+use crate::file::read::{has_inertia, has_mass};
+use crate::scenario::body_key;
 
 /// The options of `new`.
 #[derive(Debug, Args)]

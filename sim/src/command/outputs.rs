@@ -1,7 +1,7 @@
 //! [`Outputs`]: the files that a command writes. They are reserved for it, are not there or may be replaced, and none is
 //! one that it reads.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, BufRead as _, ErrorKind, IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -271,4 +271,16 @@ fn is_linked(a: &Path, b: &Path) -> bool {
 #[cfg(not(unix))]
 fn is_linked(_: &Path, _: &Path) -> bool {
     false
+}
+
+/// The names of the files in a folder that have an extension.
+pub(super) fn files(folder: &Path, extension: &str) -> Result<BTreeSet<String>, CommandError> {
+    let mut names = BTreeSet::new();
+    for entry in fs::read_dir(folder).map_err(failure(folder))? {
+        let name = entry.map_err(failure(folder))?.file_name();
+        if Path::new(&name).extension().is_some_and(|found| found == extension) {
+            names.insert(name.to_string_lossy().into_owned());
+        }
+    }
+    Ok(names)
 }

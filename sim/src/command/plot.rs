@@ -6,9 +6,11 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::outputs::Outputs;
-use super::run::{files, interrupted, read_all, watch_interrupts, with_progress};
-use super::{Files, note, print};
+use super::options::Files;
+use super::outputs::{Outputs, files};
+use super::progress::{interrupted, watch_interrupts, with_progress};
+use super::scenarios::read_all;
+use super::terminal::{note, print};
 use crate::record::Between;
 use crate::report::Report;
 use crate::scenario::Scenario;

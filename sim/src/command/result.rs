@@ -5,7 +5,7 @@ use std::io::{BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::error::CommandError;
-use super::note;
+use super::terminal::note;
 use crate::nearest::nearest;
 use crate::opened::open;
 use crate::record::extent::{Extent, comments};

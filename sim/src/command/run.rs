@@ -3,27 +3,22 @@
 //! Results are written while the run goes on, under the name with `.partial` at its end, and get
 //! their name when they are complete. The report is written last.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::advice::{self, advice};
 use super::error::CommandError;
-#[cfg(unix)]
-use super::exit::TERMINATED;
-use super::exit::{Exit, INTERRUPTED};
+use super::exit::Exit;
+use super::options::Files;
 use super::outputs::Outputs;
-use super::terminal::visible;
-use super::{Files, note, print};
-use crate::engine::{Outcome, run};
-use crate::file::{Diagnostics, from_file};
+use super::progress::{interrupted, watch_interrupts, with_progress};
+use super::scenarios::read_all;
+use super::terminal::{note, print};
+use crate::file::Diagnostics;
 use crate::record::partial::Reservation;
-use crate::record::{Csv, Many, Npz, Recorder};
+use crate::record::{Csv, Many, Npz, Outcome, Recorder};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
 
@@ -54,9 +49,6 @@ pub(super) struct Run {
     no_report: bool,
 }
 
-/// How often Ctrl-C was pressed, or SIGTERM was received.
-static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
-
 impl Run {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
@@ -74,7 +66,7 @@ impl Run {
             let done = self.run(scenario, reports, &mut outputs);
             let left = || outputs.left(&self.names(scenario));
             exit = exit.max(done.map_err(|error| error.leaving(left()))?);
-            if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+            if interrupted() {
                 break;
             }
         }
@@ -172,102 +164,6 @@ fn events_csv(outcome: &Outcome) -> String {
     text
 }
 
-/// Reads all files, or reports what is wrong with all of them.
-pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, CommandError> {
-    let overrides = files.overrides.overrides();
-    let mut scenarios: Vec<(Scenario, Diagnostics)> = Vec::new();
-    let mut failed = None;
-    for path in &files.files {
-        match from_file(path, &overrides) {
-            Ok((scenario, mut reports)) => {
-                if scenarios.iter().any(|(other, _)| other.name == scenario.name) {
-                    let message = format!(
-                        "two scenarios are named `{}`, and their results have one name; give one \
-                         of them another `name`",
-                        scenario.name
-                    );
-                    return Err(CommandError::Other(message));
-                }
-                reports.all.extend(advice::initial(&scenario).iter().map(Into::into));
-                scenarios.push((scenario, reports));
-            }
-            Err(errors) => {
-                if let Some(CommandError::Scenario(earlier)) =
-                    failed.replace(CommandError::Scenario(errors))
-                {
-                    note(&earlier.to_string());
-                }
-            }
-        }
-    }
-    failed.map_or(Ok(scenarios), Err)
-}
-
-/// Runs a scenario up to a time, s, or an interrupt, with a progress bar, which a pipe does not get.
-pub(super) fn with_progress(
-    scenario: &Scenario,
-    until: f64,
-    recorder: &mut dyn Recorder,
-) -> Result<Outcome, CommandError> {
-    const PARTS: u16 = 1000;
-    let bar = progress_bar(usize::from(PARTS), &scenario.name);
-    let outcome = run(scenario, recorder, &mut |time| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a share of a thousand"
-        )]
-        bar.set_position((time / until * f64::from(PARTS)) as u64);
-        if INTERRUPTS.load(Ordering::Relaxed) > 0 || time > until {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    bar.finish_and_clear();
-    let name = scenario.name.clone();
-    outcome.map_err(|source| CommandError::Run { name, source })
-}
-
-/// As many threads as there are cores.
-pub(super) fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
-}
-
-/// A bar of so many parts, silent where the output is no terminal.
-pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(u64::try_from(parts).unwrap_or(u64::MAX));
-    if let Ok(style) =
-        ProgressStyle::with_template("{msg:24} {wide_bar} {percent:>3} %, {eta} left")
-    {
-        bar.set_style(style);
-    }
-    bar.set_message(visible(what).into_owned());
-    bar
-}
-
-/// Whether Ctrl-C was pressed, or SIGTERM was received.
-pub(super) fn interrupted() -> bool {
-    INTERRUPTS.load(Ordering::Relaxed) > 0
-}
-
-/// The first Ctrl-C or SIGTERM ends the run, the second the program.
-pub(super) fn watch_interrupts() {
-    // Where no handler can be set, either ends the program, and leaves `.partial` files.
-    let _ = ctrlc::set_handler(|| interrupt(INTERRUPTED));
-    #[cfg(unix)]
-    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM]) {
-        std::thread::spawn(move || signals.forever().for_each(|_| interrupt(TERMINATED)));
-    }
-}
-
-/// Counts an interrupt; the second ends the program with a code.
-fn interrupt(code: u8) {
-    if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
-        std::process::exit(code.into());
-    }
-}
-
 fn extension(format: Format) -> &'static str {
     match format {
         Format::Csv => "csv",
@@ -298,17 +194,4 @@ fn without_parquet() -> CommandError {
          record csv or npz"
             .to_owned(),
     )
-}
-
-/// The names of the files in a folder that have an extension.
-pub(super) fn files(folder: &Path, extension: &str) -> Result<BTreeSet<String>, CommandError> {
-    let failure = |source| CommandError::Io { path: folder.to_owned(), source };
-    let mut names = BTreeSet::new();
-    for entry in std::fs::read_dir(folder).map_err(failure)? {
-        let name = entry.map_err(failure)?.file_name();
-        if Path::new(&name).extension().is_some_and(|found| found == extension) {
-            names.insert(name.to_string_lossy().into_owned());
-        }
-    }
-    Ok(names)
 }

@@ -1,7 +1,8 @@
 //! `schema`: the JSON Schema of scenario files.
 
+use super::error::CommandError;
 use super::exit::Exit;
-use super::{CommandError, print};
+use super::terminal::print;
 
 /// The schema, as published.
 pub(crate) const SCHEMA: &str = include_str!("../../schema/scenario-1.json");
@@ -17,7 +18,7 @@ mod tests {
     use serde_json::Value;
 
     use super::SCHEMA;
-    use crate::file::read::body_key;
+    use crate::scenario::body_key;
 
     #[test]
     fn the_schema_has_every_kind_and_body() {

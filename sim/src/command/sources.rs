@@ -4,8 +4,7 @@ use precess_dynamics::JointStates as _;
 
 use super::table::{aligned, six};
 use crate::disturbance::{Broadband, Disturbance, Model, SourceTarget};
-use crate::file::read::joint_key;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, joint_key};
 
 /// A row for each source; nothing without one.
 pub(super) fn sources(scenario: &Scenario) -> String {

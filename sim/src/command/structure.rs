@@ -8,10 +8,11 @@ use clap::{Args, Subcommand};
 use super::error::CommandError;
 use super::exit::Exit;
 use super::outputs::{Outputs, name_of};
-use super::print;
 use super::table::{aligned, six};
+use super::terminal::print;
+use crate::file::{StructureReadError, structure_from_file};
 use crate::report::mode_shapes::mode_shapes;
-use crate::structure::{ReadError, Structure, bytes_of, from_file, npz, op4};
+use crate::structure::{Structure, bytes_of, npz, op4};
 
 /// What is done with a structure.
 #[derive(Debug, Subcommand)]
@@ -55,9 +56,9 @@ pub(super) struct Convert {
 
 /// The structure of a file.
 pub(super) fn read(path: &Path) -> Result<Structure, CommandError> {
-    from_file(path).map_err(|error| match error {
-        ReadError::Table(errors) => CommandError::Scenario(errors),
-        ReadError::File(error) => CommandError::Other(error.to_string()),
+    structure_from_file(path).map_err(|error| match error {
+        StructureReadError::Table(errors) => CommandError::Scenario(errors),
+        StructureReadError::File(error) => CommandError::Other(error.to_string()),
     })
 }
 

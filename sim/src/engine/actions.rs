@@ -3,10 +3,11 @@
 use precess_dynamics::Mode;
 use precess_dynamics::kind::Each;
 
+use super::Run;
 use super::dop853::same;
 use super::inputs::LOCKED;
 use super::packing::Layout;
-use super::{End, Run, RunError};
+use crate::record::{End, RunError};
 use crate::scenario::{Action, Drive, Profile};
 
 impl Run<'_> {

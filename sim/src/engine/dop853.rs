@@ -10,8 +10,8 @@ use differential_equations::status::Status;
 use precess_dynamics::SolveError;
 
 use super::dense::Dense;
-use super::error::{Fault, RunError};
 use super::system::System;
+use crate::record::{Fault, RunError};
 use crate::scenario::steps_max;
 
 /// The square of this is a number, and so is the sum of as many as a state has.

@@ -14,23 +14,9 @@ use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, Sol
 use super::integrator::Moment;
 use super::kinematics::{Sizes, magnitude, momenta};
 use super::system::{System, lumped};
+use crate::record::Drift;
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
-
-/// Departure from the start, each part in its own unit (see the module); none of what is not
-/// conserved.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drift {
-    /// |energy + loss in brakes - work - initial energy|, unit: largest sum of the magnitudes of the
-    /// terms of kinetic energy + integral of sum |u * rate|.
-    pub energy: Option<f64>,
-    /// |linear momentum - initial|, unit: largest sum of the magnitudes of its terms. None where
-    /// gravity, a wrench or what holds the hub acts from outside.
-    pub linear: Option<f64>,
-    /// |angular momentum - initial| about the inertial origin, unit and condition as for the linear
-    /// one.
-    pub angular: Option<f64>,
-}
 
 /// Running maxima of departures and units.
 #[derive(Clone, Debug)]

@@ -7,14 +7,14 @@
 
 use precess_dynamics::Attitude;
 
-use super::error::RunError;
 use super::inputs::Acting;
 use super::integrator::{Moment, Stepper};
 use super::packing::Layout;
 use super::roots::bracket;
 use super::system::System;
 use crate::nearest::nearest;
-use crate::record::columns::{Quantity, state_quantities};
+use crate::record::RunError;
+use crate::record::columns::Quantity;
 use crate::scenario::{Drive, EndStop, Scenario, StopAction};
 
 /// Width of the bracket of a passage, s.
@@ -83,7 +83,7 @@ impl<'a> Monitors<'a> {
         system: &System<'_>,
         start: &Moment,
     ) -> Result<Self, RunError> {
-        let names = state_quantities(&system.layout);
+        let names = system.layout.state_quantities();
         let watched = |(index, crossing): (usize, &crate::scenario::Crossing)| {
             let found = names.iter().find(|(name, ..)| *name == crossing.column);
             let (_, quantity, _) = found.ok_or_else(|| RunError::Crossing {

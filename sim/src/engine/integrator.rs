@@ -4,9 +4,9 @@
 //! counts, RK4's are not.
 
 use super::dop853::Dop853;
-use super::error::RunError;
 use super::rk4::Rk4;
 use super::system::System;
+use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 use precess_craft::CraftState;
 

@@ -8,7 +8,8 @@ use precess_dynamics::kind::Each as _;
 use precess_lanes::{Acting, Motion, SideBySide, side_by_side};
 
 use super::recorded::Recorded;
-use super::{Craft, CraftState, Keep, Run, RunError};
+use super::{Craft, CraftState, Keep, Run};
+use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 
 /// The most steps that are made before it is asked whether to go on.

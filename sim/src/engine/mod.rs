@@ -25,7 +25,6 @@ mod kinematics;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod member_loads;
-mod outcome;
 mod packing;
 mod recorded;
 mod rk4;
@@ -39,12 +38,9 @@ mod system;
 pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
 use precess_dynamics::{About, JointStates, State};
 
-pub use drift::Drift;
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
-pub use error::{Fault, RunError};
 pub use keep::Keep;
-pub use outcome::{End, Event, Outcome, Steps};
 pub use recorded::run;
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
@@ -54,12 +50,15 @@ pub(crate) use inputs::Acting;
 use integrator::{Moment, Stepper};
 pub(crate) use kinematics::Chain;
 pub(crate) use member_loads::MemberLoads;
-use outcome::EVENTS_MAX;
 pub(crate) use packing::Layout;
 use segments::Segments;
 use system::System;
 
+use crate::record::{Drift, End, Event, Outcome, RunError, Steps};
 use crate::scenario::{Scenario, Set, StopAction};
+
+/// Events kept; a crossing in every turn of a wheel would otherwise fill the memory.
+const EVENTS_MAX: usize = 10_000;
 
 /// The equations of motion of a scenario.
 pub(crate) fn craft_of(scenario: &Scenario) -> Result<Craft, RunError> {

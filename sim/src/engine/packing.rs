@@ -77,7 +77,7 @@ impl Layout {
             }
             next += 2 * infos.len();
         }
-        let modes = scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
+        let modes = scenario.mode_count();
         Self { joints, modes, modal: next, work: next + 2 * modes }
     }
 
@@ -101,9 +101,18 @@ impl Layout {
         }
     }
 
+    /// The quantities of the state, with name and unit.
+    pub(crate) fn state_quantities(&self) -> Vec<(String, Quantity, &'static str)> {
+        let joints = self.joints.iter().map(|place| {
+            let device = place.name.split('.').next().unwrap_or_default();
+            (device, place.info)
+        });
+        state_quantities(joints, self.modes)
+    }
+
     /// The name of the number at a place of the flat vector, and the unit of its rate.
     pub(crate) fn named(&self, place: usize) -> (String, String) {
-        let columns = state_quantities(self);
+        let columns = self.state_quantities();
         let found =
             columns.into_iter().find(|(_, quantity, _)| self.place(*quantity) == Some(place));
         found.map_or_else(

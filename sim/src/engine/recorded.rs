@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::sampling::Sampling;
-use super::{Advance, End, Keep, Outcome, Run, RunError};
-use crate::record::Recorder;
+use super::{Advance, Keep, Run};
+use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 
 /// A run whose samples go to a recorder.

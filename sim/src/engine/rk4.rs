@@ -8,10 +8,10 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode, SolveError};
 
 use super::dop853::same;
-use super::error::RunError;
 use super::integrator::Moment;
 use super::keep::Keep;
 use super::system::{System, work_of};
+use crate::record::RunError;
 use precess_craft::CraftState;
 
 /// An integration in progress, from the start of a segment to its end.

@@ -5,11 +5,10 @@
 
 use super::Run;
 use super::dop853::same;
-use super::error::RunError;
 use super::integrator::Moment;
 use super::row::Row;
 use crate::record::columns::Columns;
-use crate::record::{Header, Recorder};
+use crate::record::{Header, Recorder, RunError};
 use crate::scenario::Scenario;
 
 /// The samples of a run.

@@ -6,11 +6,11 @@
 
 use std::ops::ControlFlow;
 
+use super::Keep;
 #[cfg(feature = "lanes")]
 use super::lanes::Lanes;
 use super::recorded::Recorded;
-use super::{End, Keep, Outcome, RunError};
-use crate::record::Recorder;
+use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 
 /// How many runs fill the lanes of AVX2; twice as many take as long each.

@@ -46,8 +46,8 @@ pub use names::JointNames;
 pub use parameters::Parameter;
 pub use step::LinearizedStep;
 
-use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, craft_of, rigid_state};
-use crate::record::{Column, Columns};
+use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, craft_of, rigid_state};
+use crate::record::{Column, Columns, RunError};
 use crate::scenario::{Scenario, Set};
 
 pub use precess_craft::{CraftAccelerations, CraftInputs, CraftState};

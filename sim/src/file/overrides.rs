@@ -14,6 +14,13 @@ use super::document::{Entry, Node, Table, Value, parse};
 use super::load::{Override, named};
 use crate::units::parse_quantity;
 
+/// Whether a text can be the key of an override, with the signs that stand for several keys or a component.
+#[must_use]
+pub fn is_key(text: &str) -> bool {
+    let letter = |c: char| c.is_alphanumeric() || "_-.+*[]".contains(c);
+    !text.is_empty() && text.chars().all(letter)
+}
+
 /// Puts overrides over a tree; `numbers` is what a number without a unit is in them.
 pub(super) fn apply(
     node: &mut Node,

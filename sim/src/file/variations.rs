@@ -5,9 +5,10 @@ use std::path::Path;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
+use super::overrides::is_key;
 use super::read_file::read_file;
-use crate::campaign::{Correlation, Distribution, Variation, is_key};
 use crate::units::{Dimension, Quantity, parse_quantity};
+use crate::variation::{Correlation, Distribution, Variation};
 
 /// The number of the format that this program reads.
 const FORMAT: u32 = 1;

@@ -14,13 +14,13 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
-use super::read::{FORMAT, body_key, has_inertia, has_mass, has_origin, joint_key};
+use super::read::{FORMAT, has_inertia, has_mass, has_origin};
 use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
     Action, AppliedWrench, Drive, Format, IntegratorChoice, Member, Profile, Scenario, Statistic,
-    StopAction, Target, WrenchAxes,
+    StopAction, Target, WrenchAxes, body_key, joint_key,
 };
 
 /// The text.

@@ -6,9 +6,8 @@ use nalgebra::{Matrix6, Vector3};
 use precess_dynamics::kind::{Each, Kind};
 use precess_dynamics::{BuiltIn, Coupled, Isolated, Platform, Strut};
 
-use super::read::joint_key;
 use super::write::{Written, inertia, mount, of_joint, quoted, structure, vector};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, joint_key};
 
 /// The table of a platform, by its numbers as a member and of its first joint.
 pub(super) fn platform(

@@ -14,8 +14,8 @@ use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Quaternion};
 use super::budget::Budget;
 use super::device::Steady;
 use super::model::{HUB, Line, Model};
-use crate::engine::{self, End, Outcome, RunError};
-use crate::record::{Header, RecordError, Recorder};
+use crate::engine;
+use crate::record::{End, Header, Outcome, RecordError, Recorder, RunError};
 use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
 use crate::structure::{COORDINATES, Fault};
 

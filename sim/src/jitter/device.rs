@@ -11,12 +11,12 @@ use precess_dynamics::{
     DerivativeError, HubMode, Inputs, LoadAxes, Loads, Mode, Spacecraft, State,
 };
 
-use crate::scenario::{Scenario, Set};
+use crate::scenario::steady::SteadyJoints;
+use crate::scenario::{Scenario, Set, set_of};
 use crate::structure::averaged::{AveragedDevices, mount_hub};
 use crate::structure::condensed::{Condensed, Derivatives, condensed};
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::harmonics::{fourier, share};
-use crate::structure::steady::{SteadyJoints, set_of};
 use crate::structure::{COORDINATES, Fault};
 
 /// Angles of a turn at which the blocked force is sampled: harmonics up to the third are exact.

@@ -4,12 +4,12 @@ use nalgebra::{Complex, DMatrix, Vector3};
 
 use super::device::{Steady, SweptDevice};
 use super::sources::MountNoise;
-use crate::scenario::{ModalStructure, Scenario};
+use crate::scenario::steady::SteadyJoints;
+use crate::scenario::{ModalStructure, Scenario, set_of};
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
 use crate::structure::averaged::AveragedDevices;
 use crate::structure::condensed::Condensed;
 use crate::structure::dynamic_mass::Motor;
-use crate::structure::steady::{SteadyJoints, set_of};
 use crate::structure::{COORDINATES, Fault, Mode, Node, RigidMass, Structure};
 
 /// The node of a rigid hub: B.

@@ -1,7 +1,6 @@
 //! [`Between`]: only the samples of an interval.
 
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Passes the samples from one time to another, both included, to a recorder.
 pub struct Between<'a> {

@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::partial::{Partial, partial_name};
-use super::{Csv, Decimate, Header, Many, Npz, Recorder, Samples, Statistics};
+use super::{Csv, Decimate, End, Header, Many, Npz, Outcome, Recorder, Samples, Statistics, Steps};
 use crate::engine::checks::turning_panel;
-use crate::engine::{End, Outcome, Steps, run};
+use crate::engine::run;
 use crate::pointing::{ExposureWeights, Index};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
@@ -52,7 +52,7 @@ fn outcome(end_time: f64) -> Outcome {
         samples: 0,
         events: Vec::new(),
         events_omitted: 0,
-        drift: crate::engine::Drift::default(),
+        drift: crate::record::Drift::default(),
         energy_lost: 0.0,
         peak_rates: Vec::new(),
     }

@@ -10,15 +10,12 @@ mod disturbances;
 mod quantity;
 mod structure;
 
-use std::collections::HashSet;
-
 use precess_dynamics::kind::JointInfo;
 
 pub(crate) use quantity::Quantity;
 
 use super::error::RecordError;
 use super::load_columns::{of_carried, of_load, of_mount};
-use crate::engine::Layout;
 use crate::nearest::nearest;
 use crate::scenario::Scenario;
 
@@ -49,14 +46,10 @@ impl Columns {
     /// Every column that a scenario has.
     #[must_use]
     pub fn all(scenario: &Scenario) -> Self {
-        let layout = Layout::new(scenario);
         let mut columns = Vec::new();
         hub(&mut columns);
-        for (index, name) in scenario.names.iter().enumerate() {
-            let joints = layout.joints.iter().enumerate();
-            for (joint, place) in joints.filter(|(_, place)| place.device == index) {
-                of_joint(&mut columns, name, joint, place.info);
-            }
+        for (joint, (_, name, info)) in scenario.joints().enumerate() {
+            of_joint(&mut columns, name, joint, info);
         }
         structure::columns(&mut columns, scenario);
         disturbances::columns(&mut columns, scenario);
@@ -64,11 +57,11 @@ impl Columns {
         for (index, (name, member)) in scenario.members().enumerate() {
             let base = member.on().and_then(|on| scenario.names.get(on));
             of_mount(&mut columns, (index, name), base.map(String::as_str));
-            let joints = layout.joints.iter().enumerate();
-            for (joint, place) in joints.filter(|(_, place)| place.device == index) {
+            let joints = scenario.joints().enumerate();
+            for (joint, (.., info)) in joints.filter(|(_, (device, ..))| *device == index) {
                 // Of a platform, not the five bodies without mass.
-                if member.device().is_some() || place.info.tip {
-                    of_load(&mut columns, name, &format!("{name}.loads"), joint, place.info);
+                if member.device().is_some() || info.tip {
+                    of_load(&mut columns, name, &format!("{name}.loads"), joint, info);
                 }
             }
             if member.platform().is_some() {
@@ -142,25 +135,17 @@ impl Column {
     }
 }
 
-/// Names that are of columns, vectors and groups whatever devices, points and sources a scenario has.
-pub(crate) fn reserved_names() -> HashSet<String> {
+/// The quantities that are integrated, with name and unit: of a hub, joints, each with the name of its device, and modes.
+pub(crate) fn state_quantities<'a>(
+    joints: impl Iterator<Item = (&'a str, &'static JointInfo)>,
+    modes: usize,
+) -> Vec<(String, Quantity, &'static str)> {
     let mut columns = Vec::new();
     hub(&mut columns);
-    structure::modal(&mut columns, 1);
-    totals(&mut columns);
-    let names = columns.into_iter().flat_map(|of| [Some(of.name), Some(of.group), of.vector]);
-    names.flatten().chain(["loads".to_owned()]).collect()
-}
-
-/// The quantities that are integrated, with name and unit.
-pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity, &'static str)> {
-    let mut columns = Vec::new();
-    hub(&mut columns);
-    for (joint, place) in layout.joints.iter().enumerate() {
-        let device = place.name.split('.').next().unwrap_or_default();
-        of_joint(&mut columns, device, joint, place.info);
+    for (joint, (device, info)) in joints.enumerate() {
+        of_joint(&mut columns, device, joint, info);
     }
-    structure::modal(&mut columns, layout.modes);
+    structure::modal(&mut columns, modes);
     let state = columns.into_iter().filter(|column| column.quantity.is_state());
     state.map(|column| (column.name, column.quantity, column.unit)).collect()
 }
@@ -326,5 +311,24 @@ pub(super) fn vector(
             vector: Some(base.to_owned()),
             quantity: quantity(axis),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::scenario::RESERVED_NAMES;
+
+    #[test]
+    fn names_of_columns_that_every_result_has_are_reserved() {
+        let mut columns = Vec::new();
+        hub(&mut columns);
+        structure::modal(&mut columns, 1);
+        totals(&mut columns);
+        let names = columns.into_iter().flat_map(|of| [Some(of.name), Some(of.group), of.vector]);
+        let names: BTreeSet<_> = names.flatten().chain(["loads".to_owned()]).collect();
+        assert_eq!(names, RESERVED_NAMES.map(str::to_owned).into());
     }
 }

@@ -12,8 +12,7 @@ use std::io::{self, Seek as _, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::partial::{Partial, Reservation, begin};
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// The line with the number of samples begins so.
 pub const COUNT: &str = "# samples: ";

@@ -4,8 +4,7 @@
 //! When all buckets are full, neighbours are merged and each is of twice as many samples; so a run
 //! of any length has between half the capacity and the capacity, and no spike is lost.
 
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Keeps least and greatest values.
 #[derive(Clone, Debug)]

@@ -1,7 +1,6 @@
 //! [`Histories`]: all samples of a run in memory, column by column.
 
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Keeps every sample, the history of a column in one piece. Memory grows with the run: 8 bytes a
 /// number.

@@ -1,7 +1,6 @@
 //! [`Many`]: several recorders of one run.
 
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Passes everything to each recorder in order; the first error ends it.
 #[derive(Default)]

@@ -1,4 +1,4 @@
-//! What a run records: its columns, and where the samples go.
+//! What a run records: its columns, where the samples go, and its [`Outcome`] or [`RunError`].
 //!
 //! A [`Recorder`] receives the columns, then every sample, then the result. Files are written as
 //! they come and renamed when the run has ended ([`partial`]); [`Samples`] and [`Histories`] keep them in
@@ -18,15 +18,16 @@ mod load_columns;
 mod many;
 pub mod no_data;
 pub mod npz;
+mod outcome;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod partial;
+mod run_error;
 mod samples;
 pub mod statistics;
 pub(crate) mod welch;
 
 pub use between::Between;
-pub(crate) use columns::reserved_names;
 pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};
@@ -34,14 +35,15 @@ pub use error::RecordError;
 pub use histories::{Histories, replay};
 pub use many::Many;
 pub use npz::Npz;
+pub use outcome::{Drift, End, Event, Outcome, Steps};
 #[cfg(feature = "parquet")]
 pub use parquet::Parquet;
+pub use run_error::{Fault, RunError};
 pub use samples::Samples;
 pub use statistics::{Statistics, Verdict};
 
 use sha2::{Digest, Sha256};
 
-use crate::engine::Outcome;
 use crate::scenario::Scenario;
 
 /// Receives the samples of one run.

@@ -14,8 +14,7 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 use super::partial::{Partial, Reservation, begin};
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Writes an NPZ file.
 pub struct Npz {

@@ -16,8 +16,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::partial::{Partial, Reservation, begin};
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// What is kept of a row group.
 const GROUP_BYTES: usize = 16 << 20;

@@ -1,7 +1,6 @@
 //! [`Samples`]: all samples of a run, in memory.
 
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 
 /// Keeps every sample. Memory grows with the run: 8 bytes a number.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,8 +7,7 @@
 
 use super::no_data::no_data;
 use super::welch::Welch;
-use super::{Header, RecordError, Recorder};
-use crate::engine::Outcome;
+use super::{Header, Outcome, RecordError, Recorder};
 use crate::pointing::{
     EXPOSURE_SAMPLES_MIN, ExposureHistory, IndexStream, Margin, NoData, PointingError, Quantile,
     RequirementState, WindowSums, samples_of,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::error::ReportError;
 use super::run::chart::Drawn;
 use super::run::replay::ReplayData;
-use crate::engine::Event;
+use crate::record::Event;
 use crate::scenario::Scenario;
 
 /// The format that the page's script draws.

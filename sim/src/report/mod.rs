@@ -35,10 +35,9 @@ use run::extremes::{Extremes, Magnitude};
 use run::replay::Collector;
 use run::{grouping, summary};
 
-use crate::engine::Outcome;
 use crate::pointing::RequirementState;
 use crate::record::columns::Quantity;
-use crate::record::{Decimate, Header, RecordError, Recorder, Statistics, Verdict};
+use crate::record::{Decimate, Header, Outcome, RecordError, Recorder, Statistics, Verdict};
 use crate::scenario::Scenario;
 
 /// Bytes of a page for the histories in its data block; with script, replay and figures a page of

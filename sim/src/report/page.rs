@@ -13,7 +13,7 @@ use super::run::chart::{Drawn, Part};
 use super::run::replay::{Collector, ReplayData};
 use super::run::{load_tables, mass, requirements, summary, tables};
 use super::{Report, number};
-use crate::engine::Outcome;
+use crate::record::Outcome;
 
 const SHELL: &str = include_str!("../../report/shell.html");
 const SCRIPT: &str = include_str!("../../report/dist/report.js");
@@ -168,7 +168,7 @@ fn events(outcome: &Outcome) -> Vec<Block> {
     if outcome.events.is_empty() {
         return Vec::new();
     }
-    let item = |event: &crate::engine::Event| Item {
+    let item = |event: &crate::record::Event| Item {
         time: format!("{} s", number::time(event.time)),
         text: event.text.clone(),
     };

@@ -15,10 +15,10 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Report;
-use crate::engine::{Drift, End, Event, Outcome, Steps, run};
+use crate::engine::run;
 use crate::file::from_toml;
 use crate::record::columns::Quantity;
-use crate::record::{Columns, Header, Recorder, sha256};
+use crate::record::{Columns, Drift, End, Event, Header, Outcome, Recorder, Steps, sha256};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// Largest page of ten minutes with four double-gimbal devices at the default columns.

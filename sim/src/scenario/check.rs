@@ -5,12 +5,12 @@ use std::fmt;
 
 use precess_dynamics::{Gravity, HubMode, ModesError, ParameterError};
 
+use super::reserved::is_reserved;
 use super::{
     Action, Drive, IntegratorChoice, Member, Profile, Scenario, Statistic, Target, members,
 };
 use crate::names::{column_name_fault, name_fault};
 use crate::pointing::{EXPOSURE_SAMPLES_MIN, Index, IndexStream, PointingError, samples_of};
-use crate::record::reserved_names;
 use crate::units::Plain;
 
 /// Shorter, and a turn of no wheel fits in.
@@ -253,7 +253,6 @@ impl Scenario {
                 ),
             ));
         }
-        let reserved = reserved_names();
         let mut known = HashSet::new();
         for (index, name) in self.names.iter().enumerate() {
             let is_platform = matches!(all.get(index), Some(Member::Platform(_)));
@@ -264,7 +263,7 @@ impl Scenario {
             if name == "hub" {
                 let message = "`on = \"hub\"` means the hub; choose another name";
                 errors.push(range(&key, message.to_owned()));
-            } else if reserved.contains(name.as_str()) {
+            } else if is_reserved(name) {
                 let message = format!("`{name}` names other columns; choose another name");
                 errors.push(range(&key, message));
             }

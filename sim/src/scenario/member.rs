@@ -37,6 +37,28 @@ pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
     all
 }
 
+/// Some devices and platforms of a scenario by themselves; a device on a platform comes with it.
+#[must_use]
+pub fn set_of(scenario: &Scenario, chosen: &[usize]) -> Set {
+    let members = members(&scenario.devices);
+    let chosen: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
+    let on_hub = chosen.iter().filter(|member| member.on().is_none());
+    (
+        on_hub.filter_map(|member| member.device().copied()).collect(),
+        chosen.iter().filter_map(|member| member.platform().cloned()).collect(),
+    )
+}
+
+/// The key of a body: `inner_gimbal`.
+pub(crate) fn body_key(joint: &JointInfo) -> String {
+    joint.body.replace(' ', "_")
+}
+
+/// The key of a joint: that of its body, but of a platform's last joint `z_turn`.
+pub(crate) fn joint_key(joint: &JointInfo) -> String {
+    if joint.body == <Platform as Kind>::NAME { "z_turn".to_owned() } else { body_key(joint) }
+}
+
 impl Scenario {
     /// The members that stand on the hub or on a node, each with the devices on it, by their numbers.
     pub(crate) fn groups(&self) -> Vec<Vec<usize>> {

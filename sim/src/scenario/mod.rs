@@ -13,8 +13,10 @@ mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
+mod reserved;
 mod residual;
 mod source_place;
+pub mod steady;
 mod structure;
 mod time_scales;
 
@@ -26,8 +28,11 @@ use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Spacecraft, State}
 pub use check::ScenarioError;
 pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
-pub use member::{Member, Set, members};
+pub use member::{Member, Set, members, set_of};
+pub(crate) use member::{body_key, joint_key};
 pub use profile::{Interpolation, Profile, Table};
+#[cfg(test)]
+pub(crate) use reserved::RESERVED_NAMES;
 pub use source_place::{SourceBody, SourcePlace};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 pub(crate) use time_scales::steps_max;
@@ -319,6 +324,12 @@ impl Scenario {
     #[must_use]
     pub fn joint_count(&self) -> usize {
         members(&self.devices).iter().map(|member| member.joints().len()).sum()
+    }
+
+    /// How many modes the structure has; zero of a rigid hub.
+    #[must_use]
+    pub fn mode_count(&self) -> usize {
+        self.structure.as_ref().map_or(0, |structure| structure.modes.len())
     }
 
     /// The devices and platforms with their names, in the order of the set.

@@ -13,10 +13,9 @@ use precess_dynamics::{
 };
 
 use super::check::range;
-use super::{Scenario, ScenarioError, Set, Target, WrenchAxes};
+use super::reserved::is_reserved;
+use super::{Scenario, ScenarioError, Set, Target, WrenchAxes, set_of};
 use crate::names::{NameFault, column_name_fault};
-use crate::record::reserved_names;
-use crate::structure::steady::set_of;
 use crate::structure::{COORDINATES, Mode, RigidMass};
 
 /// A structure that bends.
@@ -246,7 +245,6 @@ impl Scenario {
                 format!("`{}` has {} shapes for {modes} modes", node.name, node.shapes.len());
             errors.push(range("structure.node", message));
         }
-        let reserved = reserved_names();
         for (index, point) in structure.points.iter().enumerate() {
             let name = point.name.as_str();
             if let Some(fault) = column_name_fault(name) {
@@ -260,7 +258,7 @@ impl Scenario {
                 errors.push(range(&format!("structure.point.{name}.name"), message));
             }
             let earlier = structure.points.iter().take(index).any(|other| other.name == name);
-            let group = reserved.contains(name);
+            let group = is_reserved(name);
             if earlier || group || self.names.iter().any(|device| device == name) {
                 let message = format!(
                     "`{name}` names other columns, of a device, a point or a group; choose \

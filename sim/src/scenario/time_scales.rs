@@ -167,7 +167,7 @@ impl Scenario {
                 let coupled = suspension.map(|of| [of.stiffness, of.damping].map(|of| of[place]));
                 let [k, c] = coupled.unwrap_or_default();
                 let (k, c) = (k + passive.stiffness, c + passive.viscous);
-                let body = crate::file::read::joint_key(joint);
+                let body = crate::scenario::joint_key(joint);
                 let of = |key: &str, rate: f64, oscillates: bool| TimeScale {
                     key: format!("{table}.{name}.{body}.{key}"),
                     what: format!("the {key} of `{name}.{body}`"),
@@ -209,7 +209,7 @@ impl Scenario {
             if let Some(profile) = drive.profile() {
                 let platform = kinds.get(*member).copied().unwrap_or(false);
                 let table = if platform { "platform" } else { "device" };
-                let (key, body) = (key_of(drive, info), crate::file::read::joint_key(info));
+                let (key, body) = (key_of(drive, info), crate::scenario::joint_key(info));
                 let what = format!("the {key} on `{name}.{body}`");
                 add(format!("{table}.{name}.{body}.{key}"), what, profile);
             }
@@ -221,7 +221,7 @@ impl Scenario {
             else {
                 continue;
             };
-            let (key, body) = (key_of(drive, info), crate::file::read::joint_key(info));
+            let (key, body) = (key_of(drive, info), crate::scenario::joint_key(info));
             let what = format!("the {key} on `{name}.{body}` from {} s on", Plain(change.time));
             add("at".to_owned(), what, profile);
         }

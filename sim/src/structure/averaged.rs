@@ -33,7 +33,7 @@ use super::condensed::{Derivatives, at, condensed};
 use super::dynamic_mass::Motor;
 use super::harmonics::{fourier, share};
 use super::{COORDINATES, Fault, rigid_rows, within};
-use crate::scenario::Set;
+use precess_craft::Set;
 
 /// Mass, kg, and inertia, kg m², of the hub that stands for the mount: less than rounding of any device.
 const OF_MOUNT: f64 = 1e-60;

@@ -30,6 +30,7 @@
 
 pub mod accelerance;
 pub mod averaged;
+mod bytes;
 pub mod checks;
 pub mod condensed;
 pub mod dynamic_mass;
@@ -40,8 +41,6 @@ pub mod modes;
 pub mod mounted;
 pub mod npz;
 pub mod op4;
-mod read;
-pub mod steady;
 
 use std::collections::HashSet;
 
@@ -49,8 +48,8 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3};
 
 use crate::names::{NAME_MAX, name_fault};
 
+pub use bytes::{MOST_BYTES, bytes_of};
 pub use error::{Fault, Place, StructureError};
-pub use read::{MOST_BYTES, ReadError, bytes_of, from_file};
 
 /// Coordinates of a node: three of translation, three of rotation.
 pub const COORDINATES: usize = 6;

@@ -110,7 +110,7 @@ fn rk4_refuses_a_step_too_long_for_the_modes() {
     let outcome =
         precess::engine::run(&scenario, &mut samples, &mut |_| std::ops::ControlFlow::Continue(()));
     let outcome = outcome.expect("it begins");
-    let precess::engine::End::Failed(error) = &outcome.end else { panic!("{}", outcome.end) };
+    let precess::record::End::Failed(error) = &outcome.end else { panic!("{}", outcome.end) };
     assert!(error.to_string().contains("too long for the modes"), "{error}");
 }
 

@@ -13,9 +13,9 @@ mod satellite_modes;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use precess::engine::{End, Outcome, run};
+use precess::engine::run;
 use precess::file::{from_file, from_toml};
-use precess::record::Samples;
+use precess::record::{End, Outcome, Samples};
 use precess::scenario::Scenario;
 
 fn folder() -> PathBuf {

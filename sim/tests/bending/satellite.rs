@@ -1,8 +1,9 @@
 //! The imaging satellite with twenty modes: its file, and its run.
 
+use precess::file::structure_from_file;
 use precess::scenario::IntegratorChoice;
+use precess::structure::Structure;
 use precess::structure::accelerance::{Accelerance, Base};
-use precess::structure::{Structure, from_file};
 
 use super::satellite_modes::{MODES, structure};
 use super::{columns, file, folder, ran};
@@ -17,7 +18,8 @@ const ACCELERANCE_MISS: f64 = 1e-6;
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn the_file_is_what_its_program_writes() {
-    let found = from_file(&folder().join("imaging-satellite-modes.npz")).expect("the file");
+    let found =
+        structure_from_file(&folder().join("imaging-satellite-modes.npz")).expect("the file");
     let made = structure().expect("a positive definite mass matrix");
     assert_eq!((found.modes.len(), found.nodes.len()), (MODES, 6));
     assert_eq!(found.nodes, made.nodes);

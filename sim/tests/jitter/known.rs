@@ -10,10 +10,10 @@ use precess::jitter::model::{HUB, Model, Output};
 use precess::jitter::sweep::{Phases, refined, speeds, sweep};
 use precess::jitter::weight::Weight;
 use precess::pointing::Metric;
-use precess::scenario::Scenario;
+use precess::scenario::steady::SteadyJoints;
+use precess::scenario::{Scenario, set_of};
 use precess::structure::averaged::AveragedDevices;
 use precess::structure::dynamic_mass::Motor;
-use precess::structure::steady::{SteadyJoints, set_of};
 
 /// Rounding of products of a few matrices of six rows.
 const ROUNDING: f64 = 1e-12;

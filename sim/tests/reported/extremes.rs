@@ -4,8 +4,9 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use precess::engine::{End, run};
+use precess::engine::run;
 use precess::file::{from_toml, to_toml};
+use precess::record::End;
 use precess::report::Report;
 
 use super::{folder, precess};

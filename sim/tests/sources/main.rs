@@ -11,9 +11,9 @@ mod sheet;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use precess::engine::{End, Outcome, run};
+use precess::engine::run;
 use precess::file::{from_toml, to_toml};
-use precess::record::Samples;
+use precess::record::{End, Outcome, Samples};
 use precess::scenario::Scenario;
 
 /// A hub of 96 kg and a wheel of 4 kg at its centre of mass, spin axis `b_x`, at 50 rad/s.

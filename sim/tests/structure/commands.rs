@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use precess::structure::{from_file, npz};
+use precess::file::structure_from_file;
+use precess::structure::npz;
 
 use super::{beam, path};
 
@@ -40,13 +41,14 @@ fn commands_show_convert_and_write_tables_and_figures() {
     let flex = flex.to_str().expect("text");
     let (good, text, _) = precess(&["structure", "convert", flex, "--to", &at("panel.npz")]);
     assert!(good && text.ends_with("2 nodes, 2 modes\n"), "{text}");
-    assert!(from_file(Path::new(&at("panel.npz"))).is_ok());
+    assert!(structure_from_file(Path::new(&at("panel.npz"))).is_ok());
     let (good, _, error) = precess(&["structure", "convert", flex, "--to", &at("panel.npz")]);
     assert!(!good && error.contains("--force"), "{error}");
     let (good, text, error) =
         precess(&["structure", "convert", &at("panel.npz"), "--to", &at("panel.op4")]);
     assert!(good && text.ends_with("2 nodes, 2 modes\n"), "{error}");
-    let [from, to] = ["panel.npz", "panel.toml"].map(|name| from_file(Path::new(&at(name))));
+    let [from, to] =
+        ["panel.npz", "panel.toml"].map(|name| structure_from_file(Path::new(&at(name))));
     assert_eq!(from.expect("NPZ").shapes, to.expect("op4").shapes);
     let wheel = ["--scenario", "scenarios/bus-three-wheels.toml", "--device", "wheel_z"];
     let out = at("out");
@@ -82,7 +84,7 @@ fn every_error_of_a_table_comes_at_once_with_its_line() {
         file.display()
     );
     fs::write(&table, &text).expect("a table");
-    let errors = from_file(&table).expect_err("it is wrong").to_string();
+    let errors = structure_from_file(&table).expect_err("it is wrong").to_string();
     for part in [
         "wrong.toml:3:1",
         "unknown key `colour`",
@@ -99,6 +101,6 @@ fn every_error_of_a_table_comes_at_once_with_its_line() {
         .replace("2, 0, 0 m", "2.1, 0, 0 m")
         .replace("rows = [7, 8]", "rows = 7");
     fs::write(&table, text).expect("a table");
-    let errors = from_file(&table).expect_err("it is wrong").to_string();
+    let errors = structure_from_file(&table).expect_err("it is wrong").to_string();
     assert!(errors.contains("check positions, units and rows of the nodes"), "{errors}");
 }

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use precess::structure::{flex42, from_file, npz, op4};
+use precess::file::structure_from_file;
+use precess::structure::{flex42, npz, op4};
 
 use super::numbers::Numbers;
 use super::{FLEX, FORMS, LAYOUTS, bytes, example};
@@ -98,7 +99,7 @@ fn a_reduced_model_or_its_table_that_is_damaged_ends_in_an_error_or_in_checks() 
         }
         fs::write(folder.join("model.op4"), matrices).expect("a file");
         fs::write(&path, table).expect("a file");
-        match from_file(&path) {
+        match structure_from_file(&path) {
             Ok(structure) => {
                 read += 1;
                 assert_eq!(structure.checks().len(), 5);

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use nalgebra::{DMatrix, Vector3};
-use precess::structure::{Place, Structure, flex42, from_file, npz, op4};
+use precess::file::structure_from_file;
+use precess::structure::{Place, Structure, flex42, npz, op4};
 
 use super::{FLEX, bytes, example, path};
 
@@ -113,7 +114,7 @@ fn an_error_has_line_value_bound_and_remedy() {
         matches!(error.place, Place::Byte(_)) && error.to_string().contains("cut off"),
         "{error}"
     );
-    let error = from_file(&path("dense-ascii.op4")).expect_err("no nodes").to_string();
+    let error = structure_from_file(&path("dense-ascii.op4")).expect_err("no nodes").to_string();
     assert!(error.contains("maps rows to nodes"), "{error}");
 }
 
@@ -161,7 +162,7 @@ fn a_table_names_the_points_of_a_flex_file_without_locations() {
              [[node]]\nname = \"hinge\"\nposition = \"0, 0, 0 m\"\njoint = {joint}\n"
         );
         fs::write(folder.join("panel.toml"), text).expect("a table");
-        from_file(&folder.join("panel.toml"))
+        structure_from_file(&folder.join("panel.toml"))
     };
     let structure = table(1).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!([structure.shapes[(2, 0)], structure.shapes[(6 + 2, 0)]], [0.5, 0.1]);

@@ -8,7 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use precess::structure::{Mode, Node, RigidMass, Structure, from_file};
+use precess::file::structure_from_file;
+use precess::structure::{Mode, Node, RigidMass, Structure};
 
 mod averaged;
 mod beams;
@@ -74,7 +75,7 @@ fn beam(file: &str, matrices: &str) -> Structure {
         file.display()
     );
     fs::write(&table, text).expect("a table");
-    from_file(&table).unwrap_or_else(|error| panic!("{error}"))
+    structure_from_file(&table).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn example() -> Structure {

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use nalgebra::DMatrix;
+use precess::file::structure_from_file;
 use precess::structure::op4::{self, Matrix};
-use precess::structure::{Fault, Structure, from_file};
+use precess::structure::{Fault, Structure};
 
 use super::{FORMS, LAYOUTS, ROUNDING, bytes, example};
 
@@ -60,7 +61,8 @@ fn read_back(structure: &Structure, name: &str) -> Structure {
         op4::of_structure(structure, &format!("{name}.op4")).expect("it is written");
     fs::write(folder.join(format!("{name}.op4")), matrices).expect("a file");
     fs::write(folder.join(format!("{name}.toml")), table).expect("a table");
-    from_file(&folder.join(format!("{name}.toml"))).unwrap_or_else(|error| panic!("{error}"))
+    structure_from_file(&folder.join(format!("{name}.toml")))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

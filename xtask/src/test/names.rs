@@ -24,6 +24,10 @@ const MOVED: &[(&str, &str)] = &[
         "codegen/review/src/mutation/physics/mod.rs ",
         "codegen/review/src/mutation/physics/trial.rs ",
     ),
+    (
+        "sim/src/command/mod.rs an_override_needs_no_quotation_marks_of_its_own",
+        "sim/src/command/options.rs an_override_needs_no_quotation_marks_of_its_own",
+    ),
 ];
 
 /// Folders that hold tests, from the root.

@@ -24,12 +24,13 @@ mod statistic;
 use std::ops::ControlFlow;
 
 use super::axis::set;
-use super::{Reducer, Selection, Variation};
+use super::{Reducer, Selection};
+use crate::variation::Variation;
 use precess_craft::tangent::WIDTH;
 
-use crate::engine::{Outcome, run as engine_run};
+use crate::engine::run as engine_run;
 use crate::file::{Override, Template};
-use crate::record::{Columns, Header};
+use crate::record::{Columns, Header, Outcome};
 use crate::scenario::Scenario;
 
 /// Steps between the seven points of a key, of a standard deviation.

@@ -12,9 +12,8 @@
 
 use super::run::Samples;
 use crate::campaign::Selection;
-use crate::engine::Outcome;
 use crate::record::welch::band_derivatives;
-use crate::record::{Header, Recorder as _, Statistics};
+use crate::record::{Header, Outcome, Recorder as _, Statistics};
 use crate::scenario::{Requirement, Scenario, Statistic};
 use precess_craft::tangent::{Number, WIDTH};
 

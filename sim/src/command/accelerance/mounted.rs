@@ -7,12 +7,12 @@ use clap::{Args, ValueEnum};
 use nalgebra::Vector3;
 
 use crate::command::error::CommandError;
-use crate::command::note;
+use crate::command::terminal::note;
 use crate::file::from_file;
-use crate::scenario::{Scenario, members};
+use crate::scenario::steady::SteadyJoints;
+use crate::scenario::{Scenario, members, set_of};
 use crate::structure::averaged::AveragedDevices;
 use crate::structure::dynamic_mass::Motor;
-use crate::structure::steady::{SteadyJoints, set_of};
 
 /// A device that is farther from its node than this, m, may be at the wrong node.
 const ARM_MAX: f64 = 0.01;

@@ -10,10 +10,11 @@ use std::sync::Mutex;
 use clap::Args;
 
 use super::error::CommandError;
+use super::options::{Set, Threads};
 use super::outputs::Outputs;
 use super::plot::time;
-use super::run::{interrupted, progress_bar, watch_interrupts};
-use super::{Set, Threads, note};
+use super::progress::{interrupted, progress_bar, watch_interrupts};
+use super::terminal::note;
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };

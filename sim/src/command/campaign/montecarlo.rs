@@ -9,20 +9,20 @@ use super::{
     CampaignOptions, Prepared, Shown, failures, not_evaluated, shown, values_of, without_number,
 };
 use crate::campaign::{
-    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, Variation, central_differences, derivatives,
-    digits, draw, exact_derivatives, percentile, probability_between, regression, spearman,
-    tangents,
+    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, digits,
+    draw, exact_derivatives, percentile, probability_between, regression, spearman, tangents,
 };
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
-use crate::command::print;
-use crate::command::run::progress_bar;
+use crate::command::progress::progress_bar;
 use crate::command::table::{aligned, six};
+use crate::command::terminal::print;
 use crate::file::variations_from_toml;
 use crate::names::file_names;
 use crate::pointing::RequirementState;
 use crate::report::montecarlo::distribution;
 use crate::spectra::float;
+use crate::variation::Variation;
 
 pub(in crate::command) const HELP: &str = "\
 Examples:

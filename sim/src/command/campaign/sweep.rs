@@ -8,8 +8,8 @@ use super::{CampaignOptions, Prepared, failures, not_evaluated, shown, values_of
 use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
-use crate::command::print;
 use crate::command::table::{aligned, six};
+use crate::command::terminal::print;
 use crate::disturbance::Model as SourceModel;
 use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
 use crate::jitter::device::Steady;

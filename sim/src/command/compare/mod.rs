@@ -11,9 +11,11 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{files, interrupted, watch_interrupts, with_progress};
+use super::options::{Form, Set};
+use super::outputs::files;
+use super::progress::{interrupted, watch_interrupts, with_progress};
 use super::table::{aligned, six};
-use super::{Form, Set, note, print};
+use super::terminal::{note, print};
 use crate::file::from_file;
 use crate::record::Csv;
 use difference::{Differences, differences};

@@ -8,10 +8,11 @@ use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::Form;
 use super::outputs::Outputs;
 use super::plot::time;
 use super::result::{Signal, Signals};
-use super::{Form, print};
+use super::terminal::print;
 use crate::names::file_names;
 use crate::pointing::{PointingError, exposure_of_history};
 use crate::report::spectrum::{SpectrumCurve, SpectrumFigure};

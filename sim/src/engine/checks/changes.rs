@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use precess_dynamics::{About, HubMode};
 
 use super::{DOP853, column, last, recorded, scenario, set_joint, turning_panel, wheel};
-use crate::engine::{Advance, End, Run, RunError};
-use crate::record::RecordError;
+use crate::engine::{Advance, Run};
+use crate::record::{End, RecordError, RunError};
 use crate::scenario::{Action, Change, Drive, IntegratorChoice, Interpolation, Profile, Table};
 
 /// Some roundings of a rate of ten.

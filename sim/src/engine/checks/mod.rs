@@ -14,8 +14,8 @@ use precess_dynamics::{
     State,
 };
 
-use super::{Outcome, run};
-use crate::record::Samples;
+use super::run;
+use crate::record::{Outcome, Samples};
 use crate::scenario::{
     Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source, members,
 };

@@ -6,7 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Dgvscmg, HubMode, SolveError};
 
 use super::{DOP853, Samples, last, recorded, scenario, set_joint, turning_panel, wheel};
-use crate::engine::{End, Run, RunError, run};
+use crate::engine::{Run, run};
+use crate::record::{End, RunError};
 use crate::scenario::{
     Action, Change, Crossing, Drive, EndStop, IntegratorChoice, Profile, StopAction,
 };

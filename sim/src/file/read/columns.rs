@@ -3,7 +3,6 @@
 
 use super::super::document::Node;
 use super::super::keys::{Keys, Reports};
-use crate::engine::Layout;
 use crate::nearest::did_you_mean;
 use crate::record::columns::{Columns, quantity, state_quantities};
 use crate::scenario::Scenario;
@@ -31,7 +30,8 @@ pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
             Err(error) => keys.error("quantity", error.to_string(), ""),
         }
     }
-    let state = state_quantities(&Layout::new(scenario));
+    let joints = scenario.joints().map(|(_, name, info)| (name, info));
+    let state = state_quantities(joints, scenario.mode_count());
     for (keys, crossing) in keys.tables("crossing").iter().zip(&scenario.crossings) {
         let name = &crossing.column;
         let column = all.iter().find(|column| column.name == *name);

@@ -18,7 +18,7 @@ use super::copies::{help_of_copy, original, with_original};
 use super::layout::{Place, layout, turned};
 use super::mount::{DeviceAxes, mount};
 use super::structure::Structure;
-use crate::scenario::{Drive, StopAction};
+use crate::scenario::{Drive, StopAction, body_key};
 use crate::units::Measure;
 
 /// A device of a kind, or a platform without the devices on it.
@@ -84,16 +84,6 @@ impl Device {
             Of::Platform(_) => <Platform as Kind>::JOINTS,
         }
     }
-}
-
-/// The key of a body: `inner_gimbal`.
-pub(crate) fn body_key(joint: &JointInfo) -> String {
-    joint.body.replace(' ', "_")
-}
-
-/// The key of a joint: that of its body, but of a platform's last joint `z_turn`.
-pub(crate) fn joint_key(joint: &JointInfo) -> String {
-    if joint.body == <Platform as Kind>::NAME { "z_turn".to_owned() } else { body_key(joint) }
 }
 
 /// `[[device]]`, in order.

@@ -4,8 +4,8 @@
 use precess_dynamics::kind::JointInfo;
 
 use super::super::keys::Keys;
-use super::device::{Device, body_key, joint_key};
-use crate::scenario::{Drive, EndStop};
+use super::device::Device;
+use crate::scenario::{Drive, EndStop, body_key, joint_key};
 
 /// All joints in order, by name.
 pub(super) struct Joints {

@@ -34,7 +34,7 @@ use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
-pub(crate) use device::{body_key, has_inertia, has_mass, has_origin, joint_key};
+pub(crate) use device::{has_inertia, has_mass, has_origin};
 
 use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};

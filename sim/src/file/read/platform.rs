@@ -22,12 +22,12 @@ use precess_dynamics::{
 
 use super::super::keys::Keys;
 use super::body::{Joint, JointMeasures, inertia, joint, mass};
-use super::device::{Device, Of, joint_key, nodes};
+use super::device::{Device, Of, nodes};
 use super::mount::rotation_of;
 use super::structure::Structure;
 use super::suspension::suspension;
 use super::turns::Mount;
-use crate::scenario::Set;
+use crate::scenario::{Set, joint_key};
 use crate::units::{Measure, Plain};
 
 /// What a joint's spring is given by.

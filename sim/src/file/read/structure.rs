@@ -13,11 +13,10 @@ use super::super::diagnostic::Diagnostic;
 use super::super::document::Value;
 use super::super::keys::Keys;
 use super::residual::{self, LeftOut};
+use crate::file::{StructureReadError, structure_from_file};
 use crate::nearest::nearest;
 use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
-use crate::structure::{
-    COORDINATES, MOST, Mode, Node, ReadError, RigidMass, Structure as Modes, from_file,
-};
+use crate::structure::{COORDINATES, MOST, Mode, Node, RigidMass, Structure as Modes};
 use crate::units::{Measure, Plain};
 
 /// A structure as a file gives it, and which of its nodes are used.
@@ -104,13 +103,13 @@ pub(super) fn file(root: &Keys<'_>, folder: &Path) -> Option<String> {
 /// The file, with every error of a table that it is.
 fn of_file(keys: &Keys<'_>, folder: &Path) -> Option<Modes> {
     let (path, _) = keys.file("file", folder)?;
-    match from_file(&path) {
+    match structure_from_file(&path) {
         Ok(structure) => Some(structure),
-        Err(ReadError::File(error)) => {
+        Err(StructureReadError::File(error)) => {
             keys.error("file", error.to_string(), "");
             None
         }
-        Err(ReadError::Table(found)) => {
+        Err(StructureReadError::Table(found)) => {
             let mut reports = keys.reports().borrow_mut();
             let first = reports.sources.len();
             reports.sources.extend(found.sources);

@@ -1,6 +1,7 @@
 //! Tables of structures: TOML that says what an op4 file or a Flex file of 42 has: which rows belong to
 //! which node, where the nodes are, mass, damping. Keys and units as in scenario files; every error at once.
 
+mod format;
 mod matrices;
 
 use std::path::Path;
@@ -12,11 +13,12 @@ use super::document::Value;
 use super::keys::Keys;
 use super::read::body;
 use super::read_file::{folder_of, read_file};
-use crate::structure::op4;
 use crate::structure::{
-    COORDINATES, Fault, MOST, Node, RigidMass, Structure, StructureError, bytes_of, flex42,
+    COORDINATES, Fault, MOST, Node, RigidMass, Structure, StructureError, bytes_of, flex42, op4,
 };
 use crate::units::Measure;
+
+pub use format::{StructureReadError, structure_from_file};
 
 /// The number of the format that this program reads.
 const FORMAT: u32 = 1;

@@ -9,9 +9,8 @@ use super::super::blocks::{Block, table};
 use super::super::number::short;
 use super::{JitterReport, rpm};
 use crate::disturbance::{Broadband, COMPONENTS, Disturbance, Harmonic, Model, SourceTarget};
-use crate::file::read::joint_key;
 use crate::scenario::mass::imbalance;
-use crate::scenario::{Drive, Member, ModalStructure};
+use crate::scenario::{Drive, Member, ModalStructure, joint_key};
 
 /// Rows of a table, at most.
 const ROWS_MAX: usize = 100;

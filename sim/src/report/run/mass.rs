@@ -4,11 +4,10 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Imbalance, units};
 
-use crate::file::read::joint_key;
 use crate::report::blocks::{Block, table};
 use crate::report::number;
-use crate::scenario::Scenario;
 use crate::scenario::mass::{MassMatrix, MassProperties, imbalance};
+use crate::scenario::{Scenario, joint_key};
 
 /// The tables; empty for a scenario that the solver rejects.
 pub(in crate::report) fn blocks(scenario: &Scenario) -> Vec<Block> {

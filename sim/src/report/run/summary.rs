@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use super::requirements;
-use crate::engine::{End, Event, Outcome};
 use crate::pointing::RequirementState;
 use crate::record;
+use crate::record::{End, Event, Outcome};
 use crate::report::blocks::{Fact, Summary, Verdict};
 use crate::report::{Report, number};
 use crate::scenario::{IntegratorChoice, Member};

@@ -1,7 +1,7 @@
 //! The energy ledger, momentum at start and end, and the drifts with the meaning of their units.
 
-use crate::engine::{Drift, Outcome};
 use crate::record::columns::Quantity;
+use crate::record::{Drift, Outcome};
 use crate::report::blocks::{Block, table};
 use crate::report::{Collected, Report, number};
 

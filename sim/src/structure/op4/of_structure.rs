@@ -1,5 +1,5 @@
 //! A structure as an op4 file and the table that maps its rows to nodes: what
-//! [`from_file`](crate::structure::from_file) reads back.
+//! [`structure_from_file`](crate::file::structure_from_file) reads back.
 //!
 //! Matrices keep their bits. Mass properties are in the table, about the centre of mass, to rounding.
 

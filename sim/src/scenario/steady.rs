@@ -3,8 +3,8 @@
 
 use precess_dynamics::JointStates;
 
-use super::dynamic_mass::Motor;
-use crate::scenario::{Drive, Member, Scenario, Set, members};
+use super::{Drive, Member, Scenario, members};
+use crate::structure::dynamic_mass::Motor;
 
 /// Joints of some devices, in the order of the set.
 #[derive(Clone, Debug, Default)]
@@ -55,16 +55,4 @@ impl SteadyJoints {
         }
         joints
     }
-}
-
-/// Some devices and platforms of a scenario by themselves; a device on a platform comes with it.
-#[must_use]
-pub fn set_of(scenario: &Scenario, chosen: &[usize]) -> Set {
-    let members = members(&scenario.devices);
-    let chosen: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
-    let on_hub = chosen.iter().filter(|member| member.on().is_none());
-    (
-        on_hub.filter_map(|member| member.device().copied()).collect(),
-        chosen.iter().filter_map(|member| member.platform().cloned()).collect(),
-    )
 }

@@ -1,10 +1,6 @@
 //! [`Outcome`]: what a run returns beside its samples.
 
-use super::drift::Drift;
-use super::error::RunError;
-
-/// Events kept; a crossing in every turn of a wheel would otherwise fill the memory.
-pub(crate) const EVENTS_MAX: usize = 10_000;
+use super::run_error::RunError;
 
 /// The end of a run, complete or not.
 #[derive(Debug)]
@@ -28,6 +24,21 @@ pub struct Outcome {
     pub drift: Drift,
     /// Energy lost in brakes and locking end stops, J.
     pub energy_lost: f64,
+}
+
+/// How far conserved quantities are from the start, each in its own unit at the end of the run; none of what is not
+/// conserved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// |energy + loss in brakes - work - initial energy|, unit: largest sum of the magnitudes of the
+    /// terms of kinetic energy + integral of sum |u * rate|.
+    pub energy: Option<f64>,
+    /// |linear momentum - initial|, unit: largest sum of the magnitudes of its terms. None where
+    /// gravity, a wrench or what holds the hub acts from outside.
+    pub linear: Option<f64>,
+    /// |angular momentum - initial| about the inertial origin, unit and condition as for the linear
+    /// one.
+    pub angular: Option<f64>,
 }
 
 /// Why a run ended.

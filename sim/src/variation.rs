@@ -4,7 +4,6 @@ use std::fmt;
 
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
-use super::Correlation;
 use crate::spectra::float;
 
 /// A key and how its values are distributed.
@@ -31,6 +30,15 @@ impl fmt::Debug for Variation {
         }
         text.finish()
     }
+}
+
+/// A correlation with another variation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correlation {
+    /// The key of the other one.
+    pub key: String,
+    /// Of the normal scores: above -1, below 1.
+    pub coefficient: f64,
 }
 
 /// A distribution; numbers are in the unit of the key.
@@ -67,7 +75,7 @@ impl Distribution {
     }
 
     /// The value at a normal score: Gaussian ones do not lose digits by its probability.
-    pub(super) fn at_score(&self, score: f64) -> f64 {
+    pub(crate) fn at_score(&self, score: f64) -> f64 {
         let probability = 0.5 * libm::erfc(-score * std::f64::consts::FRAC_1_SQRT_2);
         self.at(probability, || score)
     }
@@ -110,7 +118,7 @@ impl Distribution {
 }
 
 /// `Phi^-1`: the standard Gaussian number that is not exceeded with a probability.
-pub(super) fn normal_score(probability: f64) -> f64 {
+pub(crate) fn normal_score(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(probability)
 }
 

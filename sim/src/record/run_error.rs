@@ -1,0 +1,314 @@
+//! [`RunError`]: why a run could not be started, or what ended it early.
+
+use std::fmt;
+
+use precess_dynamics::{ModesError, ParameterError, SolveError};
+
+use super::error::RecordError;
+use crate::scenario::ScenarioError;
+use crate::units::Plain;
+
+/// A run that could not be started or finished.
+#[derive(Debug)]
+pub enum RunError {
+    /// The scenario is rejected: everything that is wrong with it.
+    Scenario(Vec<ScenarioError>),
+    /// The solver rejects the spacecraft.
+    Parameters(ParameterError),
+    /// The modes of the structure are not valid.
+    Modes(ModesError),
+    /// The solver cannot solve a state of the run.
+    Solve {
+        /// Simulated time, s.
+        time: f64,
+        /// The name of the device that it is about, where there is one.
+        device: Option<String>,
+        /// The solver's error.
+        source: SolveError,
+    },
+    /// The y turn of a platform is at 90 degrees, where the x turn is about the axis of the z turn:
+    /// the equations of its turns are singular there.
+    TurnAtRightAngle {
+        /// Simulated time, s.
+        time: f64,
+        /// The platform.
+        platform: String,
+        /// The angle of its y turn, rad.
+        angle: f64,
+        /// The inertia that is left to the x turn, and the bound that it is not above, kg m².
+        pivot: [f64; 2],
+    },
+    /// A joint is to be locked while it moves.
+    LockedJointMoves {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate: `wheel1.theta`.
+        joint: String,
+        /// Its rate.
+        rate: f64,
+        /// The rate's unit: rad/s or m/s.
+        unit: &'static str,
+    },
+    /// A joint that its kind keeps at its rate is to be driven, locked or stopped.
+    NotDriven {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate.
+        joint: String,
+    },
+    /// A joint starts beyond an end stop.
+    BeyondStop {
+        /// Its coordinate.
+        joint: String,
+        /// The coordinate's value.
+        value: f64,
+        /// Lowest and highest.
+        stops: [f64; 2],
+        /// The unit of all three: rad or m.
+        unit: &'static str,
+    },
+    /// A crossing is of a column that is none of the state.
+    Crossing {
+        /// The name of the crossing.
+        name: String,
+        /// The column.
+        column: String,
+        /// The nearest names of columns of the state.
+        nearest: Vec<String>,
+    },
+    /// More steps than a run of this length should need.
+    TooManySteps {
+        /// Simulated time reached, s.
+        time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
+    },
+    /// The step fell below what the clock resolves.
+    StepTooSmall {
+        /// Simulated time reached, s.
+        time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
+    },
+    /// The motion is too stiff for an explicit method.
+    Stiff {
+        /// Simulated time reached, s.
+        time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
+    },
+    /// A number of the state changes so fast that no step is short enough.
+    TooFast {
+        /// Simulated time, s.
+        time: f64,
+        /// The number: `position_x`.
+        quantity: String,
+        /// Its rate of change.
+        rate: f64,
+        /// The rate's unit.
+        unit: String,
+    },
+    /// The integrator reports what no run of this program should cause.
+    Integrator {
+        /// Simulated time, s.
+        time: f64,
+        /// What it reports.
+        fault: Fault,
+    },
+    /// The samples could not be recorded.
+    Record(RecordError),
+    /// An error of another process, which has passed on only its time and message.
+    Elsewhere {
+        /// Simulated time, s; none of an error before the start.
+        time: Option<f64>,
+        /// What that process says.
+        message: String,
+    },
+}
+
+/// A report of the integrator that is a fault of this program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// It rejects the span or the first step; the reason is known in its own words only.
+    Input {
+        /// Its words.
+        reason: String,
+    },
+    /// The interpolant was evaluated outside the last step.
+    Interpolation {
+        /// The time of the state, s.
+        time: f64,
+        /// Start of the last step, s.
+        from: f64,
+        /// End of the last step, s.
+        to: f64,
+    },
+    /// It takes the equations for ones with a delay.
+    Delay,
+    /// It solved linear equations and failed; the reason is known in its own words only.
+    LinearAlgebra {
+        /// Its words.
+        reason: String,
+    },
+}
+
+impl RunError {
+    /// The simulated time at which it happened, s; none of an error before the start.
+    #[must_use]
+    pub fn time(&self) -> Option<f64> {
+        match self {
+            Self::Solve { time, .. }
+            | Self::TurnAtRightAngle { time, .. }
+            | Self::LockedJointMoves { time, .. }
+            | Self::NotDriven { time, .. }
+            | Self::TooManySteps { time, .. }
+            | Self::StepTooSmall { time, .. }
+            | Self::Stiff { time, .. }
+            | Self::TooFast { time, .. }
+            | Self::Integrator { time, .. } => Some(*time),
+            Self::Elsewhere { time, .. } => *time,
+            Self::Scenario(_)
+            | Self::Parameters(_)
+            | Self::Modes(_)
+            | Self::BeyondStop { .. }
+            | Self::Crossing { .. }
+            | Self::Record(_) => None,
+        }
+    }
+}
+
+/// What varies fastest, and that it is to be slowed down.
+fn slower(fastest: Option<&str>) -> String {
+    fastest.map_or_else(
+        || "; check what moves fast".to_owned(),
+        |what| format!("; fastest is {what}: slow it down"),
+    )
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scenario(errors) => {
+                f.write_str("scenario rejected")?;
+                errors.iter().enumerate().try_for_each(|(index, error)| {
+                    write!(f, "{} {error}", if index == 0 { ":" } else { ";" })
+                })
+            }
+            Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
+            Self::Modes(error) => write!(f, "structure rejected: {error}"),
+            Self::Solve { time, device: Some(device), source } => {
+                write!(f, "at t = {time} s, `{device}`: {source}", time = Plain(*time))
+            }
+            Self::Solve { time, device: None, source } => {
+                write!(f, "at t = {time} s: {source}", time = Plain(*time))
+            }
+            Self::TurnAtRightAngle { time, platform, angle, pivot: [pivot, bound] } => write!(
+                f,
+                "at t = {time} s, `{platform}`: its y turn is at {} deg, where the x turn is about the \
+                 axis of the z turn and has no inertia of its own: {pivot:e} kg m^2, not above \
+                 {bound:e}; choose a `mount` in which the y turn stays away from 90 deg, or lock the x \
+                 turn",
+                angle.to_degrees(),
+                time = Plain(*time)
+            ),
+            Self::LockedJointMoves { time, joint, rate, unit } => write!(
+                f,
+                "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \
+                 it with a brake instead",
+                time = Plain(*time),
+                rate = Plain(*rate)
+            ),
+            Self::NotDriven { time, joint } => write!(
+                f,
+                "at t = {time} s: the kind of {joint} keeps its rate constant; remove its drive, \
+                 or use a kind that drives it",
+                time = Plain(*time)
+            ),
+            Self::BeyondStop { joint, value, stops: [lower, upper], unit } => write!(
+                f,
+                "{joint} starts at {value} {unit}, beyond its end stops {lower} {unit} and {upper} \
+                 {unit}; start it in between",
+                value = Plain(*value),
+                lower = Plain(*lower),
+                upper = Plain(*upper)
+            ),
+            Self::Crossing { name, column, nearest } => {
+                write!(f, "crossing `{name}`: `{column}` is no column of the state")?;
+                nearest.iter().enumerate().try_for_each(|(index, near)| {
+                    let lead = if index == 0 { "; nearest: " } else { ", " };
+                    write!(f, "{lead}`{near}`")
+                })
+            }
+            Self::TooManySteps { time, fastest } => write!(
+                f,
+                "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \
+                 shorten the duration",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
+            ),
+            Self::StepTooSmall { time, fastest } => write!(
+                f,
+                "the integrator's step fell below rounding at t = {time} s{} or loosen the \
+                 tolerance",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
+            ),
+            Self::Stiff { time, fastest } => write!(
+                f,
+                "the motion turns stiff at t = {time} s, too fast for an explicit method{}, check \
+                 torques and inertias",
+                slower(fastest.as_deref()),
+                time = Plain(*time)
+            ),
+            Self::TooFast { time, quantity, rate, unit } => write!(
+                f,
+                "at t = {time} s {quantity} changes by {rate} {unit}, too fast for any step; check the \
+                 initial state, torques, springs and inertias with their units",
+                time = Plain(*time),
+                rate = Plain(*rate)
+            ),
+            Self::Integrator { time, fault } => write!(
+                f,
+                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program",
+                time = Plain(*time)
+            ),
+            Self::Record(error) => error.fmt(f),
+            Self::Elsewhere { message, .. } => f.write_str(message),
+        }
+    }
+}
+
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Parameters(source) => Some(source),
+            Self::Modes(source) => Some(source),
+            Self::Solve { source, .. } => Some(source),
+            Self::Record(source) => Some(source),
+            _ => None,
+        }
+    }
+}
+
+impl From<RecordError> for RunError {
+    fn from(error: RecordError) -> Self {
+        Self::Record(error)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
+            Self::Interpolation { time, from, to } => {
+                write!(
+                    f,
+                    "a state at {time} s, outside its last step, {from} s to {to} s",
+                    time = Plain(*time)
+                )
+            }
+            Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
+            Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
+        }
+    }
+}
