@@ -15,7 +15,7 @@ use super::integrator::Moment;
 use super::member_loads::MemberLoads;
 use super::system::System;
 use crate::disturbance::Six;
-use crate::record::columns::{Columns, Quantity};
+use crate::record::columns::{Columns, Quantity, Source};
 use crate::scenario::Scenario;
 use precess_craft::CraftInputs;
 
@@ -74,29 +74,27 @@ struct Found {
 impl Row {
     pub(crate) fn new(scenario: &Scenario, columns: Columns) -> Self {
         let quantities: Vec<_> = columns.into_iter().map(|column| column.quantity).collect();
+        let any = |source| quantities.iter().any(|quantity| quantity.source() == source);
         let of_points = scenario.structure.iter().flat_map(|structure| {
             let node = |point: &crate::scenario::RecordedPoint| structure.nodes.get(point.node);
             structure.points.iter().filter_map(node)
         });
         let points = of_points.enumerate().map(|(index, node)| Point {
             place: node.point(),
-            moves: quantities.iter().any(|quantity| quantity.is_motion_of(index)),
-            accelerates: quantities.iter().any(|quantity| quantity.is_acceleration_of(index)),
+            moves: any(Source::PointMotion(index)),
+            accelerates: any(Source::PointAcceleration(index)),
             motion: None,
             acceleration: None,
         });
         let points = points.collect();
-        let any = |of: fn(&Quantity) -> bool| quantities.iter().any(of);
-        let loads = any(Quantity::is_load);
-        let torques = any(|q| matches!(q, Quantity::Torque(_)));
         Self {
             numbers: vec![0.0; quantities.len()],
-            accelerations: any(Quantity::is_acceleration),
-            torques,
-            loads,
-            energy: any(|q| matches!(q, Quantity::Energy)),
-            momentum: any(|q| matches!(q, Quantity::Linear(_) | Quantity::Angular(_))),
-            disturbances: any(|q| matches!(q, Quantity::Disturbance(..))),
+            accelerations: quantities.iter().any(Quantity::is_acceleration),
+            torques: any(Source::Motors),
+            loads: any(Source::Loads),
+            energy: any(Source::Energy),
+            momentum: any(Source::Momentum),
+            disturbances: any(Source::Disturbances),
             inputs: None,
             points,
             quantities,

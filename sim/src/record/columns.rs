@@ -12,7 +12,7 @@ mod structure;
 
 use precess_dynamics::kind::JointInfo;
 
-pub(crate) use quantity::Quantity;
+pub(crate) use quantity::{Quantity, Source};
 
 use super::error::RecordError;
 use super::load_columns::{of_carried, of_load, of_mount};

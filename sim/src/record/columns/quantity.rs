@@ -37,44 +37,66 @@ pub(crate) enum Quantity {
     Disturbance(usize, usize),
 }
 
+/// What a quantity is read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// Time, state and sums that are integrated: nothing is evaluated.
+    State,
+    Accelerations,
+    Motors,
+    Loads,
+    Energy,
+    Momentum,
+    /// Place and velocity of a point of the structure.
+    PointMotion(usize),
+    PointAcceleration(usize),
+    Disturbances,
+}
+
 impl Quantity {
-    pub(crate) fn is_load(&self) -> bool {
-        matches!(
-            self,
+    /// What it is read from.
+    pub(crate) fn source(&self) -> Source {
+        match *self {
+            Self::Time
+            | Self::Position(_)
+            | Self::Velocity(_)
+            | Self::Quaternion(_)
+            | Self::Sigma(_)
+            | Self::Omega(_)
+            | Self::Coordinate(_)
+            | Self::Rate(_)
+            | Self::Work
+            | Self::Lost
+            | Self::ModalCoordinate(_)
+            | Self::ModalRate(_) => Source::State,
+            Self::HubAcceleration(_) | Self::OmegaDot(_) | Self::JointAcceleration(_) => {
+                Source::Accelerations
+            }
+            Self::Torque(_) => Source::Motors,
+            Self::Energy => Source::Energy,
+            Self::Linear(_) | Self::Angular(_) => Source::Momentum,
             Self::MountForce(..)
-                | Self::MountMoment(..)
-                | Self::CarriedForce(..)
-                | Self::CarriedMoment(..)
-                | Self::LoadForce(..)
-                | Self::LoadMoment(..)
-        )
-    }
-
-    pub(crate) fn is_acceleration(&self) -> bool {
-        matches!(
-            self,
-            Self::HubAcceleration(_)
-                | Self::OmegaDot(_)
-                | Self::JointAcceleration(_)
-                | Self::PointAcceleration(..)
-        )
-    }
-
-    /// Whether place or velocity of a point of the structure is needed.
-    pub(crate) fn is_motion_of(&self, index: usize) -> bool {
-        matches!(
-            self,
+            | Self::MountMoment(..)
+            | Self::CarriedForce(..)
+            | Self::CarriedMoment(..)
+            | Self::LoadForce(..)
+            | Self::LoadMoment(..) => Source::Loads,
             Self::Displacement(point, _)
-                | Self::Rotation(point, _)
-                | Self::PointSigma(point, _)
-                | Self::PointOmega(point, _)
-                if *point == index
-        )
+            | Self::Rotation(point, _)
+            | Self::PointSigma(point, _)
+            | Self::PointOmega(point, _) => Source::PointMotion(point),
+            Self::PointAcceleration(point, _) => Source::PointAcceleration(point),
+            Self::Disturbance(..) => Source::Disturbances,
+        }
     }
 
-    /// Whether the acceleration of a point of the structure is needed.
-    pub(crate) fn is_acceleration_of(&self, index: usize) -> bool {
-        matches!(self, Self::PointAcceleration(point, _) if *point == index)
+    pub(crate) fn is_load(&self) -> bool {
+        self.source() == Source::Loads
+    }
+
+    /// Whether the accelerations of the spacecraft are needed.
+    pub(crate) fn is_acceleration(&self) -> bool {
+        matches!(self.source(), Source::Accelerations | Source::PointAcceleration(_))
     }
 
     /// Whether it is part of the state that is integrated.

@@ -33,27 +33,8 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
     let mut groups: BTreeMap<(usize, usize), Chart> = BTreeMap::new();
     for (index, column) in header.columns.iter().enumerate() {
         let found = match column.quantity {
-            Quantity::Time => None,
             Quantity::Quaternion(_) if mrp => None,
-            Quantity::Coordinate(joint)
-            | Quantity::Rate(joint)
-            | Quantity::JointAcceleration(joint)
-            | Quantity::Torque(joint) => joints.get(joint).map(|(_, device, info)| {
-                let body = bodies.iter().position(|body| *body == info.body).unwrap_or_default();
-                of_joint(column.quantity, body, device, info)
-            }),
-            Quantity::ModalCoordinate(_)
-            | Quantity::ModalRate(_)
-            | Quantity::Displacement(..)
-            | Quantity::Rotation(..)
-            | Quantity::PointSigma(..)
-            | Quantity::PointOmega(..)
-            | Quantity::PointAcceleration(..) => of_structure(column),
-            Quantity::Disturbance(source, component) => {
-                Some(of_disturbance(source, component, column))
-            }
-            quantity if quantity.is_load() => Some(of_load(quantity, index, column)),
-            quantity => of_hub(quantity),
+            quantity => found(quantity, index, column, (&joints[..], &bodies[..])),
         };
         let Some(Found { key, part, slug, title, axis, family, label, departure }) = found else {
             continue;
@@ -102,114 +83,169 @@ struct Found {
     departure: bool,
 }
 
-fn of_hub(quantity: Quantity) -> Option<Found> {
-    let (rank, title, axis, family, symbol, index) = match quantity {
-        Quantity::Omega(axis) => (
-            0,
-            "Angular velocity of the hub",
-            "Angular velocity",
-            unit::ANGULAR_RATE,
-            "ω",
-            AXES[axis],
-        ),
-        Quantity::Sigma(axis) => (
-            1,
-            "Attitude of B relative to N, modified Rodrigues parameters",
-            "Attitude σ",
-            unit::NUMBER,
-            "σ",
-            ["1", "2", "3"][axis],
-        ),
-        Quantity::Quaternion(index) => (
-            1,
-            "Attitude of B relative to N, Euler parameters",
-            "Attitude q",
-            unit::NUMBER,
-            "q",
-            ["0", "1", "2", "3"][index],
-        ),
+/// The joints of a scenario: number and name of the device, and the joint.
+type Joints<'a> = [(usize, &'a str, &'static JointInfo)];
+
+/// The chart of every quantity; none of the time.
+fn found(
+    quantity: Quantity,
+    index: usize,
+    column: &Column,
+    joints: (&Joints<'_>, &[&str]),
+) -> Option<Found> {
+    Some(match quantity {
+        Quantity::Time => return None,
+        Quantity::Omega(axis) => {
+            let texts = ["angular-velocity", "Angular velocity of the hub", "Angular velocity"];
+            of_hub(0, texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
+        }
+        Quantity::Sigma(axis) => {
+            let title = "Attitude of B relative to N, modified Rodrigues parameters";
+            let texts = ["attitude", title, "Attitude σ"];
+            of_hub(1, texts, unit::NUMBER, ["σ", ["1", "2", "3"][axis]])
+        }
+        Quantity::Quaternion(index) => {
+            let title = "Attitude of B relative to N, Euler parameters";
+            let texts = ["attitude", title, "Attitude q"];
+            of_hub(1, texts, unit::NUMBER, ["q", ["0", "1", "2", "3"][index]])
+        }
+        Quantity::Rate(joint) => return of_joint(2, &RATE, joint, joints),
+        Quantity::Coordinate(joint) => return of_joint(3, &COORDINATE, joint, joints),
+        Quantity::Torque(joint) => return of_joint(4, &MOTOR, joint, joints),
         Quantity::Position(axis) => {
-            (5, "Inertial position of B", "Position", unit::LENGTH, "r", AXES[axis])
+            let texts = ["position", "Inertial position of B", "Position"];
+            of_hub(5, texts, unit::LENGTH, ["r", AXES[axis]])
         }
         Quantity::Velocity(axis) => {
-            (6, "Inertial velocity of B", "Velocity", unit::VELOCITY, "v", AXES[axis])
+            let texts = ["velocity", "Inertial velocity of B", "Velocity"];
+            of_hub(6, texts, unit::VELOCITY, ["v", AXES[axis]])
         }
-        Quantity::OmegaDot(axis) => (
-            7,
-            "Angular acceleration of the hub",
-            "Angular acceleration",
-            unit::ANGULAR_ACCELERATION,
-            "α",
-            AXES[axis],
-        ),
+        Quantity::OmegaDot(axis) => {
+            let texts =
+                ["angular-acceleration", "Angular acceleration of the hub", "Angular acceleration"];
+            of_hub(7, texts, unit::ANGULAR_ACCELERATION, ["α", AXES[axis]])
+        }
         Quantity::HubAcceleration(axis) => {
-            (8, "Inertial acceleration of B", "Acceleration", unit::ACCELERATION, "a", AXES[axis])
+            let texts = ["acceleration", "Inertial acceleration of B", "Acceleration"];
+            of_hub(8, texts, unit::ACCELERATION, ["a", AXES[axis]])
         }
+        Quantity::JointAcceleration(joint) => return of_joint(9, &ACCELERATION, joint, joints),
+        Quantity::Displacement(point, axis) => {
+            let texts = ["displacement in B", "Displacement"];
+            of_point((10, point), texts, unit::DISPLACEMENT, ["u", AXES[axis]], column)
+        }
+        Quantity::Rotation(point, axis) => {
+            let texts = ["rotation in B", "Rotation"];
+            of_point((11, point), texts, unit::SMALL_ANGLE, ["θ", AXES[axis]], column)
+        }
+        Quantity::PointSigma(point, axis) => {
+            let texts = ["attitude relative to N, modified Rodrigues parameters", "Attitude σ"];
+            let label = ["σ", ["1", "2", "3"][axis]];
+            of_point((12, point), texts, unit::NUMBER, label, column)
+        }
+        Quantity::PointOmega(point, axis) => {
+            let texts = ["inertial angular velocity", "Angular velocity"];
+            of_point((13, point), texts, unit::ANGULAR_RATE, ["ω", AXES[axis]], column)
+        }
+        Quantity::PointAcceleration(point, axis) => {
+            let texts = ["inertial acceleration", "Acceleration"];
+            of_point((14, point), texts, unit::ACCELERATION, ["a", AXES[axis]], column)
+        }
+        Quantity::ModalCoordinate(mode) => {
+            of_modes(15, "modal coordinates", unit::MODAL, "η", mode)
+        }
+        Quantity::ModalRate(mode) => of_modes(16, "modal rates", unit::MODAL_RATE, "η′", mode),
+        Quantity::Disturbance(source, component) => of_disturbance(source, component, column),
         Quantity::Energy => {
-            (20, "Energy and work since the start", "Energy", unit::ENERGY, "ΔE", "")
+            let texts = ["energy", "Energy and work since the start", "Energy"];
+            of_hub(20, texts, unit::ENERGY, ["ΔE", ""])
         }
-        Quantity::Work => (20, "", "", unit::ENERGY, "W", ""),
-        Quantity::Lost => (20, "", "", unit::ENERGY, "losses", ""),
-        Quantity::Linear(axis) => (
-            22,
-            "Linear momentum, departure from the start",
-            "Departure",
-            unit::LINEAR_MOMENTUM,
-            "Δp",
-            AXES[axis],
-        ),
-        Quantity::Angular(axis) => (
-            23,
-            "Angular momentum about the inertial origin, departure from the start",
-            "Departure",
-            unit::ANGULAR_MOMENTUM,
-            "ΔH",
-            AXES[axis],
-        ),
-        _ => return None,
-    };
-    let label = if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") };
-    let title = if title.is_empty() { "Work and losses since the start" } else { title };
-    let slug = match rank {
-        0 => "angular-velocity",
-        1 => "attitude",
-        5 => "position",
-        6 => "velocity",
-        7 => "angular-acceleration",
-        8 => "acceleration",
-        20 => "energy",
-        22 => "linear-momentum",
-        _ => "angular-momentum",
-    };
-    Some(Found {
+        Quantity::Work => of_hub(20, WORK, unit::ENERGY, ["W", ""]),
+        Quantity::Lost => of_hub(20, WORK, unit::ENERGY, ["losses", ""]),
+        Quantity::Linear(axis) => {
+            let title = "Linear momentum, departure from the start";
+            let texts = ["linear-momentum", title, "Departure"];
+            of_hub(22, texts, unit::LINEAR_MOMENTUM, ["Δp", AXES[axis]])
+        }
+        Quantity::Angular(axis) => {
+            let title = "Angular momentum about the inertial origin, departure from the start";
+            let texts = ["angular-momentum", title, "Departure"];
+            of_hub(23, texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
+        }
+        Quantity::MountForce(_, axis)
+        | Quantity::CarriedForce(_, axis)
+        | Quantity::LoadForce(_, axis) => of_load(FORCE, axis, index, column),
+        Quantity::MountMoment(_, axis)
+        | Quantity::CarriedMoment(_, axis)
+        | Quantity::LoadMoment(_, axis) => of_load(MOMENT, axis, index, column),
+    })
+}
+
+/// Slug, title and axis of the chart that begins with the work.
+const WORK: [&str; 3] = ["energy", "Work and losses since the start", "Energy"];
+
+/// Axis, unit and symbol of forces and of moments.
+type LoadTexts = (&'static str, &'static Family, &'static str);
+const FORCE: LoadTexts = ("Force", unit::FORCE, "F");
+const MOMENT: LoadTexts = ("Moment", unit::MOMENT, "M");
+
+/// What is shown of a joint, the axis and the unit: of a wheel, of a sliding joint, of any other.
+type JointTexts = [(&'static str, &'static str, &'static Family); 3];
+const RATE: JointTexts = [
+    ("rates", "Rate", unit::WHEEL_RATE),
+    ("speeds", "Speed", unit::VELOCITY),
+    ("rates", "Rate", unit::ANGULAR_RATE),
+];
+const COORDINATE: JointTexts = [
+    ("angles", "Angle", unit::REVOLUTIONS),
+    ("displacements", "Displacement", unit::LENGTH),
+    ("angles", "Angle", unit::ANGLE),
+];
+const MOTOR: JointTexts = [
+    ("motor torques", "Torque", unit::MOTOR_TORQUE),
+    ("motor forces", "Force", unit::FORCE),
+    ("motor torques", "Torque", unit::MOTOR_TORQUE),
+];
+const ACCELERATION: JointTexts = [
+    ("accelerations", "Acceleration", unit::WHEEL_ACCELERATION),
+    ("accelerations", "Acceleration", unit::ACCELERATION),
+    ("accelerations", "Acceleration", unit::ANGULAR_ACCELERATION),
+];
+
+/// Of the hub or of the whole spacecraft.
+fn of_hub(
+    rank: usize,
+    [slug, title, axis]: [&'static str; 3],
+    family: &'static Family,
+    [symbol, index]: [&str; 2],
+) -> Found {
+    Found {
         key: (rank, 0),
         part: if rank < 20 { Part::Histories } else { Part::Energy },
         slug: slug.to_owned(),
         title: title.to_owned(),
-        axis: if axis.is_empty() { "Energy" } else { axis },
+        axis,
         family,
-        label,
+        label: if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") },
         departure: rank >= 20,
-    })
+    }
 }
 
-fn of_joint(quantity: Quantity, body: usize, device: &str, info: &JointInfo) -> Found {
-    let wheel = info.body == "wheel";
-    let slides = info.slides;
-    let (rank, what, axis, family) = match quantity {
-        Quantity::Rate(_) if wheel => (2, "rates", "Rate", unit::WHEEL_RATE),
-        Quantity::Rate(_) if slides => (2, "speeds", "Speed", unit::VELOCITY),
-        Quantity::Rate(_) => (2, "rates", "Rate", unit::ANGULAR_RATE),
-        Quantity::Coordinate(_) if wheel => (3, "angles", "Angle", unit::REVOLUTIONS),
-        Quantity::Coordinate(_) if slides => (3, "displacements", "Displacement", unit::LENGTH),
-        Quantity::Coordinate(_) => (3, "angles", "Angle", unit::ANGLE),
-        Quantity::Torque(_) if slides => (4, "motor forces", "Force", unit::FORCE),
-        Quantity::Torque(_) => (4, "motor torques", "Torque", unit::MOTOR_TORQUE),
-        _ if wheel => (9, "accelerations", "Acceleration", unit::WHEEL_ACCELERATION),
-        _ if slides => (9, "accelerations", "Acceleration", unit::ACCELERATION),
-        _ => (9, "accelerations", "Acceleration", unit::ANGULAR_ACCELERATION),
+/// A chart for the joints of bodies of one name.
+fn of_joint(
+    rank: usize,
+    [of_wheel, of_slide, of_turn]: &JointTexts,
+    joint: usize,
+    (joints, bodies): (&Joints<'_>, &[&str]),
+) -> Option<Found> {
+    let (_, device, info) = joints.get(joint)?;
+    let body = bodies.iter().position(|body| *body == info.body).unwrap_or_default();
+    let (what, axis, family) = match info.body {
+        "wheel" => *of_wheel,
+        _ if info.slides => *of_slide,
+        _ => *of_turn,
     };
-    Found {
+    Some(Found {
         key: (rank, body),
         part: Part::Histories,
         slug: hyphenated(&format!("{} {what}", info.body)),
@@ -218,81 +254,57 @@ fn of_joint(quantity: Quantity, body: usize, device: &str, info: &JointInfo) -> 
         family,
         label: plain(device),
         departure: false,
+    })
+}
+
+/// A chart for each vector of each point.
+fn of_point(
+    key: (usize, usize),
+    [what, axis]: [&'static str; 2],
+    family: &'static Family,
+    [symbol, index]: [&str; 2],
+    column: &Column,
+) -> Found {
+    Found {
+        key,
+        part: Part::Histories,
+        slug: hyphenated(column.vector.as_deref().unwrap_or_default()),
+        title: capitalised(&format!("{}: {what}", plain(&column.group))),
+        axis,
+        family,
+        label: format!("{symbol}_{index}"),
+        departure: false,
     }
 }
 
-/// Modal coordinates of all modes in one chart, and a chart for each vector of each point.
-fn of_structure(column: &Column) -> Option<Found> {
-    let point = plain(&column.group);
-    let (rank, index, what, axis, family, label) = match column.quantity {
-        Quantity::Displacement(point, axis) => {
-            let label = format!("u_{}", AXES[axis]);
-            (10, point, "displacement in B", "Displacement", unit::DISPLACEMENT, label)
-        }
-        Quantity::Rotation(point, axis) => {
-            let label = format!("θ_{}", AXES[axis]);
-            (11, point, "rotation in B", "Rotation", unit::SMALL_ANGLE, label)
-        }
-        Quantity::PointSigma(point, axis) => (
-            12,
-            point,
-            "attitude relative to N, modified Rodrigues parameters",
-            "Attitude σ",
-            unit::NUMBER,
-            format!("σ_{}", ["1", "2", "3"][axis]),
-        ),
-        Quantity::PointOmega(point, axis) => (
-            13,
-            point,
-            "inertial angular velocity",
-            "Angular velocity",
-            unit::ANGULAR_RATE,
-            format!("ω_{}", AXES[axis]),
-        ),
-        Quantity::PointAcceleration(point, axis) => (
-            14,
-            point,
-            "inertial acceleration",
-            "Acceleration",
-            unit::ACCELERATION,
-            format!("a_{}", AXES[axis]),
-        ),
-        Quantity::ModalCoordinate(mode) => {
-            (15, 0, "modal coordinates", "η", unit::MODAL, format!("η_{}", mode + 1))
-        }
-        Quantity::ModalRate(mode) => {
-            (16, 0, "modal rates", "η′", unit::MODAL_RATE, format!("η′_{}", mode + 1))
-        }
-        _ => return None,
-    };
-    let title = if rank < 15 { format!("{point}: {what}") } else { what.to_owned() };
-    Some(Found {
-        key: (rank, index),
+/// All modes in one chart.
+fn of_modes(
+    rank: usize,
+    what: &str,
+    family: &'static Family,
+    symbol: &'static str,
+    mode: usize,
+) -> Found {
+    Found {
+        key: (rank, 0),
         part: Part::Histories,
-        slug: hyphenated(&match rank {
-            10..15 => column.vector.clone().unwrap_or_default(),
-            _ => what.to_owned(),
-        }),
-        title: capitalised(&title),
-        axis,
+        slug: hyphenated(what),
+        title: capitalised(what),
+        axis: symbol,
         family,
-        label,
+        label: format!("{symbol}_{}", mode + 1),
         departure: false,
-    })
+    }
 }
 
 /// A chart for the force and one for the moment of each source.
 fn of_disturbance(source: usize, component: usize, column: &Column) -> Found {
-    let (what, axis, family, symbol) = if component < 3 {
-        ("force", "Force", unit::FORCE, "F")
-    } else {
-        ("moment", "Moment", unit::MOMENT, "M")
-    };
+    let (axis, family, symbol) = if component < 3 { FORCE } else { MOMENT };
     Found {
         key: (17, 2 * source + component / 3),
         part: Part::Histories,
         slug: hyphenated(column.vector.as_deref().unwrap_or(&column.name)),
-        title: format!("{}: {what}", capitalised(&plain(&column.group))),
+        title: format!("{}: {}", capitalised(&plain(&column.group)), axis.to_lowercase()),
         axis,
         family,
         label: format!("{symbol}_{}", AXES[component % 3]),
@@ -300,16 +312,7 @@ fn of_disturbance(source: usize, component: usize, column: &Column) -> Found {
     }
 }
 
-fn of_load(quantity: Quantity, index: usize, column: &Column) -> Found {
-    let (axis, family, name, symbol) = match quantity {
-        Quantity::MountForce(_, axis)
-        | Quantity::CarriedForce(_, axis)
-        | Quantity::LoadForce(_, axis) => (axis, unit::FORCE, "Force", "F"),
-        Quantity::MountMoment(_, axis)
-        | Quantity::CarriedMoment(_, axis)
-        | Quantity::LoadMoment(_, axis) => (axis, unit::MOMENT, "Moment", "M"),
-        _ => (0, unit::NUMBER, "", ""),
-    };
+fn of_load((name, family, symbol): LoadTexts, axis: usize, index: usize, column: &Column) -> Found {
     // The meaning ends in the component: "…, x".
     let meaning = column.meaning.rsplit_once(',').map_or(column.meaning.as_str(), |(what, _)| what);
     let device = column.group.split('.').next().unwrap_or_default();
