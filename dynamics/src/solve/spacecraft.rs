@@ -78,7 +78,7 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// The same with products and sums of the devices' equations rounded once, where the CPU does
-    /// that: accelerations and steps have other bits, and take less time.
+    /// that: accelerations and steps have other bits. Whether they take less time depends on CPU and set.
     ///
     /// The instructions are detected at run time, in this call. Numbers other than `f64` stay as
     /// they are; so do loads, energies and momenta.
