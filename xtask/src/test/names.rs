@@ -21,6 +21,14 @@ const MOVED: &[(&str, &str)] = &[
     ("xtask/src/flight/", "xtask/distribute/src/flight/"),
     ("xtask/src/wheel.rs ", "xtask/distribute/src/wheel.rs "),
     (
+        "dynamics/tests/floors.rs no_floor_uses_one_above_it",
+        "tests/tests/architecture/main.rs no_circle_between_folders",
+    ),
+    (
+        "dynamics/tests/floors.rs an_arrow_upwards_is_seen",
+        "tests/tests/architecture/graph.rs a_circle_is_named_with_file_and_import",
+    ),
+    (
         "codegen/review/src/mutation/physics/mod.rs ",
         "codegen/review/src/mutation/physics/trial.rs ",
     ),

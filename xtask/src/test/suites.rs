@@ -150,7 +150,6 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
     // The solver.
     always("precess-dynamics", "lib", &[SOLVER, LANES]),
-    always("precess-dynamics", "floors", &[SOLVER, LANES]),
     always("precess-double-double", "lib", &[SOLVER, REFERENCES]),
     always("precess-tests", "lib", &[SOLVER, REFERENCES]),
     always("precess-tests", "dynamics", &[SOLVER, LANES, REFERENCES, &["tests/tests/dynamics"]]),
@@ -166,6 +165,19 @@ pub(crate) const SUITES: &[Suite] = &[
         &[SOLVER, LANES, REFERENCES, ENGINES, &["tests/tests/engines"]],
     ),
     always("precess-tests", "links", &[PAGES, &["tests/tests/links.rs", "sim/fuzz", "sim/report"]]),
+    always(
+        "precess-tests",
+        "architecture",
+        &[
+            GENERATOR,
+            BAKING,
+            SOLVER,
+            LANES,
+            REFERENCES,
+            DESKTOP,
+            &["codegen/review", "docs", "tests/tests/architecture", "xtask"],
+        ],
+    ),
     all("precess-tests", "code_size", &[SOLVER, &["tests/tests/code_size.rs", "tests/fixtures"]]),
     all("precess-tests", "no_panic", &[SOLVER, &["tests/tests/no_panic.rs", "tests/fixtures"]]),
     always("precess-derivatives", "linearize", &[SOLVER, REFERENCES, &["tests/derivatives"]]),
