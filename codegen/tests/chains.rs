@@ -147,7 +147,7 @@ fn a_wrong_stage_of_a_long_elimination_is_caught() {
     let stages = text.lines().map(str::trim).filter_map(|line| {
         let (name, value) = line.strip_prefix("let ")?.split_once(" = ")?;
         let stage = done.contains(&name.rsplit_once('_')?.1);
-        let (before, taken) = value.split_once(".sub_mul(")?;
+        let (before, taken) = value.split_once(" - ")?;
         stage.then_some((line, name, before, taken))
     });
     let stages: Vec<_> = stages.collect();
@@ -155,8 +155,8 @@ fn a_wrong_stage_of_a_long_elimination_is_caught() {
     for (number, (line, name, before, taken)) in stages.into_iter().step_by(5).enumerate() {
         let wrong = match number % 3 {
             0 => format!("{before};"),
-            1 => format!("{before}.add_mul({taken}"),
-            _ => format!("{before}.sub_mul({before}, {before});"),
+            1 => format!("{before} + {taken}"),
+            _ => format!("{before} - {before} * {before};"),
         };
         let text = text.replace(line, &format!("let {name} = {wrong}"));
         let file = syn::parse_file(&text).unwrap();
@@ -204,11 +204,11 @@ fn a_wrong_sliding_kernel_is_caught() {
         ("+ p.r_s_b_bz * p.mount_13;", "+ p.r_s_b_bz * p.mount_31;"),
         ("let divisor_s = m.held_s + p.m_s;", "let divisor_s = p.m_s;"),
         ("let recip_s = m.driven_s * divisor_s.recip();", "let recip_s = divisor_s.recip();"),
-        ("let free_s = m.given_s.add_mul(tau_s, recip_s);", "let free_s = tau_s * recip_s;"),
+        ("let free_s = m.given_s + tau_s * recip_s;", "let free_s = tau_s * recip_s;"),
         ("let m_vv_12 = p.f_s_by * gain_s_v1;", "let m_vv_12 = p.m_s;"),
         ("let gain_s_w2 = n_s_by * recip_s;", "let gain_s_w2 = n_s_bz * recip_s;"),
-        (".sub_mul(a.omega_dot_by, e.gain_s_w2)", ""),
-        ("let n_s_bz = (p.f_s_by * reach_bx)", "let n_s_bz = (p.f_s_by * reach_by)"),
+        (" - a.omega_dot_by * e.gain_s_w2", ""),
+        ("let n_s_bz = p.f_s_by * reach_bx", "let n_s_bz = p.f_s_by * reach_by"),
         ("let f_s_by = p.m_s * p.mount_21;", "let f_s_by = p.m_s * p.mount_12;"),
         ("gain_s_w3, free_s", "free_s"),
     ] {

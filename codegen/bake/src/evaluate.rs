@@ -88,10 +88,6 @@ impl Scope<'_> {
                 match (call.method.to_string().as_str(), arguments.as_slice()) {
                     ("recip", []) => Ok(1.0 / own),
                     ("like", [constant]) => literal(constant).ok_or_else(unknown),
-                    // Real of the emitted crate: product and sum one after the other.
-                    ("add_mul", [a, b]) => Ok(own + self.value(a)? * self.value(b)?),
-                    ("sub_mul", [a, b]) => Ok(own - self.value(a)? * self.value(b)?),
-                    ("mul_sub", [a, b]) => Ok(own * self.value(a)? - self.value(b)?),
                     _ => Err(unknown()),
                 }
             }
@@ -124,7 +120,7 @@ mod tests {
 
     #[test]
     fn each_operation_is_rounded_by_itself() {
-        let found = of("fn f() -> R { let x = -(p.a + p.b) * p.a; let y = x.add_mul(p.b, p.b); \
+        let found = of("fn f() -> R { let x = -(p.a + p.b) * p.a; let y = x + p.b * p.b; \
                         R { y, z: y.like(0.5).recip(), w: x - y } }");
         let x = -(0.1 + 0.2) * 0.1;
         let y = x + 0.2 * 0.2;

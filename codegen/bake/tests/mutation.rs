@@ -33,8 +33,7 @@ fn device() -> (&'static Kind, Assumed) {
 /// Texts with one operator changed, in the functions of an evaluation.
 fn mutants(text: &str) -> Vec<String> {
     let start = text.find("pub fn prepare").unwrap();
-    let operators =
-        [(" + ", " - "), (" - ", " + "), ("add_mul(", "sub_mul("), ("sub_mul(", "add_mul(")];
+    let operators = [(" + ", " - "), (" - ", " + ")];
     let mut list = Vec::new();
     for (own, other) in operators {
         let places = text.match_indices(own).map(|(place, _)| place).filter(|place| *place > start);

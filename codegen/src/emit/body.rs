@@ -3,7 +3,6 @@
 //! Invariant: no statement only repeats a name or a field of an argument, and none gives a constant
 //! a second name. A result of that kind is written where it is returned.
 
-mod fused;
 mod names;
 
 use std::collections::BTreeMap;
@@ -102,8 +101,6 @@ pub(super) struct Writer<'a, 'g> {
     prefix: String,
     /// Columns left for the value of the statement at hand.
     room: usize,
-    /// Whether a product that meets a sum and nothing else is written as one operation with it.
-    fusing: bool,
     statements: Vec<TokenStream>,
     copies: BTreeMap<String, String>,
     counts: Counts,
@@ -126,16 +123,10 @@ impl<'a, 'g> Writer<'a, 'g> {
             numbers: BTreeMap::new(),
             prefix: String::new(),
             room: 0,
-            fusing: false,
             statements: Vec::new(),
             copies: BTreeMap::new(),
             counts: Counts::default(),
         }
-    }
-
-    /// Writes `c.add_mul(a, b)` for `c + a * b`, for numbers that do both at once.
-    pub(super) fn fusing(self) -> Self {
-        Self { fusing: true, ..self }
     }
 
     /// The body that computes `outputs`, and nothing that they do not need.
@@ -275,11 +266,14 @@ impl<'a, 'g> Writer<'a, 'g> {
 
     fn compute(&mut self, id: NodeId) -> Rendered {
         match self.graph.node(id) {
-            Node::Sum(a, b) => match (self.inline(a), self.inline(b)) {
-                (_, Node::Neg(b)) => self.difference(a, b),
-                (Node::Neg(a), _) => self.difference(b, a),
-                _ => self.sum(a, b),
-            },
+            Node::Sum(a, b) => {
+                self.counts.add += 1;
+                match (self.inline(a), self.inline(b)) {
+                    (_, Node::Neg(b)) => self.fitting([a, b], |[a, b]| a.minus(b)),
+                    (Node::Neg(a), _) => self.fitting([b, a], |[b, a]| b.minus(a)),
+                    _ => self.commuting(a, b, Rendered::plus, Binding::Sum),
+                }
+            }
             Node::Product(a, b) => {
                 self.counts.mul += 1;
                 self.commuting(a, b, Rendered::times, Binding::Product)

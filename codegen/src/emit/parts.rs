@@ -14,9 +14,6 @@ use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, parameters_of};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
 
-/// Where the time of an evaluation goes. Functions called rarely keep plain operators.
-pub(super) const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
-
 /// What lanes call. Inlined, since lanes reach the wide instructions of their caller only so.
 pub(super) const INLINED: [&str; 4] = ["eliminate", "back_substitute", "external", "gravity"];
 
@@ -151,7 +148,5 @@ pub(super) fn kernel_body<'g>(
     let stated = kernel.inputs.iter().find_map(|(letter, record)| of_record(letter, record));
     let witness = stated.or_else(|| of_record("p", &prepared.record));
     let witness = witness.expect("a kernel reads something");
-    let writer = Writer::new(graph, &given, witness);
-    let writer = if FUSED.contains(&kernel.name.as_str()) { writer.fusing() } else { writer };
-    writer.write(&kernel.sections, &kernel.output.sources())
+    Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())
 }

@@ -82,18 +82,6 @@ impl Rendered {
         Self { tokens: quote!(#inner.recip()), width, binding: Binding::Call }
     }
 
-    /// A call of a method: `c.add_mul(a, b)`.
-    pub(super) fn method(&self, name: &str, arguments: [&Self; 2]) -> Self {
-        let (receiver, [a, b]) = (self.inside(Binding::Call), arguments);
-        let method = format_ident!("{name}");
-        let (object, first, second) = (&receiver.tokens, &a.tokens, &b.tokens);
-        Self {
-            tokens: quote!(#object.#method(#first, #second)),
-            width: receiver.width + ".(, )".len() + name.len() + a.width + b.width,
-            binding: Binding::Call,
-        }
-    }
-
     /// In parentheses unless it binds at least as tightly as `outside` requires.
     fn inside(&self, outside: Binding) -> Self {
         if self.binding >= outside {
@@ -118,10 +106,7 @@ mod tests {
         assert_eq!(shown(a.minus(&b).minus(&c)), "a - b - c");
         assert_eq!(shown(a.times(&b).negated()), "- (a * b)");
         assert_eq!(shown(a.plus(&b).recip()), "(a + b) . recip ()");
-        assert_eq!(
-            shown(a.times(&b).method("add_mul", [&c, &a.negated()])),
-            "(a * b) . add_mul (c , - a)"
-        );
+        assert_eq!(shown(a.times(&b).plus(&c.times(&a.negated()))), "a * b + c * - a");
     }
 
     #[test]
@@ -129,7 +114,5 @@ mod tests {
         let [a, b] = ["alpha", "beta"].map(Rendered::name);
         let r = Rendered::field("p", "m_w").times(&a.plus(&b)).negated().plus(&b.recip());
         assert_eq!(r.width, "-(p.m_w * (alpha + beta)) + beta.recip()".len());
-        let r = a.times(&b).method("sub_mul", [&a.plus(&b), &b]);
-        assert_eq!(r.width, "(alpha * beta).sub_mul(alpha + beta, beta)".len());
     }
 }

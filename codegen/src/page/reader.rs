@@ -239,9 +239,6 @@ impl<'g> Reader<'g> {
             _ if self.symbols => return Err(form()),
             ("recip", []) => object.recip(),
             ("like", [constant]) => *constant,
-            ("add_mul", [a, b]) => object + *a * *b,
-            ("sub_mul", [a, b]) => object - *a * *b,
-            ("mul_sub", [a, b]) => object * *a - *b,
             _ => return Err(form()),
         };
         Ok(Value::Scalar(value))

@@ -26,26 +26,12 @@ pub(crate) fn changed(expr: &Expr, site: usize, change: Change) -> Expr {
     made
 }
 
-/// The operands of a sum or, told so, of a difference; a product may be one operation with it.
+/// The operands of a sum or, told so, of a difference.
 fn sum(expr: &Expr) -> Option<(Expr, Expr, bool)> {
-    match expr {
-        Expr::Binary(binary) => {
-            let minus = matches!(binary.op, BinOp::Sub(_));
-            let sum = minus || matches!(binary.op, BinOp::Add(_));
-            sum.then(|| ((*binary.left).clone(), (*binary.right).clone(), minus))
-        }
-        Expr::MethodCall(call) if call.args.len() == 2 => {
-            let (object, a, b) = (&call.receiver, &call.args[0], &call.args[1]);
-            let product = parse_quote!(((#a) * (#b)));
-            match call.method.to_string().as_str() {
-                "add_mul" => Some(((**object).clone(), product, false)),
-                "sub_mul" => Some(((**object).clone(), product, true)),
-                "mul_sub" => Some((parse_quote!((#object * (#a))), b.clone(), true)),
-                _ => None,
-            }
-        }
-        _ => None,
-    }
+    let Expr::Binary(binary) = expr else { return None };
+    let minus = matches!(binary.op, BinOp::Sub(_));
+    let sum = minus || matches!(binary.op, BinOp::Add(_));
+    sum.then(|| ((*binary.left).clone(), (*binary.right).clone(), minus))
 }
 
 /// Counts `number` down over the operands in order and changes the one at which it is zero.
@@ -99,18 +85,4 @@ fn both_operands_of_each_sum_are_sites() {
     assert_eq!(shown(1, Change::Drop), "(a * (b - c))");
     assert_eq!(shown(2, Change::Drop), "a * ((- (c))) + d");
     assert_eq!(shown(3, Change::Flip), "a * ((b + (c))) + d");
-}
-
-#[test]
-fn a_product_that_is_one_operation_with_a_sum_is_a_site() {
-    let expr: Expr = parse_quote!(c.sub_mul(a + d, b));
-    let shown = |site, change| {
-        let made = changed(&expr, site, change);
-        quote::quote!(#made).to_string()
-    };
-    assert_eq!(count(&expr), 4);
-    assert_eq!(shown(0, Change::Drop), "(- (((a + d) * (b))))");
-    assert_eq!(shown(1, Change::Drop), "(c)");
-    assert_eq!(shown(1, Change::Flip), "(c + (((a + d) * (b))))");
-    assert_eq!(shown(3, Change::Drop), "c . sub_mul ((a) , b)");
 }

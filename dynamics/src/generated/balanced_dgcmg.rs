@@ -2251,34 +2251,34 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the outer gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma_o * p.mount_11).add_mul(q.sin_gamma_o, p.mount_12);
-    let e_x_by = (q.cos_gamma_o * p.mount_21).add_mul(q.sin_gamma_o, p.mount_22);
-    let e_x_bz = (q.cos_gamma_o * p.mount_31).add_mul(q.sin_gamma_o, p.mount_32);
-    let e_y_bx = (q.cos_gamma_o * p.mount_12).sub_mul(q.sin_gamma_o, p.mount_11);
-    let e_y_by = (q.cos_gamma_o * p.mount_22).sub_mul(q.sin_gamma_o, p.mount_21);
-    let e_y_bz = (q.cos_gamma_o * p.mount_32).sub_mul(q.sin_gamma_o, p.mount_31);
+    let e_x_bx = q.cos_gamma_o * p.mount_11 + q.sin_gamma_o * p.mount_12;
+    let e_x_by = q.cos_gamma_o * p.mount_21 + q.sin_gamma_o * p.mount_22;
+    let e_x_bz = q.cos_gamma_o * p.mount_31 + q.sin_gamma_o * p.mount_32;
+    let e_y_bx = q.cos_gamma_o * p.mount_12 - q.sin_gamma_o * p.mount_11;
+    let e_y_by = q.cos_gamma_o * p.mount_22 - q.sin_gamma_o * p.mount_21;
+    let e_y_bz = q.cos_gamma_o * p.mount_32 - q.sin_gamma_o * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the outer gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gox = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_goy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_goz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gox = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_goy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_goz = rate_2 + w.omega_bz * p.mount_33;
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in the axes of the
     // outer gimbal, m.
-    let reach_gox = (p.r_go_b_bx * q.cos_gamma_o).add_mul(p.r_go_b_by, q.sin_gamma_o);
-    let reach_goy = (p.r_go_b_by * q.cos_gamma_o).sub_mul(p.r_go_b_bx, q.sin_gamma_o);
+    let reach_gox = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o;
+    let reach_goy = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the outer gimbal, m/s².
-    let path_0 = (reach_gox * omega_b_n_goz).sub_mul(p.arm_o_dz, omega_b_n_gox);
-    let path_1 = (reach_goy * omega_b_n_gox).sub_mul(reach_gox, omega_b_n_goy);
-    let r_first_rest_gox = (omega_b_n_goy * path_1).sub_mul(omega_b_n_goz, path_0);
-    let path_2 = (p.arm_o_dz * omega_b_n_goy).sub_mul(reach_goy, omega_b_n_goz);
-    let r_first_rest_goy = (omega_b_n_goz * path_2).sub_mul(omega_b_n_gox, path_1);
-    let r_first_rest_goz = (omega_b_n_gox * path_0).sub_mul(omega_b_n_goy, path_2);
+    let path_0 = reach_gox * omega_b_n_goz - p.arm_o_dz * omega_b_n_gox;
+    let path_1 = reach_goy * omega_b_n_gox - reach_gox * omega_b_n_goy;
+    let r_first_rest_gox = omega_b_n_goy * path_1 - omega_b_n_goz * path_0;
+    let path_2 = p.arm_o_dz * omega_b_n_goy - reach_goy * omega_b_n_goz;
+    let r_first_rest_goy = omega_b_n_goz * path_2 - omega_b_n_gox * path_1;
+    let r_first_rest_goz = omega_b_n_gox * path_0 - omega_b_n_goy * path_2;
 
     // ω_{Gᵒ/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_go_n_goz = v.gamma_o_dot + omega_b_n_goz;
@@ -2292,17 +2292,17 @@ pub fn eliminate<T: Real>(
     let path_3 = omega_b_n_goy * omega_b_n_goy;
     let path_4 = omega_go_n_goz * omega_go_n_goz;
     let path_5 = omega_b_n_gox * omega_b_n_goy;
-    let path_6 = (p.arm_i_goy * path_5).sub_mul(p.l_o_x, path_3 + path_4);
+    let path_6 = p.arm_i_goy * path_5 - p.l_o_x * (path_3 + path_4);
     let r_gi_rest_gox = path_6 + r_first_rest_gox;
     let path_7 = omega_b_n_gox * omega_go_n_goz;
-    let path_8 = alpha_go_gox.add_mul(omega_b_n_goy, omega_go_n_goz);
-    let path_9 = p.l_o_x * (neg_alpha_go_goy + path_7);
-    let r_gi_rest_goz = path_9.add_mul(p.arm_i_goy, path_8) + r_first_rest_goz;
+    let path_8 = alpha_go_gox + omega_b_n_goy * omega_go_n_goz;
+    let path_9 = p.l_o_x * (neg_alpha_go_goy + path_7) + p.arm_i_goy * path_8;
+    let r_gi_rest_goz = path_9 + r_first_rest_goz;
 
     // ω_{Gⁱ/N}, eq. (44), expressed in its own axes, rad/s.
     let omega_gi_n_giy = v.gamma_i_dot + omega_b_n_goy;
     let rate_3 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_3.add_mul(q.sin_gamma_i, omega_b_n_gox);
+    let omega_gi_n_giz = rate_3 + q.sin_gamma_i * omega_b_n_gox;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the inner gimbal: force, N, and moment, N m,
@@ -2313,18 +2313,16 @@ pub fn eliminate<T: Real>(
     // Outboard composite of the joint of the inner gimbal, V, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
     // Gⁱ moved by (D3).
-    let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix;
-    let mr_behind_v_gox = lump_0.add_mul(q.sin_gamma_i, p.mr_v_gi_giz);
-    let lump_1 = q.cos_gamma_i * p.mr_v_gi_giz;
-    let mr_behind_v_goz = lump_1.sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
-    let lump_2 = (q.cos_gamma_i * p.k_20).sub_mul(q.sin_gamma_i, p.k_19);
+    let lump_0 = q.sin_gamma_i * p.mr_v_gi_giz;
+    let mr_behind_v_gox = q.cos_gamma_i * p.mr_v_gi_gix + lump_0;
+    let lump_1 = q.sin_gamma_i * p.mr_v_gi_gix;
+    let mr_behind_v_goz = q.cos_gamma_i * p.mr_v_gi_giz - lump_1;
+    let lump_2 = q.cos_gamma_i * p.k_20 - q.sin_gamma_i * p.k_19;
     let lump_3 = q.sin_gamma_i * lump_2;
     let i_behind_v_11 = p.j_11 + lump_3;
-    let lump_4 = q.cos_gamma_i * p.i_i_base_12;
-    let i_behind_v_12 = lump_4.add_mul(q.sin_gamma_i, p.i_i_base_23);
-    let i_behind_v_13 = p.k_21.add_mul(q.cos_gamma_i, lump_2);
-    let lump_5 = q.cos_gamma_i * p.i_i_base_23;
-    let i_behind_v_23 = lump_5.sub_mul(q.sin_gamma_i, p.i_i_base_12);
+    let i_behind_v_12 = q.cos_gamma_i * p.i_i_base_12 + q.sin_gamma_i * p.i_i_base_23;
+    let i_behind_v_13 = q.cos_gamma_i * lump_2 + p.k_21;
+    let i_behind_v_23 = q.cos_gamma_i * p.i_i_base_23 - q.sin_gamma_i * p.i_i_base_12;
     let i_behind_v_33 = p.i_i_base_33 - lump_3;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the inner
@@ -2334,162 +2332,155 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_i_gox = mr_behind_v_gox * coriolis_0;
     let coriolis_1 = v.gamma_i_dot * omega_go_n_goz;
     let coriolis_2 = v.gamma_i_dot * omega_b_n_gox;
-    let coriolis_3 = mr_behind_v_goz * coriolis_1;
-    let coriolis_4 = coriolis_3.add_mul(mr_behind_v_gox, coriolis_2);
-    let f_rates_i_goy = coriolis_4 + coriolis_4;
-    let coriolis_5 = mr_behind_v_goz * coriolis_0;
-    let f_rates_i_goz = -coriolis_5;
-    let coriolis_6 = i_behind_v_33 - i_behind_v_11;
-    let coriolis_7 = i_behind_v_13 + i_behind_v_13;
-    let coriolis_8 = (i_behind_v_23 * coriolis_0).add_mul(coriolis_2, coriolis_7);
-    let coriolis_9 = coriolis_8.sub_mul(coriolis_1, p.mass_ii - coriolis_6);
-    let n_rates_i_gox = coriolis_9.sub_mul(q.sin_gamma_i, neg_n_rates_w_giz);
-    let coriolis_10 = coriolis_2 * (p.mass_ii + coriolis_6);
-    let coriolis_11 = coriolis_10.sub_mul(coriolis_1, coriolis_7);
-    let coriolis_12 = coriolis_11.sub_mul(i_behind_v_12, coriolis_0);
-    let n_rates_i_goz = coriolis_12.sub_mul(q.cos_gamma_i, neg_n_rates_w_giz);
+    let coriolis_3 = mr_behind_v_goz * coriolis_1 + mr_behind_v_gox * coriolis_2;
+    let f_rates_i_goy = coriolis_3 + coriolis_3;
+    let coriolis_4 = mr_behind_v_goz * coriolis_0;
+    let f_rates_i_goz = -coriolis_4;
+    let coriolis_5 = i_behind_v_33 - i_behind_v_11;
+    let coriolis_6 = i_behind_v_13 + i_behind_v_13;
+    let coriolis_7 = i_behind_v_23 * coriolis_0 + coriolis_2 * coriolis_6;
+    let coriolis_8 = coriolis_7 - coriolis_1 * (p.mass_ii - coriolis_5);
+    let n_rates_i_gox = coriolis_8 - q.sin_gamma_i * neg_n_rates_w_giz;
+    let coriolis_9 = coriolis_2 * (p.mass_ii + coriolis_5);
+    let coriolis_10 = coriolis_9 - coriolis_1 * coriolis_6;
+    let coriolis_11 = coriolis_10 - i_behind_v_12 * coriolis_0;
+    let n_rates_i_goz = coriolis_11 - q.cos_gamma_i * neg_n_rates_w_giz;
 
     // Outboard composite of the joint of the outer gimbal, D, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
     // Gᵒ moved by (D3).
     let mr_behind_d_gox = mr_behind_v_gox + p.mr_o_base_gox;
     let i_behind_d_11 = p.i_o_base_11 + i_behind_v_11;
-    let lump_6 = i_behind_v_12.sub_mul(mr_behind_v_gox, p.arm_i_goy);
-    let i_behind_d_12 = p.i_o_base_12 + lump_6;
-    let lump_7 = i_behind_v_13.sub_mul(p.l_o_x, mr_behind_v_goz);
-    let i_behind_d_13 = lump_7 + p.i_o_base_13;
-    let lump_8 = mr_behind_v_gox * p.k_4;
-    let i_behind_d_22 = lump_8 + p.mass_ii;
-    let mass_oi = i_behind_v_23.sub_mul(mr_behind_v_goz, p.arm_i_goy);
+    let lump_4 = i_behind_v_12 - mr_behind_v_gox * p.arm_i_goy;
+    let i_behind_d_12 = p.i_o_base_12 + lump_4;
+    let i_behind_d_13 = i_behind_v_13 - p.l_o_x * mr_behind_v_goz + p.i_o_base_13;
+    let lump_5 = mr_behind_v_gox * p.k_4;
+    let i_behind_d_22 = lump_5 + p.mass_ii;
+    let mass_oi = i_behind_v_23 - mr_behind_v_goz * p.arm_i_goy;
     let i_behind_d_23 = p.i_o_base_23 + mass_oi;
 
     // Joint row of the outer gimbal about goz, eqs. (80), (D7), (D9): M_ij, kg m², and bias, N
     // m, which contains the moment that the rates of the outboard joints require about the same
     // axis.
-    let mass_oo = lump_8 + i_behind_v_33 + p.i_o_base_33;
+    let mass_oo = lump_5 + i_behind_v_33 + p.i_o_base_33;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the outer
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the outer
     // gimbal: force, N, and moment, N m, about Gᵒ moved by (D3).
-    let coriolis_13 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
-    let neg_f_rates_o_gox = neg_f_rates_i_gox.add_mul(mr_behind_d_gox, coriolis_13);
-    let f_rates_o_goy = f_rates_i_goy.sub_mul(p.mr_o_base_goy, coriolis_13);
-    let coriolis_14 = neg_alpha_go_goy * mr_behind_d_gox;
-    let coriolis_15 = coriolis_14.add_mul(p.mr_o_base_goy, alpha_go_gox);
-    let f_rates_o_goz = coriolis_15 + coriolis_15 + f_rates_i_goz;
-    let coriolis_16 = i_behind_d_11 - i_behind_d_22;
-    let coriolis_17 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_18 = mass_oo + coriolis_16;
-    let coriolis_19 = alpha_go_gox * coriolis_18;
-    let coriolis_20 = coriolis_19.sub_mul(neg_alpha_go_goy, coriolis_17);
-    let coriolis_21 = coriolis_20.sub_mul(i_behind_d_23, coriolis_13);
-    let n_rates_o_gox = n_rates_i_gox.sub_mul(p.arm_i_goy, coriolis_5) + coriolis_21;
-    let coriolis_22 = i_behind_d_13 * coriolis_13;
-    let coriolis_23 = coriolis_22.add_mul(alpha_go_gox, coriolis_17);
-    let coriolis_24 = coriolis_23.sub_mul(neg_alpha_go_goy, mass_oo - coriolis_16);
-    let n_rates_o_goy = n_rates_w_giy.add_mul(p.l_o_x, coriolis_5) + coriolis_24;
-    let coriolis_25 = p.l_o_x * f_rates_i_goy;
-    let coriolis_26 = coriolis_25.add_mul(p.arm_i_goy, neg_f_rates_i_gox);
-    let n_rates_o_goz = coriolis_26 + n_rates_i_goz;
+    let coriolis_12 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
+    let neg_f_rates_o_gox = neg_f_rates_i_gox + mr_behind_d_gox * coriolis_12;
+    let f_rates_o_goy = f_rates_i_goy - p.mr_o_base_goy * coriolis_12;
+    let coriolis_13 = neg_alpha_go_goy * mr_behind_d_gox;
+    let coriolis_14 = coriolis_13 + p.mr_o_base_goy * alpha_go_gox;
+    let f_rates_o_goz = coriolis_14 + coriolis_14 + f_rates_i_goz;
+    let coriolis_15 = i_behind_d_11 - i_behind_d_22;
+    let coriolis_16 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_17 = mass_oo + coriolis_15;
+    let coriolis_18 = alpha_go_gox * coriolis_17 - neg_alpha_go_goy * coriolis_16;
+    let coriolis_19 = coriolis_18 - i_behind_d_23 * coriolis_12;
+    let n_rates_o_gox = n_rates_i_gox - p.arm_i_goy * coriolis_4 + coriolis_19;
+    let coriolis_20 = i_behind_d_13 * coriolis_12 + alpha_go_gox * coriolis_16;
+    let coriolis_21 = coriolis_20 - neg_alpha_go_goy * (mass_oo - coriolis_15);
+    let n_rates_o_goy = n_rates_w_giy + p.l_o_x * coriolis_4 + coriolis_21;
+    let coriolis_22 = p.l_o_x * f_rates_i_goy + p.arm_i_goy * neg_f_rates_i_gox;
+    let n_rates_o_goz = coriolis_22 + n_rates_i_goz;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_o_bx = (e_y_bx * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_bx);
-    let f_o_by = (e_y_by * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_by);
-    let f_o_bz = (e_y_bz * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_bz);
-    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
-    let col_1 = col_0.add_mul(p.mount_13, mass_oo);
-    let n_o_bx = (p.reach_by * f_o_bz).sub_mul(p.reach_bz, f_o_by) + col_1;
-    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
-    let col_3 = col_2.add_mul(p.mount_23, mass_oo);
-    let n_o_by = (p.reach_bz * f_o_bx).sub_mul(p.reach_bx, f_o_bz) + col_3;
-    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
-    let col_5 = col_4.add_mul(p.mount_33, mass_oo);
-    let n_o_bz = (p.reach_bx * f_o_by).sub_mul(p.reach_by, f_o_bx) + col_5;
-    let f_i_bx = (mr_behind_v_goz * e_x_bx).sub_mul(p.mount_13, mr_behind_v_gox);
-    let f_i_by = (mr_behind_v_goz * e_x_by).sub_mul(p.mount_23, mr_behind_v_gox);
-    let f_i_bz = (mr_behind_v_goz * e_x_bz).sub_mul(p.mount_33, mr_behind_v_gox);
-    let col_6 = lump_6.sub_mul(reach_goy, mr_behind_v_gox);
-    let col_7 = mass_oi.sub_mul(reach_goy, mr_behind_v_goz);
-    let col_8 = p.arm_o_dz * mr_behind_v_goz;
-    let col_9 = col_8.add_mul(p.l_o_x + reach_gox, mr_behind_v_gox) + p.mass_ii;
-    let n_i_bx = (e_x_bx * col_6).add_mul(e_y_bx, col_9).add_mul(p.mount_13, col_7);
-    let n_i_by = (e_x_by * col_6).add_mul(e_y_by, col_9).add_mul(p.mount_23, col_7);
-    let n_i_bz = (e_x_bz * col_6).add_mul(e_y_bz, col_9).add_mul(p.mount_33, col_7);
+    let f_o_bx = e_y_bx * mr_behind_d_gox - p.mr_o_base_goy * e_x_bx;
+    let f_o_by = e_y_by * mr_behind_d_gox - p.mr_o_base_goy * e_x_by;
+    let f_o_bz = e_y_bz * mr_behind_d_gox - p.mr_o_base_goy * e_x_bz;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * mass_oo;
+    let n_o_bx = p.reach_by * f_o_bz - p.reach_bz * f_o_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * mass_oo;
+    let n_o_by = p.reach_bz * f_o_bx - p.reach_bx * f_o_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * mass_oo;
+    let n_o_bz = p.reach_bx * f_o_by - p.reach_by * f_o_bx + col_5;
+    let f_i_bx = mr_behind_v_goz * e_x_bx - p.mount_13 * mr_behind_v_gox;
+    let f_i_by = mr_behind_v_goz * e_x_by - p.mount_23 * mr_behind_v_gox;
+    let f_i_bz = mr_behind_v_goz * e_x_bz - p.mount_33 * mr_behind_v_gox;
+    let col_6 = lump_4 - reach_goy * mr_behind_v_gox;
+    let col_7 = mass_oi - reach_goy * mr_behind_v_goz;
+    let col_8 = (p.l_o_x + reach_gox) * mr_behind_v_gox;
+    let col_9 = p.arm_o_dz * mr_behind_v_goz + col_8 + p.mass_ii;
+    let n_i_bx = e_x_bx * col_6 + e_y_bx * col_9 + p.mount_13 * col_7;
+    let n_i_by = e_x_by * col_6 + e_y_by * col_9 + p.mount_23 * col_7;
+    let n_i_bz = e_x_bz * col_6 + e_y_bz * col_9 + p.mount_33 * col_7;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let moment_0 = (e_x_bx * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_bx);
-    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_v_goz);
-    let moment_1 = (e_x_by * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_by);
-    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_v_goz);
-    let moment_2 = (e_x_bz * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_bz);
-    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_v_goz);
+    let moment_0 = e_x_bx * mr_behind_d_gox + p.mr_o_base_goy * e_y_bx;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_v_goz;
+    let moment_1 = e_x_by * mr_behind_d_gox + p.mr_o_base_goy * e_y_by;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_v_goz;
+    let moment_2 = e_x_bz * mr_behind_d_gox + p.mr_o_base_goy * e_y_bz;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_v_goz;
     let half = q.sin_gamma_o.like(0.5);
-    let moment_3 = half * coriolis_16;
-    let moment_4 = (e_x_bx * moment_3).add_mul(e_y_bx, i_behind_d_12);
+    let moment_3 = half * coriolis_15;
+    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
     let moment_5 = half * (i_behind_d_22 + mass_oo);
-    let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
-    let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
+    let moment_6 = col_1 - p.mount_13 * moment_5;
+    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
     let moment_8 = moment_7 + moment_7;
     let moment_9 = mr_moving_by * p.k_23;
-    let moment_10 = i_behind_d_22.add_mul(mr_moving_bz, p.k_24);
+    let moment_10 = i_behind_d_22 + mr_moving_bz * p.k_24;
     let i_moving_11 = moment_9 + moment_10 + moment_8;
-    let moment_11 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
-    let moment_12 = col_3.sub_mul(p.mount_23, moment_5);
-    let moment_13 = (e_x_bx * moment_11).add_mul(p.mount_13, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_15 = moment_13 + (e_x_by * moment_4).add_mul(p.mount_23, moment_6);
-    let i_moving_12 = moment_15 - moment_14;
-    let moment_16 = (e_x_bz * moment_3).add_mul(e_y_bz, i_behind_d_12);
-    let moment_17 = col_5.sub_mul(p.mount_33, moment_5);
-    let moment_18 = (e_x_bx * moment_16).add_mul(p.mount_13, moment_17);
-    let moment_19 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_20 = moment_18 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
-    let i_moving_13 = moment_20 - moment_19;
-    let moment_21 = (e_x_by * moment_11).add_mul(p.mount_23, moment_12);
+    let moment_11 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
+    let moment_12 = col_3 - p.mount_23 * moment_5;
+    let moment_13 = e_x_bx * moment_11 + p.mount_13 * moment_12;
+    let moment_14 = moment_13 + (e_x_by * moment_4 + p.mount_23 * moment_6);
+    let moment_15 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_14 - moment_15;
+    let moment_16 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
+    let moment_17 = col_5 - p.mount_33 * moment_5;
+    let moment_18 = e_x_bx * moment_16 + p.mount_13 * moment_17;
+    let moment_19 = moment_18 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
+    let moment_20 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_19 - moment_20;
+    let moment_21 = e_x_by * moment_11 + p.mount_23 * moment_12;
     let moment_22 = moment_21 + moment_21;
     let moment_23 = mr_moving_bx * p.k_22;
     let i_moving_22 = moment_23 + moment_10 + moment_22;
-    let moment_24 = (e_x_bz * moment_11).add_mul(p.mount_33, moment_12);
-    let moment_25 = (e_x_by * moment_16).add_mul(p.mount_23, moment_17) + moment_24;
-    let moment_26 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_24 = e_x_bz * moment_11 + p.mount_33 * moment_12;
+    let moment_25 = e_x_by * moment_16 + p.mount_23 * moment_17 + moment_24;
+    let moment_26 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
     let i_moving_23 = moment_25 - moment_26;
-    let i_moving_33 = moment_23 + moment_9 + (coriolis_18 - moment_8 - moment_22);
+    let i_moving_33 = moment_23 + moment_9 + (coriolis_17 - moment_8 - moment_22);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_y_bx * f_rates_o_goy).sub_mul(e_x_bx, neg_f_rates_o_gox);
-    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_o_goz);
-    let bias_1 = (e_y_by * f_rates_o_goy).sub_mul(e_x_by, neg_f_rates_o_gox);
-    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_o_goz);
-    let bias_2 = (e_y_bz * f_rates_o_goy).sub_mul(e_x_bz, neg_f_rates_o_gox);
-    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_o_goz);
-    let bias_3 = (e_x_bx * n_rates_o_gox).add_mul(e_y_bx, n_rates_o_goy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_3.add_mul(p.mount_13, n_rates_o_goz) + bias_4;
-    let bias_5 = (e_x_by * n_rates_o_gox).add_mul(e_y_by, n_rates_o_goy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_5.add_mul(p.mount_23, n_rates_o_goz) + bias_6;
-    let bias_7 = (e_x_bz * n_rates_o_gox).add_mul(e_y_bz, n_rates_o_goy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_o_goz) + bias_8;
+    let bias_0 = e_y_bx * f_rates_o_goy - e_x_bx * neg_f_rates_o_gox;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_o_goz;
+    let bias_1 = e_y_by * f_rates_o_goy - e_x_by * neg_f_rates_o_gox;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_o_goz;
+    let bias_2 = e_y_bz * f_rates_o_goy - e_x_bz * neg_f_rates_o_gox;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_o_goz;
+    let bias_3 = e_x_bx * n_rates_o_gox + e_y_bx * n_rates_o_goy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 + p.mount_13 * n_rates_o_goz + bias_4;
+    let bias_5 = e_x_by * n_rates_o_gox + e_y_by * n_rates_o_goy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 + p.mount_23 * n_rates_o_goz + bias_6;
+    let bias_7 = e_x_bz * n_rates_o_gox + e_y_bz * n_rates_o_goy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 + p.mount_33 * n_rates_o_goz + bias_8;
 
     // Bias of each joint row, eq. (D9), N m.
     let bias_9 = omega_b_n_gox * omega_b_n_gox;
-    let bias_10 = r_first_rest_goy * mr_behind_d_gox;
-    let bias_11 = omega_b_n_gox * i_behind_d_23;
-    let bias_12 = bias_10.sub_mul(p.mr_o_base_goy, r_first_rest_gox);
-    let bias_13 = bias_11.sub_mul(omega_b_n_goy, i_behind_d_13);
-    let bias_14 = bias_12.add_mul(omega_b_n_goz, bias_13);
-    let bias_15 = bias_14.add_mul(i_behind_d_12, bias_9 - path_3);
-    let u_rest_o = bias_15.sub_mul(path_5, coriolis_16) + n_rates_o_goz;
-    let bias_16 = mr_behind_v_goz * r_gi_rest_gox;
-    let bias_17 = (path_8 * i_behind_v_12).sub_mul(path_5, i_behind_v_23);
-    let bias_18 = (i_behind_v_13 * (path_4 - bias_9)).sub_mul(path_7, coriolis_6);
-    let bias_19 = bias_17.sub_mul(p.mass_ii, neg_alpha_go_goy) + bias_18;
-    let bias_20 = bias_16.sub_mul(mr_behind_v_gox, r_gi_rest_goz) + bias_19;
-    let u_rest_i = bias_20 + n_rates_w_giy;
+    let bias_10 = p.mr_o_base_goy * r_first_rest_gox;
+    let bias_11 = omega_b_n_gox * i_behind_d_23 - omega_b_n_goy * i_behind_d_13;
+    let bias_12 = r_first_rest_goy * mr_behind_d_gox - bias_10;
+    let bias_13 = i_behind_d_12 * (bias_9 - path_3);
+    let bias_14 = bias_12 + omega_b_n_goz * bias_11 + bias_13 - path_5 * coriolis_15;
+    let u_rest_o = bias_14 + n_rates_o_goz;
+    let bias_15 = path_8 * i_behind_v_12 - path_5 * i_behind_v_23;
+    let bias_16 = i_behind_v_13 * (path_4 - bias_9) - path_7 * coriolis_5;
+    let bias_17 = mr_behind_v_goz * r_gi_rest_gox - mr_behind_v_gox * r_gi_rest_goz;
+    let bias_18 = bias_17 + (bias_15 - p.mass_ii * neg_alpha_go_goy + bias_16);
+    let u_rest_i = bias_18 + n_rates_w_giy;
 
     // Right side of each joint row, eqs. (80), (101): motor torque less bias, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -2505,17 +2496,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by * recip_i;
     let gain_i_w3 = n_i_bz * recip_i;
     let gain_i_o = mass_oi * recip_i;
-    let free_i = m.given_i.add_mul(tau_i, recip_i);
+    let free_i = m.given_i + tau_i * recip_i;
 
     // Joint i eliminated from the rows of the inboard joints, eq. (D11).
-    let f_o_bx_i = f_o_bx.sub_mul(f_i_bx, gain_i_o);
-    let f_o_by_i = f_o_by.sub_mul(f_i_by, gain_i_o);
-    let f_o_bz_i = f_o_bz.sub_mul(f_i_bz, gain_i_o);
-    let n_o_bx_i = n_o_bx.sub_mul(n_i_bx, gain_i_o);
-    let n_o_by_i = n_o_by.sub_mul(n_i_by, gain_i_o);
-    let n_o_bz_i = n_o_bz.sub_mul(n_i_bz, gain_i_o);
-    let mass_oo_i = mass_oo.sub_mul(mass_oi, gain_i_o);
-    let tau_o_i = tau_o.sub_mul(mass_oi, free_i);
+    let f_o_bx_i = f_o_bx - f_i_bx * gain_i_o;
+    let f_o_by_i = f_o_by - f_i_by * gain_i_o;
+    let f_o_bz_i = f_o_bz - f_i_bz * gain_i_o;
+    let n_o_bx_i = n_o_bx - n_i_bx * gain_i_o;
+    let n_o_by_i = n_o_by - n_i_by * gain_i_o;
+    let n_o_bz_i = n_o_bz - n_i_bz * gain_i_o;
+    let mass_oo_i = mass_oo - mass_oi * gain_i_o;
+    let tau_o_i = tau_o - mass_oi * free_i;
 
     // Joint o, eq. (D10): its pivot, kg m², and gains.
     let divisor_o = m.held_o + mass_oo_i;
@@ -2526,42 +2517,42 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_i * recip_o;
     let gain_o_w2 = n_o_by_i * recip_o;
     let gain_o_w3 = n_o_bz_i * recip_o;
-    let free_o = m.given_o.add_mul(tau_o_i, recip_o);
+    let free_o = m.given_o + tau_o_i * recip_o;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
-    let m_vv_11 = (f_i_bx * gain_i_v1).add_mul(f_o_bx_i, gain_o_v1);
-    let m_vv_12 = (f_i_by * gain_i_v1).add_mul(f_o_by_i, gain_o_v1);
-    let m_vv_13 = (f_i_bz * gain_i_v1).add_mul(f_o_bz_i, gain_o_v1);
-    let m_vv_22 = (f_i_by * gain_i_v2).add_mul(f_o_by_i, gain_o_v2);
-    let m_vv_23 = (f_i_bz * gain_i_v2).add_mul(f_o_bz_i, gain_o_v2);
-    let m_vv_33 = (f_i_bz * gain_i_v3).add_mul(f_o_bz_i, gain_o_v3);
+    let m_vv_11 = f_i_bx * gain_i_v1 + f_o_bx_i * gain_o_v1;
+    let m_vv_12 = f_i_by * gain_i_v1 + f_o_by_i * gain_o_v1;
+    let m_vv_13 = f_i_bz * gain_i_v1 + f_o_bz_i * gain_o_v1;
+    let m_vv_22 = f_i_by * gain_i_v2 + f_o_by_i * gain_o_v2;
+    let m_vv_23 = f_i_bz * gain_i_v2 + f_o_bz_i * gain_o_v2;
+    let m_vv_33 = f_i_bz * gain_i_v3 + f_o_bz_i * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
-    let m_vw_11 = (n_i_bx * gain_i_v1).add_mul(n_o_bx_i, gain_o_v1);
-    let m_vw_12 = (n_i_by * gain_i_v1).add_mul(n_o_by_i, gain_o_v1);
-    let m_vw_13 = (n_i_bz * gain_i_v1).add_mul(n_o_bz_i, gain_o_v1);
-    let m_vw_21 = (n_i_bx * gain_i_v2).add_mul(n_o_bx_i, gain_o_v2);
-    let m_vw_22 = (n_i_by * gain_i_v2).add_mul(n_o_by_i, gain_o_v2);
-    let m_vw_23 = (n_i_bz * gain_i_v2).add_mul(n_o_bz_i, gain_o_v2);
-    let m_vw_31 = (n_i_bx * gain_i_v3).add_mul(n_o_bx_i, gain_o_v3);
-    let m_vw_32 = (n_i_by * gain_i_v3).add_mul(n_o_by_i, gain_o_v3);
-    let m_vw_33 = (n_i_bz * gain_i_v3).add_mul(n_o_bz_i, gain_o_v3);
+    let m_vw_11 = n_i_bx * gain_i_v1 + n_o_bx_i * gain_o_v1;
+    let m_vw_12 = n_i_by * gain_i_v1 + n_o_by_i * gain_o_v1;
+    let m_vw_13 = n_i_bz * gain_i_v1 + n_o_bz_i * gain_o_v1;
+    let m_vw_21 = n_i_bx * gain_i_v2 + n_o_bx_i * gain_o_v2;
+    let m_vw_22 = n_i_by * gain_i_v2 + n_o_by_i * gain_o_v2;
+    let m_vw_23 = n_i_bz * gain_i_v2 + n_o_bz_i * gain_o_v2;
+    let m_vw_31 = n_i_bx * gain_i_v3 + n_o_bx_i * gain_o_v3;
+    let m_vw_32 = n_i_by * gain_i_v3 + n_o_by_i * gain_o_v3;
+    let m_vw_33 = n_i_bz * gain_i_v3 + n_o_bz_i * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let m_ww_11 = (n_i_bx * gain_i_w1).add_mul(n_o_bx_i, gain_o_w1);
-    let m_ww_12 = (n_i_by * gain_i_w1).add_mul(n_o_by_i, gain_o_w1);
-    let m_ww_13 = (n_i_bz * gain_i_w1).add_mul(n_o_bz_i, gain_o_w1);
-    let m_ww_22 = (n_i_by * gain_i_w2).add_mul(n_o_by_i, gain_o_w2);
-    let m_ww_23 = (n_i_bz * gain_i_w2).add_mul(n_o_bz_i, gain_o_w2);
-    let m_ww_33 = (n_i_bz * gain_i_w3).add_mul(n_o_bz_i, gain_o_w3);
+    let m_ww_11 = n_i_bx * gain_i_w1 + n_o_bx_i * gain_o_w1;
+    let m_ww_12 = n_i_by * gain_i_w1 + n_o_by_i * gain_o_w1;
+    let m_ww_13 = n_i_bz * gain_i_w1 + n_o_bz_i * gain_o_w1;
+    let m_ww_22 = n_i_by * gain_i_w2 + n_o_by_i * gain_o_w2;
+    let m_ww_23 = n_i_bz * gain_i_w2 + n_o_bz_i * gain_o_w2;
+    let m_ww_33 = n_i_bz * gain_i_w3 + n_o_bz_i * gain_o_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_i_bx, free_i).add_mul(f_o_bx_i, free_o);
-    let h_v_2 = f_rates_by.add_mul(f_i_by, free_i).add_mul(f_o_by_i, free_o);
-    let h_v_3 = f_rates_bz.add_mul(f_i_bz, free_i).add_mul(f_o_bz_i, free_o);
-    let h_w_1 = n_rates_bx.add_mul(n_i_bx, free_i).add_mul(n_o_bx_i, free_o);
-    let h_w_2 = n_rates_by.add_mul(n_i_by, free_i).add_mul(n_o_by_i, free_o);
-    let h_w_3 = n_rates_bz.add_mul(n_i_bz, free_i).add_mul(n_o_bz_i, free_o);
+    let h_v_1 = f_rates_bx + f_i_bx * free_i + f_o_bx_i * free_o;
+    let h_v_2 = f_rates_by + f_i_by * free_i + f_o_by_i * free_o;
+    let h_v_3 = f_rates_bz + f_i_bz * free_i + f_o_bz_i * free_o;
+    let h_w_1 = n_rates_bx + n_i_bx * free_i + n_o_bx_i * free_o;
+    let h_w_2 = n_rates_by + n_i_by * free_i + n_o_by_i * free_o;
+    let h_w_3 = n_rates_bz + n_i_bz * free_i + n_o_bz_i * free_o;
 
     Eliminated {
         share: HubShare {
@@ -2635,19 +2626,19 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
-    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
-    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
-    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
-    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
-    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
-    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
-    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
-    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
+    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
+    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
+    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
+    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
+    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
+    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
+    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
+    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
+    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
 
     let zero = e.gain_i_v1.like(0.0);
 

@@ -777,10 +777,10 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let rate_0 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
-    let omega_b_n_wy = rate_0.add_mul(w.omega_bz, p.mount_32);
-    let rate_1 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_wz = rate_1.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
+    let omega_b_n_wy = rate_0 + w.omega_bz * p.mount_32;
+    let rate_1 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_wz = rate_1 + w.omega_bz * p.mount_33;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
@@ -790,12 +790,9 @@ pub fn eliminate<T: Real>(
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = p.mount_12 * n_rates_w_wy;
-    let n_rates_bx = bias_0.sub_mul(p.mount_13, neg_n_rates_w_wz);
-    let bias_1 = p.mount_22 * n_rates_w_wy;
-    let n_rates_by = bias_1.sub_mul(p.mount_23, neg_n_rates_w_wz);
-    let bias_2 = p.mount_32 * n_rates_w_wy;
-    let n_rates_bz = bias_2.sub_mul(p.mount_33, neg_n_rates_w_wz);
+    let n_rates_bx = p.mount_12 * n_rates_w_wy - p.mount_13 * neg_n_rates_w_wz;
+    let n_rates_by = p.mount_22 * n_rates_w_wy - p.mount_23 * neg_n_rates_w_wz;
+    let n_rates_bz = p.mount_32 * n_rates_w_wy - p.mount_33 * neg_n_rates_w_wz;
 
     // Joint w, eq. (D10): its pivot, kg m², and gains.
     let divisor_w = m.held_w + p.j_11;
@@ -803,7 +800,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = p.n_w_bx * recip_w;
     let gain_w_w2 = p.n_w_by * recip_w;
     let gain_w_w3 = p.n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(u.u_w, recip_w);
+    let free_w = m.given_w + u.u_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = p.n_w_bx * gain_w_w1;
@@ -814,9 +811,9 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = p.n_w_bz * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_w_1 = n_rates_bx.add_mul(p.n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(p.n_w_by, free_w);
-    let h_w_3 = n_rates_bz.add_mul(p.n_w_bz, free_w);
+    let h_w_1 = n_rates_bx + p.n_w_bx * free_w;
+    let h_w_2 = n_rates_by + p.n_w_by * free_w;
+    let h_w_3 = n_rates_bz + p.n_w_bz * free_w;
 
     let zero = v.spin.like(0.0);
 
@@ -874,9 +871,9 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_1 = row_0.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_1.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.omega_dot_bx * e.gain_w_w1;
+    let row_1 = row_0 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_1 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

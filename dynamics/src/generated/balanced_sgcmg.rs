@@ -1524,20 +1524,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
-    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
-    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
-    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
-    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
-    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
 
     // ω_{G/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1556,11 +1556,10 @@ pub fn eliminate<T: Real>(
     // Joint row of the gimbal about gz, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m, which contains the moment that the rates of the outboard joints require
     // about the same axis.
-    let row_0 = p.i_g_base_23 * omega_b_n_gz;
-    let row_1 = omega_b_n_gx * row_0.sub_mul(omega_b_n_gy, p.i_behind_d_11);
-    let row_2 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
-    let row_3 = row_1.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
-    let field_g = row_3.add_mul(p.i_g_base_12, row_2) + n_rates_w_gz;
+    let row_0 = p.i_g_base_23 * omega_b_n_gz - omega_b_n_gy * p.i_behind_d_11;
+    let row_1 = omega_b_n_gx * omega_b_n_gx - omega_b_n_gy * omega_b_n_gy;
+    let row_2 = omega_b_n_gx * row_0 - omega_b_n_gy * omega_b_n_gz * p.i_g_base_13;
+    let field_g = row_2 + p.i_g_base_12 * row_1 + n_rates_w_gz;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the gimbal:
@@ -1568,90 +1567,88 @@ pub fn eliminate<T: Real>(
     let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
     let neg_f_rates_g_gx = p.mr_d_g_gx * coriolis_1;
     let neg_f_rates_g_gy = p.mr_d_g_gy * coriolis_1;
-    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy;
-    let coriolis_3 = coriolis_2.add_mul(p.mr_d_g_gy, alpha_g_gx);
-    let f_rates_g_gz = coriolis_3 + coriolis_3;
-    let coriolis_4 = (alpha_g_gx * p.k_11).sub_mul(neg_alpha_g_gy, p.k_10);
-    let n_rates_g_gx = coriolis_4.sub_mul(p.i_g_base_23, coriolis_1);
-    let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_10);
-    let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_12) + n_rates_w_gy;
+    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy + p.mr_d_g_gy * alpha_g_gx;
+    let f_rates_g_gz = coriolis_2 + coriolis_2;
+    let coriolis_3 = alpha_g_gx * p.k_11 - neg_alpha_g_gy * p.k_10;
+    let n_rates_g_gx = coriolis_3 - p.i_g_base_23 * coriolis_1;
+    let coriolis_4 = p.i_g_base_13 * coriolis_1 + alpha_g_gx * p.k_10;
+    let n_rates_g_gy = coriolis_4 - neg_alpha_g_gy * p.k_12 + n_rates_w_gy;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(p.mr_d_g_gy, e_x_bx);
-    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(p.mr_d_g_gy, e_x_by);
-    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(p.mr_d_g_gy, e_x_bz);
-    let col_0 = (p.i_g_base_13 * e_x_bx).add_mul(p.i_g_base_23, e_y_bx) + p.k_13;
-    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_0;
-    let col_1 = (p.i_g_base_13 * e_x_by).add_mul(p.i_g_base_23, e_y_by) + p.k_14;
-    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_1;
-    let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_15;
-    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_2;
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - p.mr_d_g_gy * e_x_bx;
+    let f_g_by = p.mr_d_g_gx * e_y_by - p.mr_d_g_gy * e_x_by;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - p.mr_d_g_gy * e_x_bz;
+    let col_0 = p.i_g_base_13 * e_x_bx + p.i_g_base_23 * e_y_bx + p.k_13;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_0;
+    let col_1 = p.i_g_base_13 * e_x_by + p.i_g_base_23 * e_y_by + p.k_14;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_1;
+    let col_2 = p.i_g_base_13 * e_x_bz + p.i_g_base_23 * e_y_bz + p.k_15;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_2;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let mr_moving_bx = (p.mr_d_g_gx * e_x_bx).add_mul(p.mr_d_g_gy, e_y_bx);
-    let mr_moving_by = (p.mr_d_g_gx * e_x_by).add_mul(p.mr_d_g_gy, e_y_by);
-    let mr_moving_bz = (p.mr_d_g_gx * e_x_bz).add_mul(p.mr_d_g_gy, e_y_bz);
-    let moment_0 = (e_x_bx * p.k_16).add_mul(p.i_g_base_12, e_y_bx);
+    let mr_moving_bx = p.mr_d_g_gx * e_x_bx + p.mr_d_g_gy * e_y_bx;
+    let mr_moving_by = p.mr_d_g_gx * e_x_by + p.mr_d_g_gy * e_y_by;
+    let mr_moving_bz = p.mr_d_g_gx * e_x_bz + p.mr_d_g_gy * e_y_bz;
+    let moment_0 = e_x_bx * p.k_16 + p.i_g_base_12 * e_y_bx;
     let moment_1 = col_0 + p.k_17;
-    let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
+    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
     let moment_3 = moment_2 + moment_2;
     let moment_4 = mr_moving_by * p.k_21;
     let moment_5 = mr_moving_bz * p.k_22;
     let i_moving_11 = moment_4 + moment_5 + moment_3;
-    let moment_6 = (e_x_by * p.k_16).add_mul(p.i_g_base_12, e_y_by);
+    let moment_6 = e_x_by * p.k_16 + p.i_g_base_12 * e_y_by;
     let moment_7 = col_1 + p.k_18;
-    let moment_8 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
-    let moment_9 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_10 = (e_x_bx * moment_6).add_mul(p.mount_13, moment_7) + moment_8;
-    let i_moving_12 = moment_10 - moment_9;
-    let moment_11 = (e_x_bz * p.k_16).add_mul(p.i_g_base_12, e_y_bz);
-    let moment_12 = col_2 + p.k_19;
-    let moment_13 = (e_x_bx * moment_11).add_mul(p.mount_13, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_15 = moment_13 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
-    let i_moving_13 = moment_15 - moment_14;
-    let moment_16 = (e_x_by * moment_6).add_mul(p.mount_23, moment_7);
-    let moment_17 = moment_16 + moment_16;
-    let moment_18 = mr_moving_bx * p.k_20;
-    let i_moving_22 = moment_18 + moment_5 + moment_17;
-    let moment_19 = (e_x_by * moment_11).add_mul(p.mount_23, moment_12);
-    let moment_20 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
-    let moment_21 = moment_19 + (e_x_bz * moment_6).add_mul(p.mount_33, moment_7);
-    let i_moving_23 = moment_21 - moment_20;
-    let i_moving_33 = moment_18 + moment_4 + (p.k_11 - moment_3 - moment_17);
+    let moment_8 = e_x_by * moment_0 + p.mount_23 * moment_1;
+    let moment_9 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_x_bx * moment_6 + p.mount_13 * moment_7 + moment_8 - moment_9;
+    let moment_10 = e_x_bz * p.k_16 + p.i_g_base_12 * e_y_bz;
+    let moment_11 = col_2 + p.k_19;
+    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
+    let moment_13 = moment_12 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
+    let moment_14 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_13 - moment_14;
+    let moment_15 = e_x_by * moment_6 + p.mount_23 * moment_7;
+    let moment_16 = moment_15 + moment_15;
+    let moment_17 = mr_moving_bx * p.k_20;
+    let i_moving_22 = moment_17 + moment_5 + moment_16;
+    let moment_18 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_19 = moment_18 + (e_x_bz * moment_6 + p.mount_33 * moment_7);
+    let moment_20 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_19 - moment_20;
+    let i_moving_33 = moment_17 + moment_4 + (p.k_11 - moment_3 - moment_16);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * neg_f_rates_g_gx).add_mul(e_y_bx, neg_f_rates_g_gy);
-    let f_rates_bx = p.mount_13.mul_sub(f_rates_g_gz, bias_0);
-    let bias_1 = (e_x_by * neg_f_rates_g_gx).add_mul(e_y_by, neg_f_rates_g_gy);
-    let f_rates_by = p.mount_23.mul_sub(f_rates_g_gz, bias_1);
-    let bias_2 = (e_x_bz * neg_f_rates_g_gx).add_mul(e_y_bz, neg_f_rates_g_gy);
-    let f_rates_bz = p.mount_33.mul_sub(f_rates_g_gz, bias_2);
-    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_3.sub_mul(p.mount_13, coriolis_0) + bias_4;
-    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_5.sub_mul(p.mount_23, coriolis_0) + bias_6;
-    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_7.sub_mul(p.mount_33, coriolis_0) + bias_8;
+    let bias_0 = e_x_bx * neg_f_rates_g_gx + e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = p.mount_13 * f_rates_g_gz - bias_0;
+    let bias_1 = e_x_by * neg_f_rates_g_gx + e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = p.mount_23 * f_rates_g_gz - bias_1;
+    let bias_2 = e_x_bz * neg_f_rates_g_gx + e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = p.mount_33 * f_rates_g_gz - bias_2;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 - p.mount_13 * coriolis_0 + bias_4;
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 - p.mount_23 * coriolis_0 + bias_6;
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 - p.mount_33 * coriolis_0 + bias_8;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
-    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
-    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
-    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
-    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
-    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_9 = (f_g_bx * r_first_rest_bx).add_mul(f_g_by, r_first_rest_by);
-    let u_rest_g = bias_9.add_mul(f_g_bz, r_first_rest_bz) + field_g;
+    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
+    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
 
     // Right side of each joint row, eq. (80): motor torque less bias, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1665,7 +1662,7 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
-    let free_g = m.given_g.add_mul(tau_g, recip_g);
+    let free_g = m.given_g + tau_g * recip_g;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_g_bx * gain_g_v1;
@@ -1695,12 +1692,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_g_bz * gain_g_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_g_bx, free_g);
-    let h_v_2 = f_rates_by.add_mul(f_g_by, free_g);
-    let h_v_3 = f_rates_bz.add_mul(f_g_bz, free_g);
-    let h_w_1 = n_rates_bx.add_mul(n_g_bx, free_g);
-    let h_w_2 = n_rates_by.add_mul(n_g_by, free_g);
-    let h_w_3 = n_rates_bz.add_mul(n_g_bz, free_g);
+    let h_v_1 = f_rates_bx + f_g_bx * free_g;
+    let h_v_2 = f_rates_by + f_g_by * free_g;
+    let h_v_3 = f_rates_bz + f_g_bz * free_g;
+    let h_w_1 = n_rates_bx + n_g_bx * free_g;
+    let h_w_2 = n_rates_by + n_g_by * free_g;
+    let h_w_3 = n_rates_bz + n_g_bz * free_g;
 
     Eliminated {
         share: HubShare {
@@ -1756,12 +1753,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
-    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
+    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
+    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
 
     let zero = e.gain_g_v1.like(0.0);
 

@@ -1546,35 +1546,33 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
-    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
-    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
-    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
-    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
-    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in the axes of the
     // gimbal, m.
-    let reach_gx = (p.r_g_b_bx * q.cos_gamma).add_mul(p.r_g_b_by, q.sin_gamma);
-    let reach_gy = (p.r_g_b_by * q.cos_gamma).sub_mul(p.r_g_b_bx, q.sin_gamma);
+    let reach_gx = p.r_g_b_bx * q.cos_gamma + p.r_g_b_by * q.sin_gamma;
+    let reach_gy = p.r_g_b_by * q.cos_gamma - p.r_g_b_bx * q.sin_gamma;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the gimbal, m/s².
-    let path_0 = (reach_gy * omega_b_n_gx).sub_mul(reach_gx, omega_b_n_gy);
-    let path_1 = reach_gx * omega_b_n_gz;
-    let path_2 = path_1.sub_mul(p.r_wc_b_gz, omega_b_n_gx);
-    let r_first_rest_gx = (omega_b_n_gy * path_0).sub_mul(omega_b_n_gz, path_2);
-    let path_3 = p.r_wc_b_gz * omega_b_n_gy;
-    let path_4 = omega_b_n_gz * path_3.sub_mul(reach_gy, omega_b_n_gz);
-    let r_first_rest_gy = path_4.sub_mul(omega_b_n_gx, path_0);
+    let path_0 = reach_gy * omega_b_n_gx - reach_gx * omega_b_n_gy;
+    let path_1 = reach_gx * omega_b_n_gz - p.r_wc_b_gz * omega_b_n_gx;
+    let r_first_rest_gx = omega_b_n_gy * path_0 - omega_b_n_gz * path_1;
+    let path_2 = p.r_wc_b_gz * omega_b_n_gy - reach_gy * omega_b_n_gz;
+    let r_first_rest_gy = omega_b_n_gz * path_2 - omega_b_n_gx * path_0;
 
     // ω_{G/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1596,90 +1594,86 @@ pub fn eliminate<T: Real>(
     let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
     let neg_f_rates_g_gx = p.mr_d_g_gx * coriolis_1;
     let neg_f_rates_g_gy = p.mr_d_g_gy * coriolis_1;
-    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy;
-    let coriolis_3 = coriolis_2.add_mul(p.mr_d_g_gy, alpha_g_gx);
-    let f_rates_g_gz = coriolis_3 + coriolis_3;
-    let coriolis_4 = (alpha_g_gx * p.k_11).sub_mul(neg_alpha_g_gy, p.k_10);
-    let n_rates_g_gx = coriolis_4.sub_mul(p.i_g_base_23, coriolis_1);
-    let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_10);
-    let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_12) + n_rates_w_gy;
+    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy + p.mr_d_g_gy * alpha_g_gx;
+    let f_rates_g_gz = coriolis_2 + coriolis_2;
+    let coriolis_3 = alpha_g_gx * p.k_11 - neg_alpha_g_gy * p.k_10;
+    let n_rates_g_gx = coriolis_3 - p.i_g_base_23 * coriolis_1;
+    let coriolis_4 = p.i_g_base_13 * coriolis_1 + alpha_g_gx * p.k_10;
+    let n_rates_g_gy = coriolis_4 - neg_alpha_g_gy * p.k_12 + n_rates_w_gy;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(p.mr_d_g_gy, e_x_bx);
-    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(p.mr_d_g_gy, e_x_by);
-    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(p.mr_d_g_gy, e_x_bz);
-    let col_0 = (p.i_g_base_13 * e_x_bx).add_mul(p.i_g_base_23, e_y_bx) + p.k_13;
-    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_0;
-    let col_1 = (p.i_g_base_13 * e_x_by).add_mul(p.i_g_base_23, e_y_by) + p.k_14;
-    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_1;
-    let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_15;
-    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_2;
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - p.mr_d_g_gy * e_x_bx;
+    let f_g_by = p.mr_d_g_gx * e_y_by - p.mr_d_g_gy * e_x_by;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - p.mr_d_g_gy * e_x_bz;
+    let col_0 = p.i_g_base_13 * e_x_bx + p.i_g_base_23 * e_y_bx + p.k_13;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_0;
+    let col_1 = p.i_g_base_13 * e_x_by + p.i_g_base_23 * e_y_by + p.k_14;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_1;
+    let col_2 = p.i_g_base_13 * e_x_bz + p.i_g_base_23 * e_y_bz + p.k_15;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_2;
     let n_w_bx = p.j_11 * e_x_bx;
     let n_w_by = p.j_11 * e_x_by;
     let n_w_bz = p.j_11 * e_x_bz;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let mr_moving_bx = (p.mr_d_g_gx * e_x_bx).add_mul(p.mr_d_g_gy, e_y_bx);
-    let mr_moving_by = (p.mr_d_g_gx * e_x_by).add_mul(p.mr_d_g_gy, e_y_by);
-    let mr_moving_bz = (p.mr_d_g_gx * e_x_bz).add_mul(p.mr_d_g_gy, e_y_bz);
-    let moment_0 = (e_x_bx * p.k_16).add_mul(p.i_g_base_12, e_y_bx);
+    let mr_moving_bx = p.mr_d_g_gx * e_x_bx + p.mr_d_g_gy * e_y_bx;
+    let mr_moving_by = p.mr_d_g_gx * e_x_by + p.mr_d_g_gy * e_y_by;
+    let mr_moving_bz = p.mr_d_g_gx * e_x_bz + p.mr_d_g_gy * e_y_bz;
+    let moment_0 = e_x_bx * p.k_16 + p.i_g_base_12 * e_y_bx;
     let moment_1 = col_0 + p.k_17;
-    let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
+    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
     let moment_3 = moment_2 + moment_2;
     let moment_4 = mr_moving_by * p.k_21;
     let moment_5 = mr_moving_bz * p.k_22;
     let i_moving_11 = moment_4 + moment_5 + moment_3;
-    let moment_6 = (e_x_by * p.k_16).add_mul(p.i_g_base_12, e_y_by);
+    let moment_6 = e_x_by * p.k_16 + p.i_g_base_12 * e_y_by;
     let moment_7 = col_1 + p.k_18;
-    let moment_8 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
-    let moment_9 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_10 = (e_x_bx * moment_6).add_mul(p.mount_13, moment_7) + moment_8;
-    let i_moving_12 = moment_10 - moment_9;
-    let moment_11 = (e_x_bz * p.k_16).add_mul(p.i_g_base_12, e_y_bz);
-    let moment_12 = col_2 + p.k_19;
-    let moment_13 = (e_x_bx * moment_11).add_mul(p.mount_13, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_15 = moment_13 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
-    let i_moving_13 = moment_15 - moment_14;
-    let moment_16 = (e_x_by * moment_6).add_mul(p.mount_23, moment_7);
-    let moment_17 = moment_16 + moment_16;
-    let moment_18 = mr_moving_bx * p.k_20;
-    let i_moving_22 = moment_18 + moment_5 + moment_17;
-    let moment_19 = (e_x_by * moment_11).add_mul(p.mount_23, moment_12);
-    let moment_20 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
-    let moment_21 = moment_19 + (e_x_bz * moment_6).add_mul(p.mount_33, moment_7);
-    let i_moving_23 = moment_21 - moment_20;
-    let i_moving_33 = moment_18 + moment_4 + (p.k_11 - moment_3 - moment_17);
+    let moment_8 = e_x_by * moment_0 + p.mount_23 * moment_1;
+    let moment_9 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_x_bx * moment_6 + p.mount_13 * moment_7 + moment_8 - moment_9;
+    let moment_10 = e_x_bz * p.k_16 + p.i_g_base_12 * e_y_bz;
+    let moment_11 = col_2 + p.k_19;
+    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
+    let moment_13 = moment_12 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
+    let moment_14 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_13 - moment_14;
+    let moment_15 = e_x_by * moment_6 + p.mount_23 * moment_7;
+    let moment_16 = moment_15 + moment_15;
+    let moment_17 = mr_moving_bx * p.k_20;
+    let i_moving_22 = moment_17 + moment_5 + moment_16;
+    let moment_18 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_19 = moment_18 + (e_x_bz * moment_6 + p.mount_33 * moment_7);
+    let moment_20 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_19 - moment_20;
+    let i_moving_33 = moment_17 + moment_4 + (p.k_11 - moment_3 - moment_16);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * neg_f_rates_g_gx).add_mul(e_y_bx, neg_f_rates_g_gy);
-    let f_rates_bx = p.mount_13.mul_sub(f_rates_g_gz, bias_0);
-    let bias_1 = (e_x_by * neg_f_rates_g_gx).add_mul(e_y_by, neg_f_rates_g_gy);
-    let f_rates_by = p.mount_23.mul_sub(f_rates_g_gz, bias_1);
-    let bias_2 = (e_x_bz * neg_f_rates_g_gx).add_mul(e_y_bz, neg_f_rates_g_gy);
-    let f_rates_bz = p.mount_33.mul_sub(f_rates_g_gz, bias_2);
-    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_3.sub_mul(p.mount_13, coriolis_0) + bias_4;
-    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_5.sub_mul(p.mount_23, coriolis_0) + bias_6;
-    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_7.sub_mul(p.mount_33, coriolis_0) + bias_8;
+    let bias_0 = e_x_bx * neg_f_rates_g_gx + e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = p.mount_13 * f_rates_g_gz - bias_0;
+    let bias_1 = e_x_by * neg_f_rates_g_gx + e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = p.mount_23 * f_rates_g_gz - bias_1;
+    let bias_2 = e_x_bz * neg_f_rates_g_gx + e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = p.mount_33 * f_rates_g_gz - bias_2;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 - p.mount_13 * coriolis_0 + bias_4;
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 - p.mount_23 * coriolis_0 + bias_6;
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 - p.mount_33 * coriolis_0 + bias_8;
 
     // Bias of each joint row, eq. (D9), N m.
-    let bias_9 = p.mr_d_g_gx * r_first_rest_gy;
-    let bias_10 = p.i_g_base_23 * omega_b_n_gz;
-    let bias_11 = bias_10.sub_mul(omega_b_n_gy, p.i_behind_d_11);
-    let bias_12 = bias_9.sub_mul(p.mr_d_g_gy, r_first_rest_gx);
-    let bias_13 = bias_12.add_mul(omega_b_n_gx, bias_11);
-    let bias_14 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
-    let bias_15 = bias_13.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
-    let u_rest_g = bias_15.add_mul(p.i_g_base_12, bias_14) + n_rates_w_gz;
+    let bias_9 = p.i_g_base_23 * omega_b_n_gz - omega_b_n_gy * p.i_behind_d_11;
+    let bias_10 = p.mr_d_g_gx * r_first_rest_gy - p.mr_d_g_gy * r_first_rest_gx;
+    let bias_11 = omega_b_n_gy * omega_b_n_gz * p.i_g_base_13;
+    let bias_12 = omega_b_n_gx * omega_b_n_gx - omega_b_n_gy * omega_b_n_gy;
+    let bias_13 = bias_10 + omega_b_n_gx * bias_9 - bias_11;
+    let u_rest_g = bias_13 + p.i_g_base_12 * bias_12 + n_rates_w_gz;
     let u_rest_w = p.j_11 * alpha_g_gx;
 
     // Right side of each joint row, eqs. (80), (119): motor torque less bias, N m.
@@ -1692,7 +1686,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Joint g, eq. (D10): its pivot, kg m², and gains.
     let divisor_g = m.held_g + p.mass_gg;
@@ -1703,7 +1697,7 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
-    let free_g = m.given_g.add_mul(tau_g, recip_g);
+    let free_g = m.given_g + tau_g * recip_g;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_g_bx * gain_g_v1;
@@ -1725,20 +1719,20 @@ pub fn eliminate<T: Real>(
     let m_vw_33 = n_g_bz * gain_g_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let m_ww_11 = (n_w_bx * gain_w_w1).add_mul(n_g_bx, gain_g_w1);
-    let m_ww_12 = (n_w_by * gain_w_w1).add_mul(n_g_by, gain_g_w1);
-    let m_ww_13 = (n_w_bz * gain_w_w1).add_mul(n_g_bz, gain_g_w1);
-    let m_ww_22 = (n_w_by * gain_w_w2).add_mul(n_g_by, gain_g_w2);
-    let m_ww_23 = (n_w_bz * gain_w_w2).add_mul(n_g_bz, gain_g_w2);
-    let m_ww_33 = (n_w_bz * gain_w_w3).add_mul(n_g_bz, gain_g_w3);
+    let m_ww_11 = n_w_bx * gain_w_w1 + n_g_bx * gain_g_w1;
+    let m_ww_12 = n_w_by * gain_w_w1 + n_g_by * gain_g_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1 + n_g_bz * gain_g_w1;
+    let m_ww_22 = n_w_by * gain_w_w2 + n_g_by * gain_g_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2 + n_g_bz * gain_g_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3 + n_g_bz * gain_g_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_g_bx, free_g);
-    let h_v_2 = f_rates_by.add_mul(f_g_by, free_g);
-    let h_v_3 = f_rates_bz.add_mul(f_g_bz, free_g);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_g_bx, free_g);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_g_by, free_g);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_g_bz, free_g);
+    let h_v_1 = f_rates_bx + f_g_bx * free_g;
+    let h_v_2 = f_rates_by + f_g_by * free_g;
+    let h_v_3 = f_rates_bz + f_g_bz * free_g;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_g_bx * free_g;
+    let h_w_2 = n_rates_by + n_w_by * free_w + n_g_by * free_g;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_g_bz * free_g;
 
     Eliminated {
         share: HubShare {
@@ -1807,15 +1801,15 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
-    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
-    let row_5 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_6 = row_5.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_6.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
+    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
+    let row_5 = e.free_w - a.omega_dot_bx * e.gain_w_w1;
+    let row_6 = row_5 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_6 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { gamma_ddot, spin_dot }
 }

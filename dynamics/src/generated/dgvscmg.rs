@@ -2515,34 +2515,34 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the outer gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma_o * p.mount_11).add_mul(q.sin_gamma_o, p.mount_12);
-    let e_x_by = (q.cos_gamma_o * p.mount_21).add_mul(q.sin_gamma_o, p.mount_22);
-    let e_x_bz = (q.cos_gamma_o * p.mount_31).add_mul(q.sin_gamma_o, p.mount_32);
-    let e_y_bx = (q.cos_gamma_o * p.mount_12).sub_mul(q.sin_gamma_o, p.mount_11);
-    let e_y_by = (q.cos_gamma_o * p.mount_22).sub_mul(q.sin_gamma_o, p.mount_21);
-    let e_y_bz = (q.cos_gamma_o * p.mount_32).sub_mul(q.sin_gamma_o, p.mount_31);
+    let e_x_bx = q.cos_gamma_o * p.mount_11 + q.sin_gamma_o * p.mount_12;
+    let e_x_by = q.cos_gamma_o * p.mount_21 + q.sin_gamma_o * p.mount_22;
+    let e_x_bz = q.cos_gamma_o * p.mount_31 + q.sin_gamma_o * p.mount_32;
+    let e_y_bx = q.cos_gamma_o * p.mount_12 - q.sin_gamma_o * p.mount_11;
+    let e_y_by = q.cos_gamma_o * p.mount_22 - q.sin_gamma_o * p.mount_21;
+    let e_y_bz = q.cos_gamma_o * p.mount_32 - q.sin_gamma_o * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the outer gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gox = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_goy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_goz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gox = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_goy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_goz = rate_2 + w.omega_bz * p.mount_33;
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in the axes of the
     // outer gimbal, m.
-    let reach_gox = (p.r_go_b_bx * q.cos_gamma_o).add_mul(p.r_go_b_by, q.sin_gamma_o);
-    let reach_goy = (p.r_go_b_by * q.cos_gamma_o).sub_mul(p.r_go_b_bx, q.sin_gamma_o);
+    let reach_gox = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o;
+    let reach_goy = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the outer gimbal, m/s².
-    let path_0 = (reach_gox * omega_b_n_goz).sub_mul(p.arm_o_dz, omega_b_n_gox);
-    let path_1 = (reach_goy * omega_b_n_gox).sub_mul(reach_gox, omega_b_n_goy);
-    let r_first_rest_gox = (omega_b_n_goy * path_1).sub_mul(omega_b_n_goz, path_0);
-    let path_2 = (p.arm_o_dz * omega_b_n_goy).sub_mul(reach_goy, omega_b_n_goz);
-    let r_first_rest_goy = (omega_b_n_goz * path_2).sub_mul(omega_b_n_gox, path_1);
-    let r_first_rest_goz = (omega_b_n_gox * path_0).sub_mul(omega_b_n_goy, path_2);
+    let path_0 = reach_gox * omega_b_n_goz - p.arm_o_dz * omega_b_n_gox;
+    let path_1 = reach_goy * omega_b_n_gox - reach_gox * omega_b_n_goy;
+    let r_first_rest_gox = omega_b_n_goy * path_1 - omega_b_n_goz * path_0;
+    let path_2 = p.arm_o_dz * omega_b_n_goy - reach_goy * omega_b_n_goz;
+    let r_first_rest_goy = omega_b_n_goz * path_2 - omega_b_n_gox * path_1;
+    let r_first_rest_goz = omega_b_n_gox * path_0 - omega_b_n_goy * path_2;
 
     // ω_{Gᵒ/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_go_n_goz = v.gamma_o_dot + omega_b_n_goz;
@@ -2556,310 +2556,284 @@ pub fn eliminate<T: Real>(
     let path_3 = omega_b_n_goy * omega_b_n_goy;
     let path_4 = omega_go_n_goz * omega_go_n_goz;
     let path_5 = omega_b_n_gox * omega_b_n_goy;
-    let path_6 = (p.arm_i_goy * path_5).sub_mul(p.l_o_x, path_3 + path_4);
+    let path_6 = p.arm_i_goy * path_5 - p.l_o_x * (path_3 + path_4);
     let r_gi_rest_gox = path_6 + r_first_rest_gox;
     let path_7 = omega_b_n_gox * omega_b_n_gox;
-    let path_8 = (p.l_o_x * path_5).sub_mul(p.arm_i_goy, path_7 + path_4);
+    let path_8 = p.l_o_x * path_5 - p.arm_i_goy * (path_7 + path_4);
     let r_gi_rest_goy = path_8 + r_first_rest_goy;
     let path_9 = omega_b_n_gox * omega_go_n_goz;
-    let path_10 = alpha_go_gox.add_mul(omega_b_n_goy, omega_go_n_goz);
-    let path_11 = p.l_o_x * (neg_alpha_go_goy + path_9);
-    let r_gi_rest_goz = path_11.add_mul(p.arm_i_goy, path_10) + r_first_rest_goz;
+    let path_10 = alpha_go_gox + omega_b_n_goy * omega_go_n_goz;
+    let path_11 = p.l_o_x * (neg_alpha_go_goy + path_9) + p.arm_i_goy * path_10;
+    let r_gi_rest_goz = path_11 + r_first_rest_goz;
 
     // ω_{Gⁱ/N}, eq. (44), expressed in its own axes, rad/s.
-    let rate_3 = q.cos_gamma_i * omega_b_n_gox;
-    let omega_gi_n_gix = rate_3.sub_mul(q.sin_gamma_i, omega_go_n_goz);
+    let rate_3 = q.sin_gamma_i * omega_go_n_goz;
+    let omega_gi_n_gix = q.cos_gamma_i * omega_b_n_gox - rate_3;
     let omega_gi_n_giy = v.gamma_i_dot + omega_b_n_goy;
     let rate_4 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_4.add_mul(q.sin_gamma_i, omega_b_n_gox);
+    let omega_gi_n_giz = rate_4 + q.sin_gamma_i * omega_b_n_gox;
 
     // Its derivative, no joint accelerating, as in eq. (47), expressed in the same axes, rad/s².
-    let turn_0 = q.cos_gamma_i * alpha_go_gox;
-    let alpha_gi_gix = turn_0.sub_mul(v.gamma_i_dot, omega_gi_n_giz);
-    let turn_1 = q.sin_gamma_i * alpha_go_gox;
-    let alpha_gi_giz = turn_1.add_mul(v.gamma_i_dot, omega_gi_n_gix);
+    let alpha_gi_gix = q.cos_gamma_i * alpha_go_gox - v.gamma_i_dot * omega_gi_n_giz;
+    let alpha_gi_giz = q.sin_gamma_i * alpha_go_gox + v.gamma_i_dot * omega_gi_n_gix;
 
     // Acceleration of W moved by (D3), no joint accelerating, without that of B, eq. (D5),
     // expressed in the axes of the inner gimbal, m/s².
     let path_12 = omega_gi_n_giz * omega_gi_n_giy;
-    let r_w_rest_giy = r_gi_rest_goy.add_mul(p.l_i_z, path_12 - alpha_gi_gix);
+    let r_w_rest_giy = r_gi_rest_goy + p.l_i_z * (path_12 - alpha_gi_gix);
     let path_13 = omega_gi_n_giy * omega_gi_n_giy;
-    let path_14 = q.cos_gamma_i * r_gi_rest_goz;
-    let path_15 = path_13.add_mul(omega_gi_n_gix, omega_gi_n_gix);
-    let path_16 = path_14.add_mul(q.sin_gamma_i, r_gi_rest_gox);
-    let r_w_rest_giz = path_16.sub_mul(p.l_i_z, path_15);
+    let path_14 = q.cos_gamma_i * r_gi_rest_goz + q.sin_gamma_i * r_gi_rest_gox;
+    let path_15 = p.l_i_z * (omega_gi_n_gix * omega_gi_n_gix + path_13);
+    let r_w_rest_giz = path_14 - path_15;
 
     // Outboard composite of the joint of the wheel, W, by base parameters, eq. (D6), expressed
     // in the axes of the inner gimbal: first moment, kg m, and inertia, kg m², about W moved by
     // (D3).
     let mr_behind_w_giy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_giz = q.sin_theta * p.mr_wc_w_wy;
-    let i_behind_w_13 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.i_w_base_12);
-    let lump_0 = (q.cos_theta * p.k_3).add_mul(q.sin_theta, p.i_w_base_22);
+    let i_behind_w_13 = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
+    let lump_0 = q.cos_theta * p.k_3 + q.sin_theta * p.i_w_base_22;
     let i_behind_w_33 = q.sin_theta * lump_0;
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
-    let i_behind_w_23 = p.k_4.add_mul(q.cos_theta, lump_0);
+    let i_behind_w_23 = p.k_4 + q.cos_theta * lump_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the inner gimbal: force, N, and moment, N m,
     // about W moved by (D3).
     let coriolis_0 = v.spin * omega_gi_n_giy;
     let coriolis_1 = v.spin * omega_gi_n_giz;
-    let coriolis_2 = mr_behind_w_giy * coriolis_0;
-    let coriolis_3 = coriolis_2.add_mul(mr_behind_w_giz, coriolis_1);
-    let f_rates_w_gix = coriolis_3 + coriolis_3;
-    let coriolis_4 = v.spin * (v.spin + omega_gi_n_gix + omega_gi_n_gix);
-    let coriolis_5 = mr_behind_w_giy * coriolis_4;
-    let f_rates_w_giy = -coriolis_5;
-    let neg_f_rates_w_giz = mr_behind_w_giz * coriolis_4;
-    let coriolis_6 = i_behind_w_22 - i_behind_w_33;
-    let coriolis_7 = i_behind_w_23 + i_behind_w_23;
-    let coriolis_8 = coriolis_1 * (p.mass_ww + coriolis_6);
-    let coriolis_9 = coriolis_8.sub_mul(coriolis_0, coriolis_7);
-    let n_rates_w_giy = coriolis_9.sub_mul(i_behind_w_13, coriolis_4);
-    let mass_iw = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
-    let coriolis_10 = (mass_iw * coriolis_4).add_mul(coriolis_1, coriolis_7);
-    let n_rates_w_giz = coriolis_10.sub_mul(coriolis_0, p.mass_ww - coriolis_6);
+    let coriolis_2 = mr_behind_w_giy * coriolis_0 + mr_behind_w_giz * coriolis_1;
+    let f_rates_w_gix = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_gi_n_gix + omega_gi_n_gix);
+    let coriolis_4 = mr_behind_w_giy * coriolis_3;
+    let f_rates_w_giy = -coriolis_4;
+    let neg_f_rates_w_giz = mr_behind_w_giz * coriolis_3;
+    let coriolis_5 = i_behind_w_22 - i_behind_w_33;
+    let coriolis_6 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_7 = coriolis_1 * (p.mass_ww + coriolis_5);
+    let coriolis_8 = coriolis_7 - coriolis_0 * coriolis_6;
+    let n_rates_w_giy = coriolis_8 - i_behind_w_13 * coriolis_3;
+    let mass_iw = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let coriolis_9 = mass_iw * coriolis_3 + coriolis_1 * coriolis_6;
+    let n_rates_w_giz = coriolis_9 - coriolis_0 * (p.mass_ww - coriolis_5);
 
     // Outboard composite of the joint of the inner gimbal, V, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
     // Gⁱ moved by (D3).
     let lump_1 = mr_behind_w_giz + p.mr_i_base_giz;
-    let lump_2 = q.cos_gamma_i * p.mr_v_gi_gix;
-    let mr_behind_v_gox = lump_2.add_mul(q.sin_gamma_i, lump_1);
-    let lump_3 = q.cos_gamma_i * lump_1;
-    let mr_behind_v_goz = lump_3.sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
-    let lump_4 = mr_behind_w_giz * p.k_5;
-    let lump_5 = p.mass_ww + lump_4;
-    let lump_6 = p.i_i_base_13 + i_behind_w_13;
-    let lump_7 = p.i_i_base_33 + i_behind_w_33;
-    let lump_8 = lump_6 + lump_6;
-    let lump_9 = (q.cos_gamma_i * lump_8).sub_mul(q.sin_gamma_i, lump_5 - lump_7);
-    let lump_10 = q.sin_gamma_i * lump_9;
-    let i_behind_v_11 = lump_5 + lump_10;
-    let lump_11 = p.i_i_base_12 + mass_iw;
-    let lump_12 = i_behind_w_23.sub_mul(p.l_i_z, mr_behind_w_giy) + p.i_i_base_23;
-    let i_behind_v_12 = (q.cos_gamma_i * lump_11).add_mul(q.sin_gamma_i, lump_12);
-    let i_behind_v_13 = q.cos_gamma_i.mul_sub(lump_9, lump_6);
-    let i_behind_v_23 = (q.cos_gamma_i * lump_12).sub_mul(q.sin_gamma_i, lump_11);
-    let i_behind_v_33 = lump_7 - lump_10;
+    let mr_behind_v_gox = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * lump_1;
+    let mr_behind_v_goz = q.cos_gamma_i * lump_1 - q.sin_gamma_i * p.mr_v_gi_gix;
+    let lump_2 = mr_behind_w_giz * p.k_5;
+    let lump_3 = p.mass_ww + lump_2;
+    let lump_4 = p.i_i_base_13 + i_behind_w_13;
+    let lump_5 = p.i_i_base_33 + i_behind_w_33;
+    let lump_6 = lump_4 + lump_4;
+    let lump_7 = q.cos_gamma_i * lump_6 - q.sin_gamma_i * (lump_3 - lump_5);
+    let lump_8 = q.sin_gamma_i * lump_7;
+    let i_behind_v_11 = lump_3 + lump_8;
+    let lump_9 = p.i_i_base_12 + mass_iw;
+    let lump_10 = i_behind_w_23 - p.l_i_z * mr_behind_w_giy + p.i_i_base_23;
+    let i_behind_v_12 = q.cos_gamma_i * lump_9 + q.sin_gamma_i * lump_10;
+    let i_behind_v_13 = q.cos_gamma_i * lump_7 - lump_4;
+    let i_behind_v_23 = q.cos_gamma_i * lump_10 - q.sin_gamma_i * lump_9;
+    let i_behind_v_33 = lump_5 - lump_8;
 
     // Joint row of the inner gimbal about goy, eqs. (101), (D7), (D9): M_ij, kg m², and bias, N
     // m, which contains the moment that the rates of the outboard joints require about the same
     // axis.
-    let mass_ii = lump_4 + i_behind_w_22 + p.i_i_base_22;
+    let mass_ii = lump_2 + i_behind_w_22 + p.i_i_base_22;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the inner
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the outer
     // gimbal: force, N, and moment, N m, about Gⁱ moved by (D3).
-    let coriolis_11 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
-    let coriolis_12 = q.cos_gamma_i * f_rates_w_gix;
-    let coriolis_13 = coriolis_12.sub_mul(q.sin_gamma_i, neg_f_rates_w_giz);
-    let f_rates_i_gox = coriolis_13.sub_mul(mr_behind_v_gox, coriolis_11);
-    let coriolis_14 = v.gamma_i_dot * omega_go_n_goz;
-    let coriolis_15 = v.gamma_i_dot * omega_b_n_gox;
-    let coriolis_16 = mr_behind_v_goz * coriolis_14;
-    let coriolis_17 = coriolis_16.add_mul(mr_behind_v_gox, coriolis_15);
-    let f_rates_i_goy = coriolis_17 + coriolis_17 + f_rates_w_giy;
-    let coriolis_18 = q.cos_gamma_i * neg_f_rates_w_giz;
-    let coriolis_19 = coriolis_18.add_mul(q.sin_gamma_i, f_rates_w_gix);
-    let coriolis_20 = coriolis_19.add_mul(mr_behind_v_goz, coriolis_11);
-    let f_rates_i_goz = -coriolis_20;
-    let coriolis_21 = p.l_i_z * coriolis_5;
-    let coriolis_22 = i_behind_v_33 - i_behind_v_11;
-    let coriolis_23 = i_behind_v_13 + i_behind_v_13;
-    let coriolis_24 = q.cos_gamma_i * coriolis_21;
-    let coriolis_25 = i_behind_v_23 * coriolis_11;
-    let coriolis_26 = coriolis_25.add_mul(coriolis_15, coriolis_23);
-    let coriolis_27 = coriolis_26.sub_mul(coriolis_14, mass_ii - coriolis_22);
-    let coriolis_28 = coriolis_24.add_mul(q.sin_gamma_i, n_rates_w_giz);
-    let n_rates_i_gox = coriolis_28 + coriolis_27;
-    let n_rates_i_goy = n_rates_w_giy.add_mul(p.l_i_z, f_rates_w_gix);
-    let coriolis_29 = q.cos_gamma_i * n_rates_w_giz;
-    let coriolis_30 = coriolis_15 * (mass_ii + coriolis_22);
-    let coriolis_31 = coriolis_30.sub_mul(coriolis_14, coriolis_23);
-    let coriolis_32 = coriolis_31.sub_mul(i_behind_v_12, coriolis_11);
-    let n_rates_i_goz = coriolis_29.sub_mul(q.sin_gamma_i, coriolis_21) + coriolis_32;
+    let coriolis_10 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
+    let coriolis_11 = q.sin_gamma_i * neg_f_rates_w_giz;
+    let coriolis_12 = q.cos_gamma_i * f_rates_w_gix - coriolis_11;
+    let f_rates_i_gox = coriolis_12 - mr_behind_v_gox * coriolis_10;
+    let coriolis_13 = v.gamma_i_dot * omega_go_n_goz;
+    let coriolis_14 = v.gamma_i_dot * omega_b_n_gox;
+    let coriolis_15 = mr_behind_v_goz * coriolis_13 + mr_behind_v_gox * coriolis_14;
+    let f_rates_i_goy = coriolis_15 + coriolis_15 + f_rates_w_giy;
+    let coriolis_16 = q.cos_gamma_i * neg_f_rates_w_giz;
+    let coriolis_17 = coriolis_16 + q.sin_gamma_i * f_rates_w_gix;
+    let coriolis_18 = coriolis_17 + mr_behind_v_goz * coriolis_10;
+    let f_rates_i_goz = -coriolis_18;
+    let coriolis_19 = p.l_i_z * coriolis_4;
+    let coriolis_20 = i_behind_v_33 - i_behind_v_11;
+    let coriolis_21 = i_behind_v_13 + i_behind_v_13;
+    let coriolis_22 = i_behind_v_23 * coriolis_10 + coriolis_14 * coriolis_21;
+    let coriolis_23 = q.cos_gamma_i * coriolis_19 + q.sin_gamma_i * n_rates_w_giz;
+    let coriolis_24 = coriolis_22 - coriolis_13 * (mass_ii - coriolis_20);
+    let n_rates_i_gox = coriolis_23 + coriolis_24;
+    let n_rates_i_goy = n_rates_w_giy + p.l_i_z * f_rates_w_gix;
+    let coriolis_25 = coriolis_14 * (mass_ii + coriolis_20);
+    let coriolis_26 = coriolis_25 - coriolis_13 * coriolis_21;
+    let coriolis_27 = q.cos_gamma_i * n_rates_w_giz - q.sin_gamma_i * coriolis_19;
+    let n_rates_i_goz = coriolis_27 + (coriolis_26 - i_behind_v_12 * coriolis_10);
 
     // Outboard composite of the joint of the outer gimbal, D, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
     // Gᵒ moved by (D3).
     let mr_behind_d_gox = p.mr_o_base_gox + mr_behind_v_gox;
     let mr_behind_d_goy = mr_behind_w_giy + p.mr_o_base_goy;
-    let lump_13 = mr_behind_w_giy * p.k_23;
-    let i_behind_d_11 = i_behind_v_11 + lump_13 + p.i_o_base_11;
-    let lump_14 = p.arm_i_goy * mr_behind_v_gox;
-    let lump_15 = i_behind_v_12 - lump_14.add_mul(p.l_o_x, mr_behind_w_giy);
-    let i_behind_d_12 = lump_15 + p.i_o_base_12;
-    let lump_16 = i_behind_v_13.sub_mul(p.l_o_x, mr_behind_v_goz);
-    let i_behind_d_13 = lump_16 + p.i_o_base_13;
-    let lump_17 = p.k_6 * mr_behind_v_gox;
-    let i_behind_d_22 = mass_ii + lump_17;
-    let mass_oi = i_behind_v_23.sub_mul(p.arm_i_goy, mr_behind_v_goz);
+    let lump_11 = mr_behind_w_giy * p.k_23;
+    let i_behind_d_11 = i_behind_v_11 + lump_11 + p.i_o_base_11;
+    let lump_12 = p.arm_i_goy * mr_behind_v_gox;
+    let lump_13 = i_behind_v_12 - (p.l_o_x * mr_behind_w_giy + lump_12);
+    let i_behind_d_12 = lump_13 + p.i_o_base_12;
+    let i_behind_d_13 = i_behind_v_13 - p.l_o_x * mr_behind_v_goz + p.i_o_base_13;
+    let lump_14 = p.k_6 * mr_behind_v_gox;
+    let i_behind_d_22 = mass_ii + lump_14;
+    let mass_oi = i_behind_v_23 - p.arm_i_goy * mr_behind_v_goz;
     let i_behind_d_23 = p.i_o_base_23 + mass_oi;
 
     // Joint row of the outer gimbal about goz, eqs. (80), (D7), (D9): M_ij, kg m², and bias, N
     // m, which contains the moment that the rates of the outboard joints require about the same
     // axis.
-    let row_0 = lump_17 + lump_13;
-    let row_1 = q.cos_gamma_i * (lump_7 - lump_4);
-    let row_2 = row_1.sub_mul(q.sin_gamma_i, lump_8);
-    let across_oo = lump_4.add_mul(q.cos_gamma_i, row_2) + row_0 + p.i_o_base_33;
-    let row_3 = p.l_i_z * mr_behind_w_giz;
-    let row_4 = q.sin_gamma_i * mr_behind_w_giy;
-    let row_5 = (q.cos_gamma_i * i_behind_w_13).sub_mul(q.sin_gamma_i, row_3);
-    let across_ow = row_5 - (p.l_o_x * mr_behind_w_giz).add_mul(row_4, p.arm_i_goy);
+    let row_0 = lump_14 + lump_11;
+    let row_1 = q.cos_gamma_i * (lump_5 - lump_2) - q.sin_gamma_i * lump_6;
+    let across_oo = lump_2 + q.cos_gamma_i * row_1 + row_0 + p.i_o_base_33;
+    let row_2 = p.l_i_z * mr_behind_w_giz;
+    let row_3 = q.sin_gamma_i * mr_behind_w_giy;
+    let row_4 = q.cos_gamma_i * i_behind_w_13 - q.sin_gamma_i * row_2;
+    let across_ow = row_4 - (p.l_o_x * mr_behind_w_giz + row_3 * p.arm_i_goy);
     let mass_oo = i_behind_v_33 + row_0 + p.i_o_base_33;
-    let mass_ow = across_ow.sub_mul(q.sin_gamma_i, p.mass_ww);
+    let mass_ow = across_ow - q.sin_gamma_i * p.mass_ww;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the outer
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the outer
     // gimbal: force, N, and moment, N m, about Gᵒ moved by (D3).
-    let coriolis_33 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
-    let f_rates_o_gox = f_rates_i_gox.sub_mul(mr_behind_d_gox, coriolis_33);
-    let f_rates_o_goy = f_rates_i_goy.sub_mul(mr_behind_d_goy, coriolis_33);
-    let coriolis_34 = neg_alpha_go_goy * mr_behind_d_gox;
-    let coriolis_35 = coriolis_34.add_mul(alpha_go_gox, mr_behind_d_goy);
-    let f_rates_o_goz = coriolis_35 + coriolis_35 + f_rates_i_goz;
-    let coriolis_36 = i_behind_d_11 - i_behind_d_22;
-    let coriolis_37 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_38 = mass_oo + coriolis_36;
-    let coriolis_39 = alpha_go_gox * coriolis_38;
-    let coriolis_40 = coriolis_39.sub_mul(neg_alpha_go_goy, coriolis_37);
-    let coriolis_41 = coriolis_40.sub_mul(i_behind_d_23, coriolis_33);
-    let n_rates_o_gox = n_rates_i_gox.sub_mul(p.arm_i_goy, coriolis_20) + coriolis_41;
-    let coriolis_42 = i_behind_d_13 * coriolis_33;
-    let coriolis_43 = coriolis_42.add_mul(alpha_go_gox, coriolis_37);
-    let coriolis_44 = coriolis_43.sub_mul(neg_alpha_go_goy, mass_oo - coriolis_36);
-    let n_rates_o_goy = n_rates_i_goy.add_mul(p.l_o_x, coriolis_20) + coriolis_44;
-    let coriolis_45 = (p.l_o_x * f_rates_i_goy).sub_mul(p.arm_i_goy, f_rates_i_gox);
-    let n_rates_o_goz = coriolis_45 + n_rates_i_goz;
+    let coriolis_28 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
+    let f_rates_o_gox = f_rates_i_gox - mr_behind_d_gox * coriolis_28;
+    let f_rates_o_goy = f_rates_i_goy - mr_behind_d_goy * coriolis_28;
+    let coriolis_29 = neg_alpha_go_goy * mr_behind_d_gox;
+    let coriolis_30 = coriolis_29 + alpha_go_gox * mr_behind_d_goy;
+    let f_rates_o_goz = coriolis_30 + coriolis_30 + f_rates_i_goz;
+    let coriolis_31 = i_behind_d_11 - i_behind_d_22;
+    let coriolis_32 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_33 = mass_oo + coriolis_31;
+    let coriolis_34 = alpha_go_gox * coriolis_33 - neg_alpha_go_goy * coriolis_32;
+    let coriolis_35 = coriolis_34 - i_behind_d_23 * coriolis_28;
+    let n_rates_o_gox = n_rates_i_gox - p.arm_i_goy * coriolis_18 + coriolis_35;
+    let coriolis_36 = i_behind_d_13 * coriolis_28 + alpha_go_gox * coriolis_32;
+    let coriolis_37 = coriolis_36 - neg_alpha_go_goy * (mass_oo - coriolis_31);
+    let n_rates_o_goy = n_rates_i_goy + p.l_o_x * coriolis_18 + coriolis_37;
+    let coriolis_38 = p.l_o_x * f_rates_i_goy - p.arm_i_goy * f_rates_i_gox;
+    let n_rates_o_goz = coriolis_38 + n_rates_i_goz;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_o_bx = (e_y_bx * mr_behind_d_gox).sub_mul(e_x_bx, mr_behind_d_goy);
-    let f_o_by = (e_y_by * mr_behind_d_gox).sub_mul(e_x_by, mr_behind_d_goy);
-    let f_o_bz = (e_y_bz * mr_behind_d_gox).sub_mul(e_x_bz, mr_behind_d_goy);
-    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
-    let col_1 = col_0.add_mul(p.mount_13, mass_oo);
-    let n_o_bx = (p.reach_by * f_o_bz).sub_mul(p.reach_bz, f_o_by) + col_1;
-    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
-    let col_3 = col_2.add_mul(p.mount_23, mass_oo);
-    let n_o_by = (p.reach_bz * f_o_bx).sub_mul(p.reach_bx, f_o_bz) + col_3;
-    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
-    let col_5 = col_4.add_mul(p.mount_33, mass_oo);
-    let n_o_bz = (p.reach_bx * f_o_by).sub_mul(p.reach_by, f_o_bx) + col_5;
-    let f_i_bx = (e_x_bx * mr_behind_v_goz).sub_mul(p.mount_13, mr_behind_v_gox);
-    let f_i_by = (e_x_by * mr_behind_v_goz).sub_mul(p.mount_23, mr_behind_v_gox);
-    let f_i_bz = (e_x_bz * mr_behind_v_goz).sub_mul(p.mount_33, mr_behind_v_gox);
+    let f_o_bx = e_y_bx * mr_behind_d_gox - e_x_bx * mr_behind_d_goy;
+    let f_o_by = e_y_by * mr_behind_d_gox - e_x_by * mr_behind_d_goy;
+    let f_o_bz = e_y_bz * mr_behind_d_gox - e_x_bz * mr_behind_d_goy;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * mass_oo;
+    let n_o_bx = p.reach_by * f_o_bz - p.reach_bz * f_o_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * mass_oo;
+    let n_o_by = p.reach_bz * f_o_bx - p.reach_bx * f_o_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * mass_oo;
+    let n_o_bz = p.reach_bx * f_o_by - p.reach_by * f_o_bx + col_5;
+    let f_i_bx = e_x_bx * mr_behind_v_goz - p.mount_13 * mr_behind_v_gox;
+    let f_i_by = e_x_by * mr_behind_v_goz - p.mount_23 * mr_behind_v_gox;
+    let f_i_bz = e_x_bz * mr_behind_v_goz - p.mount_33 * mr_behind_v_gox;
     let col_6 = p.l_o_x + reach_gox;
-    let col_7 = (i_behind_v_12 - lump_14).sub_mul(reach_goy, mr_behind_v_gox);
-    let col_8 = mass_oi.sub_mul(reach_goy, mr_behind_v_goz);
-    let col_9 = mass_ii.add_mul(col_6, mr_behind_v_gox);
-    let col_10 = col_9.add_mul(p.arm_o_dz, mr_behind_v_goz);
-    let n_i_bx = (e_x_bx * col_7).add_mul(e_y_bx, col_10).add_mul(p.mount_13, col_8);
-    let n_i_by = (e_x_by * col_7).add_mul(e_y_by, col_10).add_mul(p.mount_23, col_8);
-    let n_i_bz = (e_x_bz * col_7).add_mul(e_y_bz, col_10).add_mul(p.mount_33, col_8);
-    let col_11 = q.cos_gamma_i * mr_behind_w_giy;
-    let col_12 = (row_4 * e_x_bx).sub_mul(mr_behind_w_giz, e_y_bx);
-    let f_w_bx = col_12.add_mul(p.mount_13, col_11);
-    let col_13 = (row_4 * e_x_by).sub_mul(mr_behind_w_giz, e_y_by);
-    let f_w_by = col_13.add_mul(p.mount_23, col_11);
-    let col_14 = (row_4 * e_x_bz).sub_mul(mr_behind_w_giz, e_y_bz);
-    let f_w_bz = col_14.add_mul(p.mount_33, col_11);
-    let col_15 = mass_ow - (reach_gox * mr_behind_w_giz).add_mul(reach_goy, row_4);
-    let col_16 = q.cos_gamma_i * (p.mass_ww + row_3);
-    let col_17 = col_16.add_mul(q.sin_gamma_i, i_behind_w_13);
-    let col_18 = col_17.add_mul(col_11, reach_goy + p.arm_i_goy);
-    let col_19 = col_18.add_mul(p.arm_o_dz, mr_behind_w_giz);
-    let col_20 = mass_iw.sub_mul(col_6, col_11).add_mul(p.arm_o_dz, row_4);
-    let col_21 = (e_x_bx * col_19).add_mul(e_y_bx, col_20);
-    let n_w_bx = col_21.add_mul(p.mount_13, col_15);
-    let col_22 = (e_x_by * col_19).add_mul(e_y_by, col_20);
-    let n_w_by = col_22.add_mul(p.mount_23, col_15);
-    let col_23 = (e_x_bz * col_19).add_mul(e_y_bz, col_20);
-    let n_w_bz = col_23.add_mul(p.mount_33, col_15);
+    let col_7 = i_behind_v_12 - lump_12 - reach_goy * mr_behind_v_gox;
+    let col_8 = mass_oi - reach_goy * mr_behind_v_goz;
+    let col_9 = mass_ii + col_6 * mr_behind_v_gox + p.arm_o_dz * mr_behind_v_goz;
+    let n_i_bx = e_x_bx * col_7 + e_y_bx * col_9 + p.mount_13 * col_8;
+    let n_i_by = e_x_by * col_7 + e_y_by * col_9 + p.mount_23 * col_8;
+    let n_i_bz = e_x_bz * col_7 + e_y_bz * col_9 + p.mount_33 * col_8;
+    let col_10 = q.cos_gamma_i * mr_behind_w_giy;
+    let f_w_bx = row_3 * e_x_bx - mr_behind_w_giz * e_y_bx + p.mount_13 * col_10;
+    let f_w_by = row_3 * e_x_by - mr_behind_w_giz * e_y_by + p.mount_23 * col_10;
+    let f_w_bz = row_3 * e_x_bz - mr_behind_w_giz * e_y_bz + p.mount_33 * col_10;
+    let col_11 = mass_ow - (reach_gox * mr_behind_w_giz + reach_goy * row_3);
+    let col_12 = q.cos_gamma_i * (p.mass_ww + row_2) + q.sin_gamma_i * i_behind_w_13;
+    let col_13 = col_12 + col_10 * (reach_goy + p.arm_i_goy);
+    let col_14 = col_13 + p.arm_o_dz * mr_behind_w_giz;
+    let col_15 = mass_iw - col_6 * col_10 + p.arm_o_dz * row_3;
+    let n_w_bx = e_x_bx * col_14 + e_y_bx * col_15 + p.mount_13 * col_11;
+    let n_w_by = e_x_by * col_14 + e_y_by * col_15 + p.mount_23 * col_11;
+    let n_w_bz = e_x_bz * col_14 + e_y_bz * col_15 + p.mount_33 * col_11;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let moment_0 = (e_x_bx * mr_behind_d_gox).add_mul(e_y_bx, mr_behind_d_goy);
-    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_v_goz);
-    let moment_1 = (e_x_by * mr_behind_d_gox).add_mul(e_y_by, mr_behind_d_goy);
-    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_v_goz);
-    let moment_2 = (e_x_bz * mr_behind_d_gox).add_mul(e_y_bz, mr_behind_d_goy);
-    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_v_goz);
+    let moment_0 = e_x_bx * mr_behind_d_gox + e_y_bx * mr_behind_d_goy;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_v_goz;
+    let moment_1 = e_x_by * mr_behind_d_gox + e_y_by * mr_behind_d_goy;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_v_goz;
+    let moment_2 = e_x_bz * mr_behind_d_gox + e_y_bz * mr_behind_d_goy;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_v_goz;
     let half = q.sin_gamma_o.like(0.5);
-    let moment_3 = half * coriolis_36;
-    let moment_4 = (e_x_bx * moment_3).add_mul(e_y_bx, i_behind_d_12);
+    let moment_3 = half * coriolis_31;
+    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
     let moment_5 = half * (i_behind_d_22 + mass_oo);
-    let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
-    let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
+    let moment_6 = col_1 - p.mount_13 * moment_5;
+    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
     let moment_8 = moment_7 + moment_7;
     let moment_9 = mr_moving_by * p.k_26;
-    let moment_10 = i_behind_d_22.add_mul(mr_moving_bz, p.k_27);
+    let moment_10 = i_behind_d_22 + mr_moving_bz * p.k_27;
     let i_moving_11 = moment_9 + moment_10 + moment_8;
-    let moment_11 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
-    let moment_12 = col_3.sub_mul(p.mount_23, moment_5);
-    let moment_13 = (e_x_bx * moment_11).add_mul(p.mount_13, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_15 = moment_13 + (e_x_by * moment_4).add_mul(p.mount_23, moment_6);
-    let i_moving_12 = moment_15 - moment_14;
-    let moment_16 = (e_x_bz * moment_3).add_mul(e_y_bz, i_behind_d_12);
-    let moment_17 = col_5.sub_mul(p.mount_33, moment_5);
-    let moment_18 = (e_x_bx * moment_16).add_mul(p.mount_13, moment_17);
-    let moment_19 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_20 = moment_18 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
-    let i_moving_13 = moment_20 - moment_19;
-    let moment_21 = (e_x_by * moment_11).add_mul(p.mount_23, moment_12);
+    let moment_11 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
+    let moment_12 = col_3 - p.mount_23 * moment_5;
+    let moment_13 = e_x_bx * moment_11 + p.mount_13 * moment_12;
+    let moment_14 = moment_13 + (e_x_by * moment_4 + p.mount_23 * moment_6);
+    let moment_15 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_14 - moment_15;
+    let moment_16 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
+    let moment_17 = col_5 - p.mount_33 * moment_5;
+    let moment_18 = e_x_bx * moment_16 + p.mount_13 * moment_17;
+    let moment_19 = moment_18 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
+    let moment_20 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_19 - moment_20;
+    let moment_21 = e_x_by * moment_11 + p.mount_23 * moment_12;
     let moment_22 = moment_21 + moment_21;
     let moment_23 = mr_moving_bx * p.k_25;
     let i_moving_22 = moment_23 + moment_10 + moment_22;
-    let moment_24 = (e_x_bz * moment_11).add_mul(p.mount_33, moment_12);
-    let moment_25 = (e_x_by * moment_16).add_mul(p.mount_23, moment_17) + moment_24;
-    let moment_26 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_24 = e_x_bz * moment_11 + p.mount_33 * moment_12;
+    let moment_25 = e_x_by * moment_16 + p.mount_23 * moment_17 + moment_24;
+    let moment_26 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
     let i_moving_23 = moment_25 - moment_26;
-    let i_moving_33 = moment_23 + moment_9 + (coriolis_38 - moment_8 - moment_22);
+    let i_moving_33 = moment_23 + moment_9 + (coriolis_33 - moment_8 - moment_22);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * f_rates_o_gox).add_mul(e_y_bx, f_rates_o_goy);
-    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_o_goz);
-    let bias_1 = (e_x_by * f_rates_o_gox).add_mul(e_y_by, f_rates_o_goy);
-    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_o_goz);
-    let bias_2 = (e_x_bz * f_rates_o_gox).add_mul(e_y_bz, f_rates_o_goy);
-    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_o_goz);
-    let bias_3 = (e_x_bx * n_rates_o_gox).add_mul(e_y_bx, n_rates_o_goy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_3.add_mul(p.mount_13, n_rates_o_goz) + bias_4;
-    let bias_5 = (e_x_by * n_rates_o_gox).add_mul(e_y_by, n_rates_o_goy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_5.add_mul(p.mount_23, n_rates_o_goz) + bias_6;
-    let bias_7 = (e_x_bz * n_rates_o_gox).add_mul(e_y_bz, n_rates_o_goy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_o_goz) + bias_8;
+    let bias_0 = e_x_bx * f_rates_o_gox + e_y_bx * f_rates_o_goy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_o_goz;
+    let bias_1 = e_x_by * f_rates_o_gox + e_y_by * f_rates_o_goy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_o_goz;
+    let bias_2 = e_x_bz * f_rates_o_gox + e_y_bz * f_rates_o_goy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_o_goz;
+    let bias_3 = e_x_bx * n_rates_o_gox + e_y_bx * n_rates_o_goy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 + p.mount_13 * n_rates_o_goz + bias_4;
+    let bias_5 = e_x_by * n_rates_o_gox + e_y_by * n_rates_o_goy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 + p.mount_23 * n_rates_o_goz + bias_6;
+    let bias_7 = e_x_bz * n_rates_o_gox + e_y_bz * n_rates_o_goy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 + p.mount_33 * n_rates_o_goz + bias_8;
 
     // Bias of each joint row, eq. (D9), N m.
-    let bias_9 = r_first_rest_goy * mr_behind_d_gox;
-    let bias_10 = omega_b_n_gox * i_behind_d_23;
-    let bias_11 = bias_9.sub_mul(r_first_rest_gox, mr_behind_d_goy);
-    let bias_12 = bias_10.sub_mul(omega_b_n_goy, i_behind_d_13);
-    let bias_13 = bias_11.add_mul(omega_b_n_goz, bias_12);
-    let bias_14 = bias_13.add_mul(i_behind_d_12, path_7 - path_3);
-    let u_rest_o = bias_14.sub_mul(path_5, coriolis_36) + n_rates_o_goz;
-    let bias_15 = r_gi_rest_gox * mr_behind_v_goz;
-    let bias_16 = (path_10 * i_behind_v_12).sub_mul(path_5, i_behind_v_23);
-    let bias_17 = (i_behind_v_13 * (path_4 - path_7)).sub_mul(path_9, coriolis_22);
-    let bias_18 = bias_16.sub_mul(neg_alpha_go_goy, mass_ii) + bias_17;
-    let bias_19 = bias_15.sub_mul(r_gi_rest_goz, mr_behind_v_gox) + bias_18;
-    let u_rest_i = bias_19 + n_rates_i_goy;
-    let bias_20 = mr_behind_w_giy * r_w_rest_giz;
-    let bias_21 = alpha_gi_giz.add_mul(omega_gi_n_gix, omega_gi_n_giy);
-    let bias_22 = neg_alpha_go_goy.add_mul(omega_gi_n_giz, omega_gi_n_gix);
-    let bias_23 = (bias_21 * i_behind_w_13).sub_mul(bias_22, mass_iw);
-    let bias_24 = i_behind_w_23 * path_13.sub_mul(omega_gi_n_giz, omega_gi_n_giz);
-    let bias_25 = bias_23.add_mul(p.mass_ww, alpha_gi_gix);
-    let bias_26 = bias_25 + bias_24.sub_mul(path_12, coriolis_6);
-    let u_rest_w = bias_20.sub_mul(mr_behind_w_giz, r_w_rest_giy) + bias_26;
+    let bias_9 = r_first_rest_gox * mr_behind_d_goy;
+    let bias_10 = omega_b_n_gox * i_behind_d_23 - omega_b_n_goy * i_behind_d_13;
+    let bias_11 = r_first_rest_goy * mr_behind_d_gox - bias_9;
+    let bias_12 = i_behind_d_12 * (path_7 - path_3);
+    let bias_13 = bias_11 + omega_b_n_goz * bias_10 + bias_12 - path_5 * coriolis_31;
+    let u_rest_o = bias_13 + n_rates_o_goz;
+    let bias_14 = path_10 * i_behind_v_12 - path_5 * i_behind_v_23;
+    let bias_15 = i_behind_v_13 * (path_4 - path_7) - path_9 * coriolis_20;
+    let bias_16 = r_gi_rest_gox * mr_behind_v_goz - r_gi_rest_goz * mr_behind_v_gox;
+    let bias_17 = bias_16 + (bias_14 - neg_alpha_go_goy * mass_ii + bias_15);
+    let u_rest_i = bias_17 + n_rates_i_goy;
+    let bias_18 = (alpha_gi_giz + omega_gi_n_gix * omega_gi_n_giy) * i_behind_w_13;
+    let bias_19 = (neg_alpha_go_goy + omega_gi_n_giz * omega_gi_n_gix) * mass_iw;
+    let bias_20 = i_behind_w_23 * (path_13 - omega_gi_n_giz * omega_gi_n_giz);
+    let bias_21 = bias_18 - bias_19 + p.mass_ww * alpha_gi_gix;
+    let bias_22 = mr_behind_w_giy * r_w_rest_giz - mr_behind_w_giz * r_w_rest_giy;
+    let u_rest_w = bias_22 + (bias_21 + (bias_20 - path_12 * coriolis_5));
 
     // Right side of each joint row, eqs. (80), (101), (119): motor torque less bias, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -2867,7 +2841,7 @@ pub fn eliminate<T: Real>(
     let tau_w = u.u_w - u_rest_w;
 
     // Joint w, eq. (D10): its pivot, kg m², and gains.
-    let divisor_w = m.held_w.add_mul(m.driven_w, p.mass_ww);
+    let divisor_w = m.held_w + m.driven_w * p.mass_ww;
     let gain_0 = divisor_w.recip();
     let recip_w = m.driven_w * gain_0;
     let gain_w_v1 = f_w_bx * recip_w;
@@ -2878,28 +2852,27 @@ pub fn eliminate<T: Real>(
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_o = mass_ow * recip_w;
     let gain_w_i = mass_iw * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Joint w eliminated from the rows of the inboard joints, eq. (D11).
-    let f_o_bx_w = f_o_bx.sub_mul(f_w_bx, gain_w_o);
-    let f_o_by_w = f_o_by.sub_mul(f_w_by, gain_w_o);
-    let f_o_bz_w = f_o_bz.sub_mul(f_w_bz, gain_w_o);
-    let n_o_bx_w = n_o_bx.sub_mul(n_w_bx, gain_w_o);
-    let n_o_by_w = n_o_by.sub_mul(n_w_by, gain_w_o);
-    let n_o_bz_w = n_o_bz.sub_mul(n_w_bz, gain_w_o);
-    let rest_0 = across_ow.sub_mul(m.held_w, mass_ow * gain_0);
-    let rest_1 = across_oo.add_mul(q.sin_gamma_i, rest_0);
-    let mass_oo_w = rest_1.sub_mul(across_ow, gain_w_o);
-    let tau_o_w = tau_o.sub_mul(mass_ow, free_w);
-    let f_i_bx_w = f_i_bx.sub_mul(f_w_bx, gain_w_i);
-    let f_i_by_w = f_i_by.sub_mul(f_w_by, gain_w_i);
-    let f_i_bz_w = f_i_bz.sub_mul(f_w_bz, gain_w_i);
-    let n_i_bx_w = n_i_bx.sub_mul(n_w_bx, gain_w_i);
-    let n_i_by_w = n_i_by.sub_mul(n_w_by, gain_w_i);
-    let n_i_bz_w = n_i_bz.sub_mul(n_w_bz, gain_w_i);
-    let mass_oi_w = mass_oi.sub_mul(mass_ow, gain_w_i);
-    let mass_ii_w = mass_ii.sub_mul(mass_iw, gain_w_i);
-    let tau_i_w = tau_i.sub_mul(mass_iw, free_w);
+    let f_o_bx_w = f_o_bx - f_w_bx * gain_w_o;
+    let f_o_by_w = f_o_by - f_w_by * gain_w_o;
+    let f_o_bz_w = f_o_bz - f_w_bz * gain_w_o;
+    let n_o_bx_w = n_o_bx - n_w_bx * gain_w_o;
+    let n_o_by_w = n_o_by - n_w_by * gain_w_o;
+    let n_o_bz_w = n_o_bz - n_w_bz * gain_w_o;
+    let rest_0 = q.sin_gamma_i * (across_ow - mass_ow * gain_0 * m.held_w);
+    let mass_oo_w = across_oo + rest_0 - across_ow * gain_w_o;
+    let tau_o_w = tau_o - mass_ow * free_w;
+    let f_i_bx_w = f_i_bx - f_w_bx * gain_w_i;
+    let f_i_by_w = f_i_by - f_w_by * gain_w_i;
+    let f_i_bz_w = f_i_bz - f_w_bz * gain_w_i;
+    let n_i_bx_w = n_i_bx - n_w_bx * gain_w_i;
+    let n_i_by_w = n_i_by - n_w_by * gain_w_i;
+    let n_i_bz_w = n_i_bz - n_w_bz * gain_w_i;
+    let mass_oi_w = mass_oi - mass_ow * gain_w_i;
+    let mass_ii_w = mass_ii - mass_iw * gain_w_i;
+    let tau_i_w = tau_i - mass_iw * free_w;
 
     // Joint i, eq. (D10): its pivot, kg m², and gains.
     let divisor_i = m.held_i + mass_ii_w;
@@ -2911,17 +2884,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by_w * recip_i;
     let gain_i_w3 = n_i_bz_w * recip_i;
     let gain_i_o = mass_oi_w * recip_i;
-    let free_i = m.given_i.add_mul(tau_i_w, recip_i);
+    let free_i = m.given_i + tau_i_w * recip_i;
 
     // Joint i eliminated from the rows of the inboard joints, eq. (D11).
-    let f_o_bx_wi = f_o_bx_w.sub_mul(f_i_bx_w, gain_i_o);
-    let f_o_by_wi = f_o_by_w.sub_mul(f_i_by_w, gain_i_o);
-    let f_o_bz_wi = f_o_bz_w.sub_mul(f_i_bz_w, gain_i_o);
-    let n_o_bx_wi = n_o_bx_w.sub_mul(n_i_bx_w, gain_i_o);
-    let n_o_by_wi = n_o_by_w.sub_mul(n_i_by_w, gain_i_o);
-    let n_o_bz_wi = n_o_bz_w.sub_mul(n_i_bz_w, gain_i_o);
-    let mass_oo_wi = mass_oo_w.sub_mul(mass_oi_w, gain_i_o);
-    let tau_o_wi = tau_o_w.sub_mul(mass_oi_w, free_i);
+    let f_o_bx_wi = f_o_bx_w - f_i_bx_w * gain_i_o;
+    let f_o_by_wi = f_o_by_w - f_i_by_w * gain_i_o;
+    let f_o_bz_wi = f_o_bz_w - f_i_bz_w * gain_i_o;
+    let n_o_bx_wi = n_o_bx_w - n_i_bx_w * gain_i_o;
+    let n_o_by_wi = n_o_by_w - n_i_by_w * gain_i_o;
+    let n_o_bz_wi = n_o_bz_w - n_i_bz_w * gain_i_o;
+    let mass_oo_wi = mass_oo_w - mass_oi_w * gain_i_o;
+    let tau_o_wi = tau_o_w - mass_oi_w * free_i;
 
     // Joint o, eq. (D10): its pivot, kg m², and gains.
     let divisor_o = m.held_o + mass_oo_wi;
@@ -2932,69 +2905,42 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_wi * recip_o;
     let gain_o_w2 = n_o_by_wi * recip_o;
     let gain_o_w3 = n_o_bz_wi * recip_o;
-    let free_o = m.given_o.add_mul(tau_o_wi, recip_o);
+    let free_o = m.given_o + tau_o_wi * recip_o;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
-    let hub_0 = (f_w_bx * gain_w_v1).add_mul(f_i_bx_w, gain_i_v1);
-    let m_vv_11 = hub_0.add_mul(f_o_bx_wi, gain_o_v1);
-    let hub_1 = (f_w_by * gain_w_v1).add_mul(f_i_by_w, gain_i_v1);
-    let m_vv_12 = hub_1.add_mul(f_o_by_wi, gain_o_v1);
-    let hub_2 = (f_w_bz * gain_w_v1).add_mul(f_i_bz_w, gain_i_v1);
-    let m_vv_13 = hub_2.add_mul(f_o_bz_wi, gain_o_v1);
-    let hub_3 = (f_w_by * gain_w_v2).add_mul(f_i_by_w, gain_i_v2);
-    let m_vv_22 = hub_3.add_mul(f_o_by_wi, gain_o_v2);
-    let hub_4 = (f_w_bz * gain_w_v2).add_mul(f_i_bz_w, gain_i_v2);
-    let m_vv_23 = hub_4.add_mul(f_o_bz_wi, gain_o_v2);
-    let hub_5 = (f_w_bz * gain_w_v3).add_mul(f_i_bz_w, gain_i_v3);
-    let m_vv_33 = hub_5.add_mul(f_o_bz_wi, gain_o_v3);
+    let m_vv_11 = f_w_bx * gain_w_v1 + f_i_bx_w * gain_i_v1 + f_o_bx_wi * gain_o_v1;
+    let m_vv_12 = f_w_by * gain_w_v1 + f_i_by_w * gain_i_v1 + f_o_by_wi * gain_o_v1;
+    let m_vv_13 = f_w_bz * gain_w_v1 + f_i_bz_w * gain_i_v1 + f_o_bz_wi * gain_o_v1;
+    let m_vv_22 = f_w_by * gain_w_v2 + f_i_by_w * gain_i_v2 + f_o_by_wi * gain_o_v2;
+    let m_vv_23 = f_w_bz * gain_w_v2 + f_i_bz_w * gain_i_v2 + f_o_bz_wi * gain_o_v2;
+    let m_vv_33 = f_w_bz * gain_w_v3 + f_i_bz_w * gain_i_v3 + f_o_bz_wi * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
-    let hub_6 = (n_w_bx * gain_w_v1).add_mul(n_i_bx_w, gain_i_v1);
-    let m_vw_11 = hub_6.add_mul(n_o_bx_wi, gain_o_v1);
-    let hub_7 = (n_w_by * gain_w_v1).add_mul(n_i_by_w, gain_i_v1);
-    let m_vw_12 = hub_7.add_mul(n_o_by_wi, gain_o_v1);
-    let hub_8 = (n_w_bz * gain_w_v1).add_mul(n_i_bz_w, gain_i_v1);
-    let m_vw_13 = hub_8.add_mul(n_o_bz_wi, gain_o_v1);
-    let hub_9 = (n_w_bx * gain_w_v2).add_mul(n_i_bx_w, gain_i_v2);
-    let m_vw_21 = hub_9.add_mul(n_o_bx_wi, gain_o_v2);
-    let hub_10 = (n_w_by * gain_w_v2).add_mul(n_i_by_w, gain_i_v2);
-    let m_vw_22 = hub_10.add_mul(n_o_by_wi, gain_o_v2);
-    let hub_11 = (n_w_bz * gain_w_v2).add_mul(n_i_bz_w, gain_i_v2);
-    let m_vw_23 = hub_11.add_mul(n_o_bz_wi, gain_o_v2);
-    let hub_12 = (n_w_bx * gain_w_v3).add_mul(n_i_bx_w, gain_i_v3);
-    let m_vw_31 = hub_12.add_mul(n_o_bx_wi, gain_o_v3);
-    let hub_13 = (n_w_by * gain_w_v3).add_mul(n_i_by_w, gain_i_v3);
-    let m_vw_32 = hub_13.add_mul(n_o_by_wi, gain_o_v3);
-    let hub_14 = (n_w_bz * gain_w_v3).add_mul(n_i_bz_w, gain_i_v3);
-    let m_vw_33 = hub_14.add_mul(n_o_bz_wi, gain_o_v3);
+    let m_vw_11 = n_w_bx * gain_w_v1 + n_i_bx_w * gain_i_v1 + n_o_bx_wi * gain_o_v1;
+    let m_vw_12 = n_w_by * gain_w_v1 + n_i_by_w * gain_i_v1 + n_o_by_wi * gain_o_v1;
+    let m_vw_13 = n_w_bz * gain_w_v1 + n_i_bz_w * gain_i_v1 + n_o_bz_wi * gain_o_v1;
+    let m_vw_21 = n_w_bx * gain_w_v2 + n_i_bx_w * gain_i_v2 + n_o_bx_wi * gain_o_v2;
+    let m_vw_22 = n_w_by * gain_w_v2 + n_i_by_w * gain_i_v2 + n_o_by_wi * gain_o_v2;
+    let m_vw_23 = n_w_bz * gain_w_v2 + n_i_bz_w * gain_i_v2 + n_o_bz_wi * gain_o_v2;
+    let m_vw_31 = n_w_bx * gain_w_v3 + n_i_bx_w * gain_i_v3 + n_o_bx_wi * gain_o_v3;
+    let m_vw_32 = n_w_by * gain_w_v3 + n_i_by_w * gain_i_v3 + n_o_by_wi * gain_o_v3;
+    let m_vw_33 = n_w_bz * gain_w_v3 + n_i_bz_w * gain_i_v3 + n_o_bz_wi * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let hub_15 = (n_w_bx * gain_w_w1).add_mul(n_i_bx_w, gain_i_w1);
-    let m_ww_11 = hub_15.add_mul(n_o_bx_wi, gain_o_w1);
-    let hub_16 = (n_w_by * gain_w_w1).add_mul(n_i_by_w, gain_i_w1);
-    let m_ww_12 = hub_16.add_mul(n_o_by_wi, gain_o_w1);
-    let hub_17 = (n_w_bz * gain_w_w1).add_mul(n_i_bz_w, gain_i_w1);
-    let m_ww_13 = hub_17.add_mul(n_o_bz_wi, gain_o_w1);
-    let hub_18 = (n_w_by * gain_w_w2).add_mul(n_i_by_w, gain_i_w2);
-    let m_ww_22 = hub_18.add_mul(n_o_by_wi, gain_o_w2);
-    let hub_19 = (n_w_bz * gain_w_w2).add_mul(n_i_bz_w, gain_i_w2);
-    let m_ww_23 = hub_19.add_mul(n_o_bz_wi, gain_o_w2);
-    let hub_20 = (n_w_bz * gain_w_w3).add_mul(n_i_bz_w, gain_i_w3);
-    let m_ww_33 = hub_20.add_mul(n_o_bz_wi, gain_o_w3);
+    let m_ww_11 = n_w_bx * gain_w_w1 + n_i_bx_w * gain_i_w1 + n_o_bx_wi * gain_o_w1;
+    let m_ww_12 = n_w_by * gain_w_w1 + n_i_by_w * gain_i_w1 + n_o_by_wi * gain_o_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1 + n_i_bz_w * gain_i_w1 + n_o_bz_wi * gain_o_w1;
+    let m_ww_22 = n_w_by * gain_w_w2 + n_i_by_w * gain_i_w2 + n_o_by_wi * gain_o_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2 + n_i_bz_w * gain_i_w2 + n_o_bz_wi * gain_o_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3 + n_i_bz_w * gain_i_w3 + n_o_bz_wi * gain_o_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let hub_21 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_i_bx_w, free_i);
-    let h_v_1 = hub_21.add_mul(f_o_bx_wi, free_o);
-    let hub_22 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_i_by_w, free_i);
-    let h_v_2 = hub_22.add_mul(f_o_by_wi, free_o);
-    let hub_23 = f_rates_bz.add_mul(f_w_bz, free_w).add_mul(f_i_bz_w, free_i);
-    let h_v_3 = hub_23.add_mul(f_o_bz_wi, free_o);
-    let hub_24 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_i_bx_w, free_i);
-    let h_w_1 = hub_24.add_mul(n_o_bx_wi, free_o);
-    let hub_25 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_i_by_w, free_i);
-    let h_w_2 = hub_25.add_mul(n_o_by_wi, free_o);
-    let hub_26 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_i_bz_w, free_i);
-    let h_w_3 = hub_26.add_mul(n_o_bz_wi, free_o);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w + f_i_bx_w * free_i + f_o_bx_wi * free_o;
+    let h_v_2 = f_rates_by + f_w_by * free_w + f_i_by_w * free_i + f_o_by_wi * free_o;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w + f_i_bz_w * free_i + f_o_bz_wi * free_o;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_i_bx_w * free_i + n_o_bx_wi * free_o;
+    let h_w_2 = n_rates_by + n_w_by * free_w + n_i_by_w * free_i + n_o_by_wi * free_o;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_i_bz_w * free_i + n_o_bz_wi * free_o;
 
     Eliminated {
         share: HubShare {
@@ -3079,27 +3025,26 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
-    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
-    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
-    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
-    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
-    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
-    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
-    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
-    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
-    let row_11 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_12 = row_11.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_13 = row_12.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_14 = row_13.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_15 = row_14.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let row_16 = row_15.sub_mul(a.omega_dot_bz, e.gain_w_w3);
-    let row_17 = row_16.sub_mul(gamma_o_ddot, e.gain_w_o);
-    let spin_dot = row_17.sub_mul(gamma_i_ddot, e.gain_w_i);
+    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
+    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
+    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
+    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
+    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
+    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
+    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
+    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
+    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
+    let row_11 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_12 = row_11 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_13 = row_12 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_14 = row_13 - a.omega_dot_bx * e.gain_w_w1;
+    let row_15 = row_14 - a.omega_dot_by * e.gain_w_w2;
+    let row_16 = row_15 - a.omega_dot_bz * e.gain_w_w3 - gamma_o_ddot * e.gain_w_o;
+    let spin_dot = row_16 - gamma_i_ddot * e.gain_w_i;
 
     JointAccelerations { gamma_o_ddot, gamma_i_ddot, spin_dot }
 }

@@ -2188,44 +2188,44 @@ pub fn eliminate<T: Real>(
     let arm_sx_dx = p.r_sx_b_bx + s.x;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the axial slide, rad/s.
-    let rate_0 = (w.omega_bx * p.mount_11).add_mul(w.omega_by, p.mount_21);
-    let omega_b_n_sxx = rate_0.add_mul(w.omega_bz, p.mount_31);
-    let rate_1 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
-    let omega_b_n_sxy = rate_1.add_mul(w.omega_bz, p.mount_32);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_sxz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * p.mount_11 + w.omega_by * p.mount_21;
+    let omega_b_n_sxx = rate_0 + w.omega_bz * p.mount_31;
+    let rate_1 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
+    let omega_b_n_sxy = rate_1 + w.omega_bz * p.mount_32;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_sxz = rate_2 + w.omega_bz * p.mount_33;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the axial slide, m/s².
-    let path_0 = (arm_sx_dx * omega_b_n_sxz).sub_mul(p.r_sx_b_bz, omega_b_n_sxx);
-    let path_1 = (p.r_sx_b_by * omega_b_n_sxx).sub_mul(arm_sx_dx, omega_b_n_sxy);
-    let r_first_rest_sxx = (omega_b_n_sxy * path_1).sub_mul(omega_b_n_sxz, path_0);
-    let path_2 = (p.r_sx_b_bz * omega_b_n_sxy).sub_mul(p.r_sx_b_by, omega_b_n_sxz);
-    let r_first_rest_sxy = (omega_b_n_sxz * path_2).sub_mul(omega_b_n_sxx, path_1);
-    let r_first_rest_sxz = (omega_b_n_sxx * path_0).sub_mul(omega_b_n_sxy, path_2);
+    let path_0 = arm_sx_dx * omega_b_n_sxz - p.r_sx_b_bz * omega_b_n_sxx;
+    let path_1 = p.r_sx_b_by * omega_b_n_sxx - arm_sx_dx * omega_b_n_sxy;
+    let r_first_rest_sxx = omega_b_n_sxy * path_1 - omega_b_n_sxz * path_0;
+    let path_2 = p.r_sx_b_bz * omega_b_n_sxy - p.r_sx_b_by * omega_b_n_sxz;
+    let r_first_rest_sxy = omega_b_n_sxz * path_2 - omega_b_n_sxx * path_1;
+    let r_first_rest_sxz = omega_b_n_sxx * path_0 - omega_b_n_sxy * path_2;
 
     // Acceleration of SY, no joint accelerating, without that of B, eq. (D5), expressed in the
     // axes of the axial slide, m/s².
-    let r_sy_rest_sxx = r_first_rest_sxx.add_mul(s.y, omega_b_n_sxx * omega_b_n_sxy);
+    let r_sy_rest_sxx = r_first_rest_sxx + omega_b_n_sxx * omega_b_n_sxy * s.y;
     let path_3 = omega_b_n_sxx * omega_b_n_sxx;
     let path_4 = omega_b_n_sxz * omega_b_n_sxz;
     let path_5 = path_3 + path_4;
     let path_6 = omega_b_n_sxz + omega_b_n_sxz;
     let path_7 = v.x_dot * path_6;
-    let r_sy_rest_sxy = (r_first_rest_sxy + path_7).sub_mul(s.y, path_5);
-    let path_8 = s.y.mul_sub(omega_b_n_sxz, v.x_dot + v.x_dot);
-    let r_sy_rest_sxz = r_first_rest_sxz.add_mul(omega_b_n_sxy, path_8);
+    let r_sy_rest_sxy = r_first_rest_sxy + path_7 - s.y * path_5;
+    let path_8 = omega_b_n_sxy * (s.y * omega_b_n_sxz - (v.x_dot + v.x_dot));
+    let r_sy_rest_sxz = r_first_rest_sxz + path_8;
 
     // Acceleration of SZ, no joint accelerating, without that of B, eq. (D5), expressed in the
     // axes of the radial slide y, m/s².
-    let path_9 = s.z.mul_sub(omega_b_n_sxx, v.y_dot + v.y_dot);
-    let r_sz_rest_syx = r_sy_rest_sxx.add_mul(omega_b_n_sxz, path_9);
-    let r_sz_rest_syy = r_sy_rest_sxy.add_mul(s.z, omega_b_n_sxy * omega_b_n_sxz);
+    let path_9 = omega_b_n_sxz * (s.z * omega_b_n_sxx - (v.y_dot + v.y_dot));
+    let r_sz_rest_syx = r_sy_rest_sxx + path_9;
+    let r_sz_rest_syy = omega_b_n_sxy * omega_b_n_sxz * s.z + r_sy_rest_sxy;
     let path_10 = omega_b_n_sxy * omega_b_n_sxy;
     let path_11 = path_3 + path_10;
     let path_12 = omega_b_n_sxx + omega_b_n_sxx;
     let path_13 = v.y_dot * path_12;
-    let r_sz_rest_syz = (r_sy_rest_sxz + path_13).sub_mul(s.z, path_11);
+    let r_sz_rest_syz = r_sy_rest_sxz + path_13 - s.z * path_11;
 
     // Acceleration of TY moved by (D3), no joint accelerating, without that of B, eq. (D5),
     // expressed in the axes of the radial slide z, m/s².
@@ -2236,11 +2236,9 @@ pub fn eliminate<T: Real>(
     let r_ty_rest_szy = r_sz_rest_syy - path_16;
 
     // ω_{TY/N}, expressed in its own axes, rad/s.
-    let rate_3 = q.cos_tilt_y * omega_b_n_sxx;
-    let omega_ty_n_tyx = rate_3.sub_mul(q.sin_tilt_y, omega_b_n_sxz);
+    let omega_ty_n_tyx = q.cos_tilt_y * omega_b_n_sxx - q.sin_tilt_y * omega_b_n_sxz;
     let omega_ty_n_tyy = v.tilt_y_dot + omega_b_n_sxy;
-    let rate_4 = q.cos_tilt_y * omega_b_n_sxz;
-    let omega_ty_n_tyz = rate_4.add_mul(q.sin_tilt_y, omega_b_n_sxx);
+    let omega_ty_n_tyz = q.cos_tilt_y * omega_b_n_sxz + q.sin_tilt_y * omega_b_n_sxx;
 
     // Its derivative, no joint accelerating, expressed in the same axes, rad/s².
     let neg_alpha_ty_tyx = v.tilt_y_dot * omega_ty_n_tyz;
@@ -2248,73 +2246,67 @@ pub fn eliminate<T: Real>(
 
     // Acceleration of TZ moved by (D3), no joint accelerating, without that of B, eq. (D5),
     // expressed in the axes of the tilt y, m/s².
-    let path_17 = q.cos_tilt_y * r_ty_rest_szx;
-    let r_tz_rest_tyx = path_17.sub_mul(q.sin_tilt_y, r_sz_rest_syz);
-    let path_18 = q.cos_tilt_y * r_sz_rest_syz;
-    let r_tz_rest_tyz = path_18.add_mul(q.sin_tilt_y, r_ty_rest_szx);
+    let r_tz_rest_tyx = q.cos_tilt_y * r_ty_rest_szx - q.sin_tilt_y * r_sz_rest_syz;
+    let r_tz_rest_tyz = q.cos_tilt_y * r_sz_rest_syz + q.sin_tilt_y * r_ty_rest_szx;
 
     // ω_{TZ/N}, expressed in its own axes, rad/s.
-    let rate_5 = q.cos_tilt_z * omega_ty_n_tyx;
-    let omega_tz_n_tzx = rate_5.add_mul(q.sin_tilt_z, omega_ty_n_tyy);
-    let rate_6 = q.cos_tilt_z * omega_ty_n_tyy;
-    let omega_tz_n_tzy = rate_6.sub_mul(q.sin_tilt_z, omega_ty_n_tyx);
+    let rate_3 = q.sin_tilt_z * omega_ty_n_tyy;
+    let omega_tz_n_tzx = q.cos_tilt_z * omega_ty_n_tyx + rate_3;
+    let rate_4 = q.sin_tilt_z * omega_ty_n_tyx;
+    let omega_tz_n_tzy = q.cos_tilt_z * omega_ty_n_tyy - rate_4;
     let omega_tz_n_tzz = v.tilt_z_dot + omega_ty_n_tyz;
 
     // Its derivative, no joint accelerating, expressed in the same axes, rad/s².
-    let turn_0 = v.tilt_z_dot * omega_tz_n_tzy;
-    let alpha_tz_tzx = turn_0.sub_mul(q.cos_tilt_z, neg_alpha_ty_tyx);
+    let turn_0 = q.cos_tilt_z * neg_alpha_ty_tyx;
+    let alpha_tz_tzx = v.tilt_z_dot * omega_tz_n_tzy - turn_0;
     let turn_1 = q.sin_tilt_z * neg_alpha_ty_tyx;
-    let alpha_tz_tzy = turn_1.sub_mul(v.tilt_z_dot, omega_tz_n_tzx);
+    let alpha_tz_tzy = turn_1 - v.tilt_z_dot * omega_tz_n_tzx;
 
     // Acceleration of W moved by (D3), no joint accelerating, without that of B, eq. (D5),
     // expressed in the axes of the tilt z, m/s².
-    let path_19 = q.cos_tilt_z * r_ty_rest_szy;
-    let r_w_rest_tzy = path_19.sub_mul(q.sin_tilt_z, r_tz_rest_tyx);
+    let r_w_rest_tzy = q.cos_tilt_z * r_ty_rest_szy - q.sin_tilt_z * r_tz_rest_tyx;
 
     // Outboard composite of the joint of the wheel, W, by base parameters, eq. (D6), expressed
     // in the axes of the tilt z: first moment, kg m, and inertia, kg m², about W moved by (D3).
     let mr_behind_w_tzy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_tzz = q.sin_theta * p.mr_wc_w_wy;
-    let i_behind_w_12 = (q.cos_theta * p.j_12).sub_mul(q.sin_theta, p.j_13);
-    let lump_0 = (q.cos_theta * p.k_3).add_mul(q.sin_theta, p.i_w_base_22);
+    let i_behind_w_12 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13;
+    let lump_0 = q.cos_theta * p.k_3 + q.sin_theta * p.i_w_base_22;
     let i_behind_w_33 = q.sin_theta * lump_0;
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
-    let i_behind_w_23 = p.k_4.add_mul(q.cos_theta, lump_0);
+    let i_behind_w_23 = p.k_4 + q.cos_theta * lump_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the tilt z: force, N, and moment, N m, about
     // W moved by (D3).
-    let coriolis_0 = mr_behind_w_tzy * omega_tz_n_tzy;
-    let coriolis_1 = v.spin * coriolis_0.add_mul(mr_behind_w_tzz, omega_tz_n_tzz);
+    let coriolis_0 = mr_behind_w_tzz * omega_tz_n_tzz;
+    let coriolis_1 = v.spin * (mr_behind_w_tzy * omega_tz_n_tzy + coriolis_0);
     let f_rates_w_tzx = coriolis_1 + coriolis_1;
     let coriolis_2 = v.spin + omega_tz_n_tzx + omega_tz_n_tzx;
     let coriolis_3 = v.spin * coriolis_2;
     let neg_f_rates_w_tzy = mr_behind_w_tzy * coriolis_3;
     let f_rates_w_tzz = -(mr_behind_w_tzz * coriolis_3);
-    let mass_tzw = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.j_12);
+    let mass_tzw = q.cos_theta * p.j_13 + q.sin_theta * p.j_12;
     let coriolis_4 = i_behind_w_22 - i_behind_w_33;
     let coriolis_5 = i_behind_w_23 + i_behind_w_23;
     let coriolis_6 = omega_tz_n_tzz * (p.mass_ww + coriolis_4);
-    let coriolis_7 = coriolis_6.sub_mul(omega_tz_n_tzy, coriolis_5);
-    let n_rates_w_tzy = v.spin * coriolis_7.sub_mul(mass_tzw, coriolis_2);
-    let coriolis_8 = i_behind_w_12 * coriolis_2;
-    let coriolis_9 = coriolis_8.add_mul(omega_tz_n_tzz, coriolis_5);
-    let coriolis_10 = coriolis_9.sub_mul(omega_tz_n_tzy, p.mass_ww - coriolis_4);
-    let n_rates_w_tzz = v.spin * coriolis_10;
+    let coriolis_7 = coriolis_6 - omega_tz_n_tzy * coriolis_5;
+    let n_rates_w_tzy = v.spin * (coriolis_7 - mass_tzw * coriolis_2);
+    let coriolis_8 = i_behind_w_12 * coriolis_2 + omega_tz_n_tzz * coriolis_5;
+    let coriolis_9 = coriolis_8 - omega_tz_n_tzy * (p.mass_ww - coriolis_4);
+    let n_rates_w_tzz = v.spin * coriolis_9;
 
     // Outboard composite of the joint of the tilt z, TZA, by base parameters, eq. (D6),
     // expressed in the axes of the tilt y: first moment, kg m, and inertia, kg m², about TZ
     // moved by (D3).
     let mr_behind_tza_tyy = q.cos_tilt_z * mr_behind_w_tzy;
     let lump_1 = i_behind_w_12 + i_behind_w_12;
-    let lump_2 = i_behind_w_22 + p.k_13;
-    let lump_3 = (q.cos_tilt_z * lump_1).sub_mul(q.sin_tilt_z, lump_2);
-    let lump_4 = q.sin_tilt_z * lump_3;
-    let i_behind_tza_11 = p.k_12 - lump_4;
-    let i_behind_tza_12 = q.cos_tilt_z.mul_sub(lump_3, i_behind_w_12);
-    let lump_5 = q.cos_tilt_z * mass_tzw;
-    let i_behind_tza_13 = lump_5.sub_mul(q.sin_tilt_z, i_behind_w_23);
-    let i_behind_tza_22 = i_behind_w_22 + lump_4;
+    let lump_2 = q.cos_tilt_z * lump_1 - q.sin_tilt_z * (i_behind_w_22 + p.k_13);
+    let lump_3 = q.sin_tilt_z * lump_2;
+    let i_behind_tza_11 = p.k_12 - lump_3;
+    let i_behind_tza_12 = q.cos_tilt_z * lump_2 - i_behind_w_12;
+    let i_behind_tza_13 = q.cos_tilt_z * mass_tzw - q.sin_tilt_z * i_behind_w_23;
+    let i_behind_tza_22 = i_behind_w_22 + lump_3;
 
     // Joint row of the tilt z about tyz, eqs. (D7), (D9): M_ij, kg m², and bias, N m, which
     // contains the moment that the rates of the outboard joints require about the same axis.
@@ -2323,88 +2315,77 @@ pub fn eliminate<T: Real>(
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the tilt
     // z and of those outboard of it require, eq. (D8), expressed in the axes of the tilt y:
     // force, N, and moment, N m, about TZ moved by (D3).
-    let coriolis_11 = omega_ty_n_tyz + omega_tz_n_tzz;
-    let coriolis_12 = mr_behind_w_tzy * coriolis_11;
-    let coriolis_13 = neg_f_rates_w_tzy.add_mul(v.tilt_z_dot, coriolis_12);
-    let coriolis_14 = q.cos_tilt_z * f_rates_w_tzx;
-    let f_rates_tz_tyx = coriolis_14.add_mul(q.sin_tilt_z, coriolis_13);
-    let coriolis_15 = q.sin_tilt_z * f_rates_w_tzx;
-    let coriolis_16 = coriolis_15.sub_mul(q.cos_tilt_z, neg_f_rates_w_tzy);
-    let coriolis_17 = v.tilt_z_dot * coriolis_11;
-    let f_rates_tz_tyy = coriolis_16.sub_mul(mr_behind_tza_tyy, coriolis_17);
-    let coriolis_18 = q.sin_tilt_z * mr_behind_w_tzy;
-    let coriolis_19 = mr_behind_tza_tyy * omega_ty_n_tyy;
-    let coriolis_20 = coriolis_19.sub_mul(coriolis_18, omega_ty_n_tyx);
-    let coriolis_21 = v.tilt_z_dot * coriolis_20;
-    let f_rates_tz_tyz = coriolis_21 + coriolis_21 + f_rates_w_tzz;
-    let mass_tytz = (q.sin_tilt_z * mass_tzw).add_mul(q.cos_tilt_z, i_behind_w_23);
-    let coriolis_22 = i_behind_tza_11 - i_behind_tza_22;
-    let coriolis_23 = i_behind_tza_12 + i_behind_tza_12;
-    let coriolis_24 = omega_ty_n_tyy * (mass_tztz + coriolis_22);
-    let coriolis_25 = coriolis_24.sub_mul(omega_ty_n_tyx, coriolis_23);
-    let coriolis_26 = v.tilt_z_dot * coriolis_25.sub_mul(mass_tytz, coriolis_11);
-    let n_rates_tz_tyx = coriolis_26.sub_mul(q.sin_tilt_z, n_rates_w_tzy);
-    let coriolis_27 = i_behind_tza_13 * coriolis_11;
-    let coriolis_28 = coriolis_27.add_mul(omega_ty_n_tyy, coriolis_23);
-    let coriolis_29 = coriolis_28.sub_mul(omega_ty_n_tyx, mass_tztz - coriolis_22);
-    let coriolis_30 = q.cos_tilt_z * n_rates_w_tzy;
-    let n_rates_tz_tyy = coriolis_30.add_mul(v.tilt_z_dot, coriolis_29);
+    let coriolis_10 = omega_ty_n_tyz + omega_tz_n_tzz;
+    let coriolis_11 = mr_behind_w_tzy * coriolis_10 * v.tilt_z_dot;
+    let coriolis_12 = q.sin_tilt_z * (neg_f_rates_w_tzy + coriolis_11);
+    let f_rates_tz_tyx = q.cos_tilt_z * f_rates_w_tzx + coriolis_12;
+    let coriolis_13 = q.cos_tilt_z * neg_f_rates_w_tzy;
+    let coriolis_14 = v.tilt_z_dot * coriolis_10 * mr_behind_tza_tyy;
+    let f_rates_tz_tyy = q.sin_tilt_z * f_rates_w_tzx - coriolis_13 - coriolis_14;
+    let coriolis_15 = q.sin_tilt_z * mr_behind_w_tzy;
+    let coriolis_16 = mr_behind_tza_tyy * omega_ty_n_tyy;
+    let coriolis_17 = v.tilt_z_dot * (coriolis_16 - coriolis_15 * omega_ty_n_tyx);
+    let f_rates_tz_tyz = coriolis_17 + coriolis_17 + f_rates_w_tzz;
+    let mass_tytz = q.sin_tilt_z * mass_tzw + q.cos_tilt_z * i_behind_w_23;
+    let coriolis_18 = i_behind_tza_11 - i_behind_tza_22;
+    let coriolis_19 = i_behind_tza_12 + i_behind_tza_12;
+    let coriolis_20 = omega_ty_n_tyy * (mass_tztz + coriolis_18);
+    let coriolis_21 = coriolis_20 - omega_ty_n_tyx * coriolis_19;
+    let coriolis_22 = v.tilt_z_dot * (coriolis_21 - mass_tytz * coriolis_10);
+    let n_rates_tz_tyx = coriolis_22 - q.sin_tilt_z * n_rates_w_tzy;
+    let coriolis_23 = i_behind_tza_13 * coriolis_10 + omega_ty_n_tyy * coriolis_19;
+    let coriolis_24 = coriolis_23 - omega_ty_n_tyx * (mass_tztz - coriolis_18);
+    let n_rates_tz_tyy = q.cos_tilt_z * n_rates_w_tzy + v.tilt_z_dot * coriolis_24;
 
     // Outboard composite of the joint of the tilt y, TYA, by base parameters, eq. (D6),
     // expressed in the axes of the radial slide z: first moment, kg m, and inertia, kg m², about
     // TY moved by (D3).
-    let lump_6 = q.sin_tilt_y * mr_behind_w_tzz;
-    let mr_behind_tya_szx = lump_6.sub_mul(q.cos_tilt_y, coriolis_18);
-    let lump_7 = p.i_ty_base_33 + mass_tztz;
-    let lump_8 = q.cos_tilt_y * (i_behind_tza_13 + i_behind_tza_13);
-    let lump_9 = lump_8.sub_mul(q.sin_tilt_y, i_behind_tza_11 - lump_7);
-    let lump_10 = q.sin_tilt_y * lump_9;
-    let i_behind_tya_11 = i_behind_tza_11 + lump_10;
-    let lump_11 = q.cos_tilt_y * i_behind_tza_12;
-    let i_behind_tya_12 = lump_11.add_mul(q.sin_tilt_y, mass_tytz);
-    let i_behind_tya_13 = q.cos_tilt_y.mul_sub(lump_9, i_behind_tza_13);
-    let lump_12 = q.cos_tilt_y * mass_tytz;
-    let i_behind_tya_23 = lump_12.sub_mul(q.sin_tilt_y, i_behind_tza_12);
-    let i_behind_tya_33 = lump_7 - lump_10;
+    let lump_4 = q.sin_tilt_y * mr_behind_w_tzz;
+    let mr_behind_tya_szx = lump_4 - q.cos_tilt_y * coriolis_15;
+    let lump_5 = p.i_ty_base_33 + mass_tztz;
+    let lump_6 = q.cos_tilt_y * (i_behind_tza_13 + i_behind_tza_13);
+    let lump_7 = lump_6 - q.sin_tilt_y * (i_behind_tza_11 - lump_5);
+    let lump_8 = q.sin_tilt_y * lump_7;
+    let i_behind_tya_11 = i_behind_tza_11 + lump_8;
+    let i_behind_tya_12 = q.cos_tilt_y * i_behind_tza_12 + q.sin_tilt_y * mass_tytz;
+    let i_behind_tya_13 = q.cos_tilt_y * lump_7 - i_behind_tza_13;
+    let i_behind_tya_23 = q.cos_tilt_y * mass_tytz - q.sin_tilt_y * i_behind_tza_12;
+    let i_behind_tya_33 = lump_5 - lump_8;
 
     // Joint row of the tilt y about szy, eqs. (D7), (D9): M_ij, kg m², and bias, N m, which
     // contains the moment that the rates of the outboard joints require about the same axis.
     let row_0 = q.cos_tilt_z * (p.i_w_w_33 + i_behind_w_22);
-    let across_tyty = q.cos_tilt_z * row_0.add_mul(q.sin_tilt_z, lump_1);
+    let across_tyty = q.cos_tilt_z * (row_0 + q.sin_tilt_z * lump_1);
     let across_tyw = q.cos_tilt_z * i_behind_w_12;
     let mass_tyty = p.i_w_w_33 + i_behind_tza_22;
-    let mass_tyw = across_tyw.add_mul(q.sin_tilt_z, p.mass_ww);
+    let mass_tyw = across_tyw + q.sin_tilt_z * p.mass_ww;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the tilt
     // y and of those outboard of it require, eq. (D8), expressed in the axes of the radial slide
     // z: force, N, and moment, N m, about TY moved by (D3).
-    let coriolis_31 = omega_b_n_sxy + omega_ty_n_tyy;
-    let coriolis_32 = v.tilt_y_dot * coriolis_31;
-    let coriolis_33 = q.cos_tilt_y * f_rates_tz_tyx;
-    let coriolis_34 = coriolis_33.add_mul(q.sin_tilt_y, f_rates_tz_tyz);
-    let f_rates_ty_szx = coriolis_34.sub_mul(mr_behind_tya_szx, coriolis_32);
-    let coriolis_35 = q.cos_tilt_y * mr_behind_w_tzz;
-    let mass_sxty = coriolis_35.add_mul(q.sin_tilt_y, coriolis_18);
-    let coriolis_36 = mr_behind_tya_szx * omega_b_n_sxx;
-    let coriolis_37 = v.tilt_y_dot * coriolis_36.add_mul(mass_sxty, omega_b_n_sxz);
-    let f_rates_ty_szy = coriolis_37 + coriolis_37 + f_rates_tz_tyy;
-    let coriolis_38 = q.cos_tilt_y * f_rates_tz_tyz;
-    let coriolis_39 = coriolis_38.sub_mul(q.sin_tilt_y, f_rates_tz_tyx);
-    let f_rates_ty_szz = coriolis_39.sub_mul(mass_sxty, coriolis_32);
-    let coriolis_40 = i_behind_tya_33 - i_behind_tya_11;
-    let coriolis_41 = i_behind_tya_13 + i_behind_tya_13;
-    let coriolis_42 = q.cos_tilt_y * n_rates_tz_tyx;
-    let coriolis_43 = i_behind_tya_23 * coriolis_31;
-    let coriolis_44 = coriolis_43.add_mul(omega_b_n_sxx, coriolis_41);
-    let coriolis_45 = coriolis_44.sub_mul(omega_b_n_sxz, mass_tyty - coriolis_40);
-    let coriolis_46 = coriolis_42.add_mul(q.sin_tilt_y, n_rates_w_tzz);
-    let n_rates_ty_szx = coriolis_46.add_mul(v.tilt_y_dot, coriolis_45);
-    let coriolis_47 = q.cos_tilt_y * n_rates_w_tzz;
-    let coriolis_48 = omega_b_n_sxx * (mass_tyty + coriolis_40);
-    let coriolis_49 = coriolis_48.sub_mul(omega_b_n_sxz, coriolis_41);
-    let coriolis_50 = coriolis_49.sub_mul(i_behind_tya_12, coriolis_31);
-    let coriolis_51 = coriolis_47.sub_mul(q.sin_tilt_y, n_rates_tz_tyx);
-    let n_rates_ty_szz = coriolis_51.add_mul(v.tilt_y_dot, coriolis_50);
+    let coriolis_25 = omega_b_n_sxy + omega_ty_n_tyy;
+    let coriolis_26 = v.tilt_y_dot * coriolis_25;
+    let coriolis_27 = q.sin_tilt_y * f_rates_tz_tyz;
+    let coriolis_28 = q.cos_tilt_y * f_rates_tz_tyx + coriolis_27;
+    let f_rates_ty_szx = coriolis_28 - mr_behind_tya_szx * coriolis_26;
+    let mass_sxty = q.cos_tilt_y * mr_behind_w_tzz + q.sin_tilt_y * coriolis_15;
+    let coriolis_29 = mr_behind_tya_szx * omega_b_n_sxx;
+    let coriolis_30 = v.tilt_y_dot * (mass_sxty * omega_b_n_sxz + coriolis_29);
+    let f_rates_ty_szy = coriolis_30 + coriolis_30 + f_rates_tz_tyy;
+    let coriolis_31 = q.sin_tilt_y * f_rates_tz_tyx;
+    let coriolis_32 = q.cos_tilt_y * f_rates_tz_tyz - coriolis_31;
+    let f_rates_ty_szz = coriolis_32 - mass_sxty * coriolis_26;
+    let coriolis_33 = i_behind_tya_33 - i_behind_tya_11;
+    let coriolis_34 = i_behind_tya_13 + i_behind_tya_13;
+    let coriolis_35 = i_behind_tya_23 * coriolis_25 + omega_b_n_sxx * coriolis_34;
+    let coriolis_36 = coriolis_35 - omega_b_n_sxz * (mass_tyty - coriolis_33);
+    let coriolis_37 = q.cos_tilt_y * n_rates_tz_tyx + q.sin_tilt_y * n_rates_w_tzz;
+    let n_rates_ty_szx = coriolis_37 + v.tilt_y_dot * coriolis_36;
+    let coriolis_38 = omega_b_n_sxx * (mass_tyty + coriolis_33);
+    let coriolis_39 = coriolis_38 - omega_b_n_sxz * coriolis_34;
+    let coriolis_40 = v.tilt_y_dot * (coriolis_39 - i_behind_tya_12 * coriolis_25);
+    let coriolis_41 = q.cos_tilt_y * n_rates_w_tzz - q.sin_tilt_y * n_rates_tz_tyx;
+    let n_rates_ty_szz = coriolis_41 + coriolis_40;
 
     // Joint row of the radial slide z along syz, eqs. (D7), (D9): M_ij, kg or kg m, and bias, N,
     // which contains the force that the rates of the outboard joints require along the same
@@ -2412,279 +2393,236 @@ pub fn eliminate<T: Real>(
     let mass_szty = -mr_behind_tya_szx;
     let mass_sztz = q.sin_tilt_y * mr_behind_tza_tyy;
     let row_1 = q.sin_tilt_z * mr_behind_w_tzz;
-    let mass_szw = (q.cos_tilt_y * mr_behind_w_tzy).sub_mul(q.sin_tilt_y, row_1);
+    let mass_szw = q.cos_tilt_y * mr_behind_w_tzy - q.sin_tilt_y * row_1;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the
     // radial slide z and of those outboard of it require, eq. (D8), expressed in the axes of the
     // radial slide y: force, N, and moment, N m, about SZ.
-    let f_rates_sz_syx = f_rates_ty_szx.add_mul(p.m_w, path_15);
-    let f_rates_sz_syy = f_rates_ty_szy.sub_mul(p.m_w, path_16);
-    let n_rates_sz_syx = n_rates_ty_szx.add_mul(mass_sxty, path_16);
-    let n_rates_sz_syy = n_rates_tz_tyy.add_mul(mass_sxty, path_15);
-    let coriolis_52 = mr_behind_tya_szx * path_16;
-    let coriolis_53 = coriolis_52.add_mul(mr_behind_tza_tyy, path_15);
-    let n_rates_sz_syz = n_rates_ty_szz - coriolis_53;
+    let f_rates_sz_syx = f_rates_ty_szx + p.m_w * path_15;
+    let f_rates_sz_syy = f_rates_ty_szy - p.m_w * path_16;
+    let n_rates_sz_syx = n_rates_ty_szx + mass_sxty * path_16;
+    let n_rates_sz_syy = n_rates_tz_tyy + mass_sxty * path_15;
+    let coriolis_42 = mr_behind_tya_szx * path_16 + mr_behind_tza_tyy * path_15;
+    let n_rates_sz_syz = n_rates_ty_szz - coriolis_42;
 
     // Outboard composite of the joint of the radial slide y, SYA, by base parameters, eq. (D6),
     // expressed in the axes of the axial slide: first moment, kg m, and inertia, kg m², about
     // SY.
-    let mr_behind_sya_sxz = mass_sxty.add_mul(s.z, p.m_w);
-    let lump_13 = mass_sxty * (s.z + s.z);
-    let lump_14 = s.z * s.z * p.m_w;
-    let i_behind_sya_11 = lump_13 + i_behind_tya_11 + lump_14;
-    let i_behind_sya_13 = i_behind_tya_13.sub_mul(s.z, mr_behind_tya_szx);
-    let i_behind_sya_22 = lump_13 + mass_tyty + lump_14;
-    let i_behind_sya_23 = i_behind_tya_23.sub_mul(s.z, mr_behind_tza_tyy);
+    let mr_behind_sya_sxz = mass_sxty + s.z * p.m_w;
+    let lump_9 = mass_sxty * (s.z + s.z);
+    let lump_10 = s.z * s.z * p.m_w;
+    let i_behind_sya_11 = lump_9 + i_behind_tya_11 + lump_10;
+    let i_behind_sya_13 = i_behind_tya_13 - s.z * mr_behind_tya_szx;
+    let i_behind_sya_22 = lump_9 + mass_tyty + lump_10;
+    let i_behind_sya_23 = i_behind_tya_23 - s.z * mr_behind_tza_tyy;
 
     // Joint row of the radial slide y along sxy, eqs. (D7), (D9): M_ij, kg or kg m, and bias, N,
     // which contains the force that the rates of the outboard joints require along the same
     // axis.
-    let mass_sytz = -coriolis_18;
+    let mass_sytz = -coriolis_15;
     let row_2 = q.cos_tilt_z * mr_behind_w_tzz;
     let mass_syw = -row_2;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the
     // radial slide y and of those outboard of it require, eq. (D8), expressed in the axes of the
     // axial slide: force, N, and moment, N m, about SY.
-    let coriolis_54 = v.y_dot * path_6;
-    let f_rates_sy_sxx = f_rates_sz_syx.sub_mul(p.m_w, coriolis_54);
-    let f_rates_sy_sxz = f_rates_ty_szz.add_mul(p.m_w, path_13);
-    let coriolis_55 = n_rates_sz_syx.sub_mul(s.z, f_rates_sz_syy);
-    let n_rates_sy_sxx = coriolis_55.add_mul(mr_behind_tza_tyy, path_13);
-    let coriolis_56 = mr_behind_sya_sxz * coriolis_54;
-    let coriolis_57 = coriolis_56.add_mul(mr_behind_tya_szx, path_13);
-    let n_rates_sy_sxy = n_rates_sz_syy.add_mul(s.z, f_rates_sz_syx) - coriolis_57;
-    let n_rates_sy_sxz = n_rates_sz_syz.add_mul(mr_behind_tza_tyy, coriolis_54);
+    let coriolis_43 = v.y_dot * path_6;
+    let f_rates_sy_sxx = f_rates_sz_syx - p.m_w * coriolis_43;
+    let f_rates_sy_sxz = f_rates_ty_szz + p.m_w * path_13;
+    let coriolis_44 = n_rates_sz_syx - s.z * f_rates_sz_syy;
+    let n_rates_sy_sxx = coriolis_44 + mr_behind_tza_tyy * path_13;
+    let coriolis_45 = mr_behind_sya_sxz * coriolis_43;
+    let coriolis_46 = coriolis_45 + mr_behind_tya_szx * path_13;
+    let n_rates_sy_sxy = n_rates_sz_syy + s.z * f_rates_sz_syx - coriolis_46;
+    let n_rates_sy_sxz = n_rates_sz_syz + mr_behind_tza_tyy * coriolis_43;
 
     // Outboard composite of the joint of the axial slide, D, by base parameters, eq. (D6),
     // expressed in the axes of the axial slide: first moment, kg m, and inertia, kg m², about
     // SX.
-    let mr_behind_d_sxy = mr_behind_tza_tyy.add_mul(s.y, p.m_w);
-    let lump_15 = mr_behind_tza_tyy * (s.y + s.y);
-    let lump_16 = s.y * s.y * p.m_w;
-    let i_behind_d_11 = lump_15 + i_behind_sya_11 + lump_16;
-    let i_behind_d_12 = i_behind_tya_12.sub_mul(s.y, mr_behind_tya_szx);
-    let i_behind_d_23 = i_behind_sya_23.sub_mul(s.y, mr_behind_sya_sxz);
-    let i_behind_d_33 = lump_15 + i_behind_tya_33 + lump_16;
+    let mr_behind_d_sxy = mr_behind_tza_tyy + s.y * p.m_w;
+    let lump_11 = mr_behind_tza_tyy * (s.y + s.y);
+    let lump_12 = s.y * s.y * p.m_w;
+    let i_behind_d_11 = lump_11 + i_behind_sya_11 + lump_12;
+    let i_behind_d_12 = i_behind_tya_12 - s.y * mr_behind_tya_szx;
+    let i_behind_d_23 = i_behind_sya_23 - s.y * mr_behind_sya_sxz;
+    let i_behind_d_33 = lump_11 + i_behind_tya_33 + lump_12;
 
     // Joint row of the axial slide along sxx, eqs. (D7), (D9): M_ij, kg or kg m, and bias, N,
     // which contains the force that the rates of the outboard joints require along the same
     // axis.
     let row_3 = q.cos_tilt_y * mr_behind_tza_tyy;
     let mass_sxtz = -row_3;
-    let mass_sxw = (q.cos_tilt_y * row_1).add_mul(q.sin_tilt_y, mr_behind_w_tzy);
+    let mass_sxw = q.cos_tilt_y * row_1 + q.sin_tilt_y * mr_behind_w_tzy;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the axial
     // slide and of those outboard of it require, eq. (D8), expressed in the axes of the axial
     // slide: force, N, and moment, N m, about SX.
-    let f_rates_sx_sxy = f_rates_sz_syy.add_mul(p.m_w, path_7);
-    let coriolis_58 = v.x_dot * path_14;
-    let f_rates_sx_sxz = f_rates_sy_sxz.sub_mul(p.m_w, coriolis_58);
-    let coriolis_59 = mr_behind_d_sxy * coriolis_58;
-    let coriolis_60 = coriolis_59.add_mul(mr_behind_sya_sxz, path_7);
-    let n_rates_sx_sxx = n_rates_sy_sxx.add_mul(s.y, f_rates_sy_sxz) - coriolis_60;
-    let n_rates_sx_sxy = n_rates_sy_sxy.add_mul(mr_behind_tya_szx, coriolis_58);
-    let coriolis_61 = n_rates_sy_sxz.sub_mul(s.y, f_rates_sy_sxx);
-    let n_rates_sx_sxz = coriolis_61.add_mul(mr_behind_tya_szx, path_7);
+    let f_rates_sx_sxy = f_rates_sz_syy + p.m_w * path_7;
+    let coriolis_47 = v.x_dot * path_14;
+    let f_rates_sx_sxz = f_rates_sy_sxz - p.m_w * coriolis_47;
+    let coriolis_48 = mr_behind_d_sxy * coriolis_47 + mr_behind_sya_sxz * path_7;
+    let n_rates_sx_sxx = n_rates_sy_sxx + s.y * f_rates_sy_sxz - coriolis_48;
+    let n_rates_sx_sxy = n_rates_sy_sxy + mr_behind_tya_szx * coriolis_47;
+    let coriolis_49 = n_rates_sy_sxz - s.y * f_rates_sy_sxx;
+    let n_rates_sx_sxz = coriolis_49 + mr_behind_tya_szx * path_7;
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
-    let reach_bx = p.k_19.add_mul(arm_sx_dx, p.mount_11);
-    let reach_by = p.k_20.add_mul(arm_sx_dx, p.mount_21);
-    let reach_bz = p.k_21.add_mul(arm_sx_dx, p.mount_31);
+    let reach_bx = arm_sx_dx * p.mount_11 + p.k_19;
+    let reach_by = arm_sx_dx * p.mount_21 + p.k_20;
+    let reach_bz = arm_sx_dx * p.mount_31 + p.k_21;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg or kg m, and moment, kg m
     // or kg m², about B, per unit joint acceleration.
-    let col_0 = p.mount_12 * mr_behind_sya_sxz;
-    let col_1 = (p.f_sx_bz * reach_by).sub_mul(p.f_sx_by, reach_bz);
-    let n_sx_bx = col_0.sub_mul(p.mount_13, mr_behind_d_sxy) + col_1;
-    let col_2 = p.mount_22 * mr_behind_sya_sxz;
-    let col_3 = (p.f_sx_bx * reach_bz).sub_mul(p.f_sx_bz, reach_bx);
-    let n_sx_by = col_2.sub_mul(p.mount_23, mr_behind_d_sxy) + col_3;
-    let col_4 = p.mount_32 * mr_behind_sya_sxz;
-    let col_5 = (p.f_sx_by * reach_bx).sub_mul(p.f_sx_bx, reach_by);
-    let n_sx_bz = col_4.sub_mul(p.mount_33, mr_behind_d_sxy) + col_5;
-    let col_6 = mr_behind_tya_szx.add_mul(arm_sx_dx, p.m_w);
-    let col_7 = mr_behind_sya_sxz + p.k_11;
-    let n_sy_bx = (p.mount_13 * col_6).sub_mul(p.mount_11, col_7);
-    let n_sy_by = (p.mount_23 * col_6).sub_mul(p.mount_21, col_7);
-    let n_sy_bz = (p.mount_33 * col_6).sub_mul(p.mount_31, col_7);
-    let col_8 = mr_behind_d_sxy + p.k_10;
-    let n_sz_bx = (p.mount_11 * col_8).sub_mul(p.mount_12, col_6);
-    let n_sz_by = (p.mount_21 * col_8).sub_mul(p.mount_22, col_6);
-    let n_sz_bz = (p.mount_31 * col_8).sub_mul(p.mount_32, col_6);
-    let f_ty_bx = (p.mount_11 * mass_sxty).sub_mul(p.mount_13, mr_behind_tya_szx);
-    let f_ty_by = (p.mount_21 * mass_sxty).sub_mul(p.mount_23, mr_behind_tya_szx);
-    let f_ty_bz = (p.mount_31 * mass_sxty).sub_mul(p.mount_33, mr_behind_tya_szx);
-    let col_9 = p.r_sx_b_by + s.y;
-    let col_10 = p.r_sx_b_bz + s.z;
-    let col_11 = i_behind_d_12.sub_mul(p.r_sx_b_by, mr_behind_tya_szx);
-    let col_12 = mass_tyty.add_mul(col_10, mass_sxty);
-    let col_13 = col_12.add_mul(arm_sx_dx, mr_behind_tya_szx);
-    let col_14 = i_behind_tya_23.sub_mul(col_9, mass_sxty);
-    let col_15 = (p.mount_11 * col_11).add_mul(p.mount_12, col_13);
-    let n_ty_bx = col_15.add_mul(p.mount_13, col_14);
-    let col_16 = (p.mount_21 * col_11).add_mul(p.mount_22, col_13);
-    let n_ty_by = col_16.add_mul(p.mount_23, col_14);
-    let col_17 = (p.mount_31 * col_11).add_mul(p.mount_32, col_13);
-    let n_ty_bz = col_17.add_mul(p.mount_33, col_14);
-    let col_18 = (p.mount_11 * row_3).add_mul(p.mount_12, coriolis_18);
-    let f_tz_bx = p.mount_13.mul_sub(mass_sztz, col_18);
-    let col_19 = (p.mount_21 * row_3).add_mul(p.mount_22, coriolis_18);
-    let f_tz_by = p.mount_23.mul_sub(mass_sztz, col_19);
-    let col_20 = (p.mount_31 * row_3).add_mul(p.mount_32, coriolis_18);
-    let f_tz_bz = p.mount_33.mul_sub(mass_sztz, col_20);
-    let col_21 = (col_9 * mass_sztz).add_mul(col_10, coriolis_18);
-    let col_22 = col_21.add_mul(q.cos_tilt_y, i_behind_tza_13);
-    let col_23 = col_22.add_mul(q.sin_tilt_y, mass_tztz);
-    let col_24 = mass_tytz.sub_mul(col_10, row_3).sub_mul(arm_sx_dx, mass_sztz);
-    let col_25 = q.cos_tilt_y * mass_tztz.add_mul(col_9, mr_behind_tza_tyy);
-    let col_26 = col_25.sub_mul(arm_sx_dx, coriolis_18);
-    let col_27 = col_26.sub_mul(q.sin_tilt_y, i_behind_tza_13);
-    let col_28 = (p.mount_11 * col_23).add_mul(p.mount_12, col_24);
-    let n_tz_bx = col_28.add_mul(p.mount_13, col_27);
-    let col_29 = (p.mount_21 * col_23).add_mul(p.mount_22, col_24);
-    let n_tz_by = col_29.add_mul(p.mount_23, col_27);
-    let col_30 = (p.mount_31 * col_23).add_mul(p.mount_32, col_24);
-    let n_tz_bz = col_30.add_mul(p.mount_33, col_27);
-    let col_31 = (p.mount_11 * mass_sxw).sub_mul(p.mount_12, row_2);
-    let f_w_bx = col_31.add_mul(p.mount_13, mass_szw);
-    let col_32 = (p.mount_21 * mass_sxw).sub_mul(p.mount_22, row_2);
-    let f_w_by = col_32.add_mul(p.mount_23, mass_szw);
-    let col_33 = (p.mount_31 * mass_sxw).sub_mul(p.mount_32, row_2);
-    let f_w_bz = col_33.add_mul(p.mount_33, mass_szw);
-    let col_34 = (q.cos_tilt_z * p.mass_ww).sub_mul(q.sin_tilt_z, i_behind_w_12);
-    let col_35 = (q.cos_tilt_y * col_34).add_mul(q.sin_tilt_y, mass_tzw);
-    let col_36 = col_35.add_mul(col_10, row_2).add_mul(col_9, mass_szw);
-    let col_37 = (q.cos_tilt_y * mass_tzw).sub_mul(q.sin_tilt_y, col_34);
-    let col_38 = col_37.sub_mul(col_9, mass_sxw).sub_mul(arm_sx_dx, row_2);
-    let col_39 = (col_10 * mass_sxw).sub_mul(arm_sx_dx, mass_szw) + mass_tyw;
-    let col_40 = (p.mount_11 * col_36).add_mul(p.mount_12, col_39);
-    let n_w_bx = col_40.add_mul(p.mount_13, col_38);
-    let col_41 = (p.mount_21 * col_36).add_mul(p.mount_22, col_39);
-    let n_w_by = col_41.add_mul(p.mount_23, col_38);
-    let col_42 = (p.mount_31 * col_36).add_mul(p.mount_32, col_39);
-    let n_w_bz = col_42.add_mul(p.mount_33, col_38);
+    let col_0 = p.mount_12 * mr_behind_sya_sxz - p.mount_13 * mr_behind_d_sxy;
+    let n_sx_bx = col_0 + (p.f_sx_bz * reach_by - p.f_sx_by * reach_bz);
+    let col_1 = p.mount_22 * mr_behind_sya_sxz - p.mount_23 * mr_behind_d_sxy;
+    let n_sx_by = col_1 + (p.f_sx_bx * reach_bz - p.f_sx_bz * reach_bx);
+    let col_2 = p.mount_32 * mr_behind_sya_sxz - p.mount_33 * mr_behind_d_sxy;
+    let n_sx_bz = col_2 + (p.f_sx_by * reach_bx - p.f_sx_bx * reach_by);
+    let col_3 = mr_behind_tya_szx + arm_sx_dx * p.m_w;
+    let col_4 = mr_behind_sya_sxz + p.k_11;
+    let n_sy_bx = p.mount_13 * col_3 - p.mount_11 * col_4;
+    let n_sy_by = p.mount_23 * col_3 - p.mount_21 * col_4;
+    let n_sy_bz = p.mount_33 * col_3 - p.mount_31 * col_4;
+    let col_5 = mr_behind_d_sxy + p.k_10;
+    let n_sz_bx = p.mount_11 * col_5 - p.mount_12 * col_3;
+    let n_sz_by = p.mount_21 * col_5 - p.mount_22 * col_3;
+    let n_sz_bz = p.mount_31 * col_5 - p.mount_32 * col_3;
+    let f_ty_bx = p.mount_11 * mass_sxty - p.mount_13 * mr_behind_tya_szx;
+    let f_ty_by = p.mount_21 * mass_sxty - p.mount_23 * mr_behind_tya_szx;
+    let f_ty_bz = p.mount_31 * mass_sxty - p.mount_33 * mr_behind_tya_szx;
+    let col_6 = p.r_sx_b_by + s.y;
+    let col_7 = p.r_sx_b_bz + s.z;
+    let col_8 = i_behind_d_12 - p.r_sx_b_by * mr_behind_tya_szx;
+    let col_9 = mass_tyty + col_7 * mass_sxty + arm_sx_dx * mr_behind_tya_szx;
+    let col_10 = i_behind_tya_23 - col_6 * mass_sxty;
+    let n_ty_bx = p.mount_11 * col_8 + p.mount_12 * col_9 + p.mount_13 * col_10;
+    let n_ty_by = p.mount_21 * col_8 + p.mount_22 * col_9 + p.mount_23 * col_10;
+    let n_ty_bz = p.mount_31 * col_8 + p.mount_32 * col_9 + p.mount_33 * col_10;
+    let col_11 = p.mount_11 * row_3 + p.mount_12 * coriolis_15;
+    let f_tz_bx = p.mount_13 * mass_sztz - col_11;
+    let col_12 = p.mount_21 * row_3 + p.mount_22 * coriolis_15;
+    let f_tz_by = p.mount_23 * mass_sztz - col_12;
+    let col_13 = p.mount_31 * row_3 + p.mount_32 * coriolis_15;
+    let f_tz_bz = p.mount_33 * mass_sztz - col_13;
+    let col_14 = col_6 * mass_sztz + col_7 * coriolis_15;
+    let col_15 = col_14 + q.cos_tilt_y * i_behind_tza_13 + q.sin_tilt_y * mass_tztz;
+    let col_16 = mass_tytz - col_7 * row_3 - arm_sx_dx * mass_sztz;
+    let col_17 = q.cos_tilt_y * (mass_tztz + col_6 * mr_behind_tza_tyy);
+    let col_18 = col_17 - arm_sx_dx * coriolis_15 - q.sin_tilt_y * i_behind_tza_13;
+    let n_tz_bx = p.mount_11 * col_15 + p.mount_12 * col_16 + p.mount_13 * col_18;
+    let n_tz_by = p.mount_21 * col_15 + p.mount_22 * col_16 + p.mount_23 * col_18;
+    let n_tz_bz = p.mount_31 * col_15 + p.mount_32 * col_16 + p.mount_33 * col_18;
+    let f_w_bx = p.mount_11 * mass_sxw - p.mount_12 * row_2 + p.mount_13 * mass_szw;
+    let f_w_by = p.mount_21 * mass_sxw - p.mount_22 * row_2 + p.mount_23 * mass_szw;
+    let f_w_bz = p.mount_31 * mass_sxw - p.mount_32 * row_2 + p.mount_33 * mass_szw;
+    let col_19 = q.cos_tilt_z * p.mass_ww - q.sin_tilt_z * i_behind_w_12;
+    let col_20 = q.cos_tilt_y * col_19 + q.sin_tilt_y * mass_tzw + col_7 * row_2;
+    let col_21 = col_20 + col_6 * mass_szw;
+    let col_22 = q.cos_tilt_y * mass_tzw - q.sin_tilt_y * col_19 - col_6 * mass_sxw;
+    let col_23 = col_22 - arm_sx_dx * row_2;
+    let col_24 = col_7 * mass_sxw - arm_sx_dx * mass_szw + mass_tyw;
+    let n_w_bx = p.mount_11 * col_21 + p.mount_12 * col_24 + p.mount_13 * col_23;
+    let n_w_by = p.mount_21 * col_21 + p.mount_22 * col_24 + p.mount_23 * col_23;
+    let n_w_bz = p.mount_31 * col_21 + p.mount_32 * col_24 + p.mount_33 * col_23;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let moment_0 = p.mount_11 * mr_behind_tya_szx;
-    let moment_1 = moment_0.add_mul(p.mount_12, mr_behind_d_sxy);
-    let moment_2 = moment_1.add_mul(p.mount_13, mr_behind_sya_sxz);
-    let mr_moving_bx = moment_2.add_mul(p.m_w, reach_bx);
-    let moment_3 = p.mount_21 * mr_behind_tya_szx;
-    let moment_4 = moment_3.add_mul(p.mount_22, mr_behind_d_sxy);
-    let moment_5 = moment_4.add_mul(p.mount_23, mr_behind_sya_sxz);
-    let mr_moving_by = moment_5.add_mul(p.m_w, reach_by);
-    let moment_6 = p.mount_31 * mr_behind_tya_szx;
-    let moment_7 = moment_6.add_mul(p.mount_32, mr_behind_d_sxy);
-    let moment_8 = moment_7.add_mul(p.mount_33, mr_behind_sya_sxz);
-    let mr_moving_bz = moment_8.add_mul(p.m_w, reach_bz);
-    let moment_9 = i_behind_sya_22 - i_behind_d_33;
-    let moment_10 = i_behind_d_11 - i_behind_d_33;
-    let moment_11 = reach_by * reach_by;
-    let moment_12 = reach_bz * reach_bz;
-    let moment_13 = moment_5 * (reach_by + reach_by);
-    let moment_14 = i_behind_d_33.add_mul(moment_8, reach_bz + reach_bz);
-    let moment_15 = (p.mount_13 * i_behind_d_23).add_mul(moment_9, p.k_22);
-    let moment_16 = (p.mount_12 * i_behind_d_12).add_mul(moment_10, p.k_25);
-    let moment_17 = moment_16.add_mul(p.mount_13, i_behind_sya_13);
-    let moment_18 = (p.mount_12 * moment_15).add_mul(p.mount_11, moment_17);
-    let moment_19 = moment_18 + moment_18;
-    let moment_20 = moment_13 + moment_14 + moment_19;
-    let i_moving_11 = moment_20.add_mul(p.m_w, moment_11 + moment_12);
-    let moment_21 = (p.mount_23 * i_behind_d_23).add_mul(moment_9, p.k_23);
-    let moment_22 = (p.mount_22 * i_behind_d_12).add_mul(moment_10, p.k_26);
-    let moment_23 = moment_22.add_mul(p.mount_23, i_behind_sya_13);
-    let moment_24 = (p.mount_12 * moment_21).add_mul(p.mount_11, moment_23);
-    let moment_25 = moment_24.add_mul(p.mount_22, moment_15);
-    let moment_26 = moment_25.add_mul(p.mount_21, moment_17);
-    let moment_27 = moment_26.sub_mul(reach_bx, mr_moving_by);
-    let i_moving_12 = moment_27.sub_mul(moment_2, reach_by);
-    let moment_28 = (p.mount_33 * i_behind_d_23).add_mul(moment_9, p.k_24);
-    let moment_29 = (p.mount_32 * i_behind_d_12).add_mul(moment_10, p.k_27);
-    let moment_30 = moment_29.add_mul(p.mount_33, i_behind_sya_13);
-    let moment_31 = (p.mount_12 * moment_28).add_mul(p.mount_11, moment_30);
-    let moment_32 = moment_31.add_mul(p.mount_32, moment_15);
-    let moment_33 = moment_32.add_mul(p.mount_31, moment_17);
-    let moment_34 = moment_33.sub_mul(reach_bx, mr_moving_bz);
-    let i_moving_13 = moment_34.sub_mul(moment_2, reach_bz);
-    let moment_35 = reach_bx * reach_bx;
-    let moment_36 = moment_2 * (reach_bx + reach_bx);
-    let moment_37 = (p.mount_22 * moment_21).add_mul(p.mount_21, moment_23);
-    let moment_38 = moment_37 + moment_37;
-    let moment_39 = moment_36 + moment_14 + moment_38;
-    let i_moving_22 = moment_39.add_mul(p.m_w, moment_35 + moment_12);
-    let moment_40 = (p.mount_22 * moment_28).add_mul(p.mount_21, moment_30);
-    let moment_41 = moment_40.add_mul(p.mount_32, moment_21);
-    let moment_42 = moment_41.add_mul(p.mount_31, moment_23);
-    let moment_43 = moment_42.sub_mul(reach_by, mr_moving_bz);
-    let i_moving_23 = moment_43.sub_mul(moment_5, reach_bz);
-    let moment_44 = i_behind_d_11 + moment_9 - moment_19 - moment_38;
-    let moment_45 = moment_36 + moment_13 + moment_44;
-    let i_moving_33 = moment_45.add_mul(p.m_w, moment_35 + moment_11);
+    let moment_0 = p.mount_11 * mr_behind_tya_szx + p.mount_12 * mr_behind_d_sxy;
+    let moment_1 = moment_0 + p.mount_13 * mr_behind_sya_sxz;
+    let mr_moving_bx = moment_1 + p.m_w * reach_bx;
+    let moment_2 = p.mount_21 * mr_behind_tya_szx + p.mount_22 * mr_behind_d_sxy;
+    let moment_3 = moment_2 + p.mount_23 * mr_behind_sya_sxz;
+    let mr_moving_by = moment_3 + p.m_w * reach_by;
+    let moment_4 = p.mount_31 * mr_behind_tya_szx + p.mount_32 * mr_behind_d_sxy;
+    let moment_5 = moment_4 + p.mount_33 * mr_behind_sya_sxz;
+    let mr_moving_bz = moment_5 + p.m_w * reach_bz;
+    let moment_6 = i_behind_sya_22 - i_behind_d_33;
+    let moment_7 = i_behind_d_11 - i_behind_d_33;
+    let moment_8 = reach_by * reach_by;
+    let moment_9 = reach_bz * reach_bz;
+    let moment_10 = moment_3 * (reach_by + reach_by);
+    let moment_11 = i_behind_d_33 + moment_5 * (reach_bz + reach_bz);
+    let moment_12 = p.mount_13 * i_behind_d_23 + moment_6 * p.k_22;
+    let moment_13 = p.mount_12 * i_behind_d_12 + moment_7 * p.k_25;
+    let moment_14 = moment_13 + p.mount_13 * i_behind_sya_13;
+    let moment_15 = p.mount_12 * moment_12 + p.mount_11 * moment_14;
+    let moment_16 = moment_15 + moment_15;
+    let moment_17 = moment_10 + moment_11 + moment_16;
+    let i_moving_11 = moment_17 + p.m_w * (moment_8 + moment_9);
+    let moment_18 = p.mount_23 * i_behind_d_23 + moment_6 * p.k_23;
+    let moment_19 = p.mount_22 * i_behind_d_12 + moment_7 * p.k_26;
+    let moment_20 = moment_19 + p.mount_23 * i_behind_sya_13;
+    let moment_21 = p.mount_12 * moment_18 + p.mount_11 * moment_20;
+    let moment_22 = moment_21 + p.mount_22 * moment_12 + p.mount_21 * moment_14;
+    let i_moving_12 = moment_22 - reach_bx * mr_moving_by - moment_1 * reach_by;
+    let moment_23 = p.mount_33 * i_behind_d_23 + moment_6 * p.k_24;
+    let moment_24 = p.mount_32 * i_behind_d_12 + moment_7 * p.k_27;
+    let moment_25 = moment_24 + p.mount_33 * i_behind_sya_13;
+    let moment_26 = p.mount_12 * moment_23 + p.mount_11 * moment_25;
+    let moment_27 = moment_26 + p.mount_32 * moment_12 + p.mount_31 * moment_14;
+    let i_moving_13 = moment_27 - reach_bx * mr_moving_bz - moment_1 * reach_bz;
+    let moment_28 = reach_bx * reach_bx;
+    let moment_29 = moment_1 * (reach_bx + reach_bx);
+    let moment_30 = p.mount_22 * moment_18 + p.mount_21 * moment_20;
+    let moment_31 = moment_30 + moment_30;
+    let moment_32 = moment_29 + moment_11 + moment_31;
+    let i_moving_22 = moment_32 + p.m_w * (moment_28 + moment_9);
+    let moment_33 = p.mount_22 * moment_23 + p.mount_21 * moment_25;
+    let moment_34 = moment_33 + p.mount_32 * moment_18 + p.mount_31 * moment_20;
+    let i_moving_23 = moment_34 - reach_by * mr_moving_bz - moment_3 * reach_bz;
+    let moment_35 = i_behind_d_11 + moment_6 - moment_16 - moment_31;
+    let moment_36 = moment_29 + moment_10 + moment_35;
+    let i_moving_33 = moment_36 + p.m_w * (moment_28 + moment_8);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = p.mount_11 * f_rates_sy_sxx;
-    let bias_1 = bias_0.add_mul(p.mount_12, f_rates_sx_sxy);
-    let f_rates_bx = bias_1.add_mul(p.mount_13, f_rates_sx_sxz);
-    let bias_2 = p.mount_21 * f_rates_sy_sxx;
-    let bias_3 = bias_2.add_mul(p.mount_22, f_rates_sx_sxy);
-    let f_rates_by = bias_3.add_mul(p.mount_23, f_rates_sx_sxz);
-    let bias_4 = p.mount_31 * f_rates_sy_sxx;
-    let bias_5 = bias_4.add_mul(p.mount_32, f_rates_sx_sxy);
-    let f_rates_bz = bias_5.add_mul(p.mount_33, f_rates_sx_sxz);
-    let bias_6 = p.mount_11 * n_rates_sx_sxx;
-    let bias_7 = bias_6.add_mul(p.mount_12, n_rates_sx_sxy);
-    let bias_8 = (f_rates_bz * reach_by).sub_mul(f_rates_by, reach_bz);
-    let n_rates_bx = bias_8 + bias_7.add_mul(p.mount_13, n_rates_sx_sxz);
-    let bias_9 = p.mount_21 * n_rates_sx_sxx;
-    let bias_10 = bias_9.add_mul(p.mount_22, n_rates_sx_sxy);
-    let bias_11 = (f_rates_bx * reach_bz).sub_mul(f_rates_bz, reach_bx);
-    let n_rates_by = bias_11 + bias_10.add_mul(p.mount_23, n_rates_sx_sxz);
-    let bias_12 = p.mount_31 * n_rates_sx_sxx;
-    let bias_13 = bias_12.add_mul(p.mount_32, n_rates_sx_sxy);
-    let bias_14 = (f_rates_by * reach_bx).sub_mul(f_rates_bx, reach_by);
-    let n_rates_bz = bias_14 + bias_13.add_mul(p.mount_33, n_rates_sx_sxz);
+    let bias_0 = p.mount_11 * f_rates_sy_sxx + p.mount_12 * f_rates_sx_sxy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_sx_sxz;
+    let bias_1 = p.mount_21 * f_rates_sy_sxx + p.mount_22 * f_rates_sx_sxy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_sx_sxz;
+    let bias_2 = p.mount_31 * f_rates_sy_sxx + p.mount_32 * f_rates_sx_sxy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_sx_sxz;
+    let bias_3 = p.mount_11 * n_rates_sx_sxx + p.mount_12 * n_rates_sx_sxy;
+    let bias_4 = f_rates_bz * reach_by - f_rates_by * reach_bz;
+    let n_rates_bx = bias_4 + (bias_3 + p.mount_13 * n_rates_sx_sxz);
+    let bias_5 = p.mount_21 * n_rates_sx_sxx + p.mount_22 * n_rates_sx_sxy;
+    let bias_6 = f_rates_bx * reach_bz - f_rates_bz * reach_bx;
+    let n_rates_by = bias_6 + (bias_5 + p.mount_23 * n_rates_sx_sxz);
+    let bias_7 = p.mount_31 * n_rates_sx_sxx + p.mount_32 * n_rates_sx_sxy;
+    let bias_8 = f_rates_by * reach_bx - f_rates_bx * reach_by;
+    let n_rates_bz = bias_8 + (bias_7 + p.mount_33 * n_rates_sx_sxz);
 
     // Bias of each joint row, eq. (D9), N or N m.
-    let bias_15 = mr_behind_sya_sxz * omega_b_n_sxz;
-    let bias_16 = bias_15.add_mul(mr_behind_d_sxy, omega_b_n_sxy);
-    let bias_17 = (p.m_w * r_first_rest_sxx).add_mul(omega_b_n_sxx, bias_16);
-    let bias_18 = bias_17.sub_mul(mr_behind_tya_szx, path_10 + path_4);
-    let u_rest_sx = bias_18 + f_rates_sy_sxx;
-    let bias_19 = coriolis_36 + bias_15;
-    let bias_20 = (p.m_w * r_sy_rest_sxy).add_mul(omega_b_n_sxy, bias_19);
-    let u_rest_sy = bias_20.sub_mul(mr_behind_tza_tyy, path_5) + f_rates_sz_syy;
-    let bias_21 = coriolis_36.add_mul(mr_behind_tza_tyy, omega_b_n_sxy);
-    let bias_22 = (p.m_w * r_sz_rest_syz).add_mul(omega_b_n_sxz, bias_21);
-    let u_rest_sz = bias_22.sub_mul(mass_sxty, path_11) + f_rates_ty_szz;
-    let bias_23 = mass_sxty * r_ty_rest_szx;
-    let bias_24 = omega_b_n_sxz * i_behind_tya_12;
-    let bias_25 = bias_23.sub_mul(mr_behind_tya_szx, r_sz_rest_syz);
-    let bias_26 = bias_24.sub_mul(omega_b_n_sxx, i_behind_tya_23);
-    let bias_27 = bias_25.add_mul(omega_b_n_sxy, bias_26);
-    let bias_28 = bias_27.add_mul(i_behind_tya_13, path_4 - path_3);
-    let bias_29 = bias_28.sub_mul(omega_b_n_sxx * omega_b_n_sxz, coriolis_40);
-    let u_rest_ty = bias_29 + n_rates_tz_tyy;
-    let bias_30 = (omega_ty_n_tyz * mass_tytz).sub_mul(omega_ty_n_tyy, coriolis_22);
-    let bias_31 = neg_alpha_ty_tyx.add_mul(omega_ty_n_tyz, omega_ty_n_tyy);
-    let bias_32 = (omega_ty_n_tyx * bias_30).sub_mul(bias_31, i_behind_tza_13);
-    let bias_33 = omega_ty_n_tyx * omega_ty_n_tyx;
-    let bias_34 = bias_33.sub_mul(omega_ty_n_tyy, omega_ty_n_tyy);
-    let bias_35 = bias_32.add_mul(alpha_ty_tyz, mass_tztz);
-    let bias_36 = bias_35.add_mul(i_behind_tza_12, bias_34);
-    let bias_37 = bias_36.sub_mul(coriolis_18, r_ty_rest_szy);
-    let u_rest_tz = bias_37.sub_mul(mr_behind_tza_tyy, r_tz_rest_tyx) + n_rates_w_tzz;
-    let bias_38 = alpha_tz_tzy.sub_mul(omega_tz_n_tzx, omega_tz_n_tzz);
-    let bias_39 = alpha_ty_tyz.add_mul(omega_tz_n_tzx, omega_tz_n_tzy);
-    let bias_40 = (i_behind_w_12 * bias_38).add_mul(mass_tzw, bias_39);
-    let bias_41 = omega_tz_n_tzy * omega_tz_n_tzy;
-    let bias_42 = i_behind_w_23 * bias_41.sub_mul(omega_tz_n_tzz, omega_tz_n_tzz);
-    let bias_43 = bias_42.sub_mul(omega_tz_n_tzy * omega_tz_n_tzz, coriolis_4);
-    let bias_44 = mr_behind_w_tzy * r_tz_rest_tyz;
-    let bias_45 = bias_40.add_mul(p.mass_ww, alpha_tz_tzx) + bias_43;
-    let u_rest_w = bias_45 + bias_44.sub_mul(mr_behind_w_tzz, r_w_rest_tzy);
+    let bias_9 = mr_behind_sya_sxz * omega_b_n_sxz;
+    let bias_10 = omega_b_n_sxx * (bias_9 + mr_behind_d_sxy * omega_b_n_sxy);
+    let bias_11 = mr_behind_tya_szx * (path_10 + path_4);
+    let u_rest_sx = p.m_w * r_first_rest_sxx + bias_10 - bias_11 + f_rates_sy_sxx;
+    let bias_12 = p.m_w * r_sy_rest_sxy + omega_b_n_sxy * (coriolis_29 + bias_9);
+    let u_rest_sy = bias_12 - mr_behind_tza_tyy * path_5 + f_rates_sz_syy;
+    let bias_13 = omega_b_n_sxz * (coriolis_29 + mr_behind_tza_tyy * omega_b_n_sxy);
+    let bias_14 = p.m_w * r_sz_rest_syz + bias_13 - mass_sxty * path_11;
+    let u_rest_sz = bias_14 + f_rates_ty_szz;
+    let bias_15 = omega_b_n_sxz * i_behind_tya_12 - omega_b_n_sxx * i_behind_tya_23;
+    let bias_16 = mass_sxty * r_ty_rest_szx - mr_behind_tya_szx * r_sz_rest_syz;
+    let bias_17 = i_behind_tya_13 * (path_4 - path_3);
+    let bias_18 = omega_b_n_sxx * omega_b_n_sxz * coriolis_33;
+    let bias_19 = bias_16 + omega_b_n_sxy * bias_15 + bias_17 - bias_18;
+    let u_rest_ty = bias_19 + n_rates_tz_tyy;
+    let bias_20 = omega_ty_n_tyz * mass_tytz - omega_ty_n_tyy * coriolis_18;
+    let bias_21 = neg_alpha_ty_tyx + omega_ty_n_tyz * omega_ty_n_tyy;
+    let bias_22 = omega_ty_n_tyx * bias_20 - bias_21 * i_behind_tza_13;
+    let bias_23 = omega_ty_n_tyx * omega_ty_n_tyx - omega_ty_n_tyy * omega_ty_n_tyy;
+    let bias_24 = bias_22 + alpha_ty_tyz * mass_tztz + i_behind_tza_12 * bias_23;
+    let bias_25 = bias_24 - coriolis_15 * r_ty_rest_szy;
+    let u_rest_tz = bias_25 - mr_behind_tza_tyy * r_tz_rest_tyx + n_rates_w_tzz;
+    let bias_26 = i_behind_w_12 * (alpha_tz_tzy - omega_tz_n_tzx * omega_tz_n_tzz);
+    let bias_27 = mass_tzw * (alpha_ty_tyz + omega_tz_n_tzx * omega_tz_n_tzy);
+    let bias_28 = omega_tz_n_tzy * omega_tz_n_tzy - omega_tz_n_tzz * omega_tz_n_tzz;
+    let bias_29 = omega_tz_n_tzy * omega_tz_n_tzz * coriolis_4;
+    let bias_30 = bias_26 + bias_27 + p.mass_ww * alpha_tz_tzx;
+    let bias_31 = mr_behind_w_tzy * r_tz_rest_tyz - mr_behind_w_tzz * r_w_rest_tzy;
+    let u_rest_w = bias_30 + (i_behind_w_23 * bias_28 - bias_29) + bias_31;
 
     // Right side of each joint row: motor torque less bias, N or N m.
     let tau_sx = u.u_sx - u_rest_sx;
@@ -2695,7 +2633,7 @@ pub fn eliminate<T: Real>(
     let tau_w = u.u_w - u_rest_w;
 
     // Joint w, eq. (D10): its pivot, kg m², and gains.
-    let divisor_w = m.held_w.add_mul(m.driven_w, p.mass_ww);
+    let divisor_w = m.held_w + m.driven_w * p.mass_ww;
     let gain_0 = divisor_w.recip();
     let recip_w = m.driven_w * gain_0;
     let gain_w_v1 = f_w_bx * recip_w;
@@ -2709,61 +2647,60 @@ pub fn eliminate<T: Real>(
     let gain_w_sz = mass_szw * recip_w;
     let gain_w_ty = mass_tyw * recip_w;
     let gain_w_tz = mass_tzw * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Joint w eliminated from the rows of the inboard joints, eq. (D11).
-    let f_sx_bx_w = p.f_sx_bx.sub_mul(f_w_bx, gain_w_sx);
-    let f_sx_by_w = p.f_sx_by.sub_mul(f_w_by, gain_w_sx);
-    let f_sx_bz_w = p.f_sx_bz.sub_mul(f_w_bz, gain_w_sx);
-    let n_sx_bx_w = n_sx_bx.sub_mul(n_w_bx, gain_w_sx);
-    let n_sx_by_w = n_sx_by.sub_mul(n_w_by, gain_w_sx);
-    let n_sx_bz_w = n_sx_bz.sub_mul(n_w_bz, gain_w_sx);
-    let mass_sxsx_w = p.m_w.sub_mul(mass_sxw, gain_w_sx);
-    let tau_sx_w = tau_sx.sub_mul(mass_sxw, free_w);
-    let f_sy_bx_w = p.f_sy_bx.sub_mul(f_w_bx, gain_w_sy);
-    let f_sy_by_w = p.f_sy_by.sub_mul(f_w_by, gain_w_sy);
-    let f_sy_bz_w = p.f_sy_bz.sub_mul(f_w_bz, gain_w_sy);
-    let n_sy_bx_w = n_sy_bx.sub_mul(n_w_bx, gain_w_sy);
-    let n_sy_by_w = n_sy_by.sub_mul(n_w_by, gain_w_sy);
-    let n_sy_bz_w = n_sy_bz.sub_mul(n_w_bz, gain_w_sy);
+    let f_sx_bx_w = p.f_sx_bx - f_w_bx * gain_w_sx;
+    let f_sx_by_w = p.f_sx_by - f_w_by * gain_w_sx;
+    let f_sx_bz_w = p.f_sx_bz - f_w_bz * gain_w_sx;
+    let n_sx_bx_w = n_sx_bx - n_w_bx * gain_w_sx;
+    let n_sx_by_w = n_sx_by - n_w_by * gain_w_sx;
+    let n_sx_bz_w = n_sx_bz - n_w_bz * gain_w_sx;
+    let mass_sxsx_w = p.m_w - mass_sxw * gain_w_sx;
+    let tau_sx_w = tau_sx - mass_sxw * free_w;
+    let f_sy_bx_w = p.f_sy_bx - f_w_bx * gain_w_sy;
+    let f_sy_by_w = p.f_sy_by - f_w_by * gain_w_sy;
+    let f_sy_bz_w = p.f_sy_bz - f_w_bz * gain_w_sy;
+    let n_sy_bx_w = n_sy_bx - n_w_bx * gain_w_sy;
+    let n_sy_by_w = n_sy_by - n_w_by * gain_w_sy;
+    let n_sy_bz_w = n_sy_bz - n_w_bz * gain_w_sy;
     let mass_sxsy_w = -(mass_sxw * gain_w_sy);
-    let mass_sysy_w = p.m_w.sub_mul(mass_syw, gain_w_sy);
-    let tau_sy_w = tau_sy.sub_mul(mass_syw, free_w);
-    let f_sz_bx_w = p.f_sz_bx.sub_mul(f_w_bx, gain_w_sz);
-    let f_sz_by_w = p.f_sz_by.sub_mul(f_w_by, gain_w_sz);
-    let f_sz_bz_w = p.f_sz_bz.sub_mul(f_w_bz, gain_w_sz);
-    let n_sz_bx_w = n_sz_bx.sub_mul(n_w_bx, gain_w_sz);
-    let n_sz_by_w = n_sz_by.sub_mul(n_w_by, gain_w_sz);
-    let n_sz_bz_w = n_sz_bz.sub_mul(n_w_bz, gain_w_sz);
+    let mass_sysy_w = p.m_w - mass_syw * gain_w_sy;
+    let tau_sy_w = tau_sy - mass_syw * free_w;
+    let f_sz_bx_w = p.f_sz_bx - f_w_bx * gain_w_sz;
+    let f_sz_by_w = p.f_sz_by - f_w_by * gain_w_sz;
+    let f_sz_bz_w = p.f_sz_bz - f_w_bz * gain_w_sz;
+    let n_sz_bx_w = n_sz_bx - n_w_bx * gain_w_sz;
+    let n_sz_by_w = n_sz_by - n_w_by * gain_w_sz;
+    let n_sz_bz_w = n_sz_bz - n_w_bz * gain_w_sz;
     let mass_sxsz_w = -(mass_sxw * gain_w_sz);
     let mass_sysz_w = -(mass_syw * gain_w_sz);
-    let mass_szsz_w = p.m_w.sub_mul(mass_szw, gain_w_sz);
-    let tau_sz_w = tau_sz.sub_mul(mass_szw, free_w);
-    let f_ty_bx_w = f_ty_bx.sub_mul(f_w_bx, gain_w_ty);
-    let f_ty_by_w = f_ty_by.sub_mul(f_w_by, gain_w_ty);
-    let f_ty_bz_w = f_ty_bz.sub_mul(f_w_bz, gain_w_ty);
-    let n_ty_bx_w = n_ty_bx.sub_mul(n_w_bx, gain_w_ty);
-    let n_ty_by_w = n_ty_by.sub_mul(n_w_by, gain_w_ty);
-    let n_ty_bz_w = n_ty_bz.sub_mul(n_w_bz, gain_w_ty);
-    let mass_sxty_w = mass_sxty.sub_mul(mass_sxw, gain_w_ty);
+    let mass_szsz_w = p.m_w - mass_szw * gain_w_sz;
+    let tau_sz_w = tau_sz - mass_szw * free_w;
+    let f_ty_bx_w = f_ty_bx - f_w_bx * gain_w_ty;
+    let f_ty_by_w = f_ty_by - f_w_by * gain_w_ty;
+    let f_ty_bz_w = f_ty_bz - f_w_bz * gain_w_ty;
+    let n_ty_bx_w = n_ty_bx - n_w_bx * gain_w_ty;
+    let n_ty_by_w = n_ty_by - n_w_by * gain_w_ty;
+    let n_ty_bz_w = n_ty_bz - n_w_bz * gain_w_ty;
+    let mass_sxty_w = mass_sxty - mass_sxw * gain_w_ty;
     let mass_syty_w = -(mass_syw * gain_w_ty);
-    let mass_szty_w = mass_szty.sub_mul(mass_szw, gain_w_ty);
-    let rest_0 = across_tyw.sub_mul(m.held_w, mass_tyw * gain_0);
-    let rest_1 = across_tyty.sub_mul(q.sin_tilt_z, rest_0);
-    let mass_tyty_w = rest_1.sub_mul(across_tyw, gain_w_ty);
-    let tau_ty_w = tau_ty.sub_mul(mass_tyw, free_w);
-    let f_tz_bx_w = f_tz_bx.sub_mul(f_w_bx, gain_w_tz);
-    let f_tz_by_w = f_tz_by.sub_mul(f_w_by, gain_w_tz);
-    let f_tz_bz_w = f_tz_bz.sub_mul(f_w_bz, gain_w_tz);
-    let n_tz_bx_w = n_tz_bx.sub_mul(n_w_bx, gain_w_tz);
-    let n_tz_by_w = n_tz_by.sub_mul(n_w_by, gain_w_tz);
-    let n_tz_bz_w = n_tz_bz.sub_mul(n_w_bz, gain_w_tz);
-    let mass_sxtz_w = mass_sxtz.sub_mul(mass_sxw, gain_w_tz);
-    let mass_sytz_w = mass_sytz.sub_mul(mass_syw, gain_w_tz);
-    let mass_sztz_w = mass_sztz.sub_mul(mass_szw, gain_w_tz);
-    let mass_tytz_w = mass_tytz.sub_mul(mass_tyw, gain_w_tz);
-    let mass_tztz_w = mass_tztz.sub_mul(mass_tzw, gain_w_tz);
-    let tau_tz_w = tau_tz.sub_mul(mass_tzw, free_w);
+    let mass_szty_w = mass_szty - mass_szw * gain_w_ty;
+    let rest_0 = q.sin_tilt_z * (across_tyw - mass_tyw * gain_0 * m.held_w);
+    let mass_tyty_w = across_tyty - rest_0 - across_tyw * gain_w_ty;
+    let tau_ty_w = tau_ty - mass_tyw * free_w;
+    let f_tz_bx_w = f_tz_bx - f_w_bx * gain_w_tz;
+    let f_tz_by_w = f_tz_by - f_w_by * gain_w_tz;
+    let f_tz_bz_w = f_tz_bz - f_w_bz * gain_w_tz;
+    let n_tz_bx_w = n_tz_bx - n_w_bx * gain_w_tz;
+    let n_tz_by_w = n_tz_by - n_w_by * gain_w_tz;
+    let n_tz_bz_w = n_tz_bz - n_w_bz * gain_w_tz;
+    let mass_sxtz_w = mass_sxtz - mass_sxw * gain_w_tz;
+    let mass_sytz_w = mass_sytz - mass_syw * gain_w_tz;
+    let mass_sztz_w = mass_sztz - mass_szw * gain_w_tz;
+    let mass_tytz_w = mass_tytz - mass_tyw * gain_w_tz;
+    let mass_tztz_w = mass_tztz - mass_tzw * gain_w_tz;
+    let tau_tz_w = tau_tz - mass_tzw * free_w;
 
     // Joint tz, eq. (D10): its pivot, kg m², and gains.
     let divisor_tz = m.held_tz + mass_tztz_w;
@@ -2778,47 +2715,47 @@ pub fn eliminate<T: Real>(
     let gain_tz_sy = mass_sytz_w * recip_tz;
     let gain_tz_sz = mass_sztz_w * recip_tz;
     let gain_tz_ty = mass_tytz_w * recip_tz;
-    let free_tz = m.given_tz.add_mul(tau_tz_w, recip_tz);
+    let free_tz = m.given_tz + tau_tz_w * recip_tz;
 
     // Joint tz eliminated from the rows of the inboard joints, eq. (D11).
-    let f_sx_bx_wtz = f_sx_bx_w.sub_mul(f_tz_bx_w, gain_tz_sx);
-    let f_sx_by_wtz = f_sx_by_w.sub_mul(f_tz_by_w, gain_tz_sx);
-    let f_sx_bz_wtz = f_sx_bz_w.sub_mul(f_tz_bz_w, gain_tz_sx);
-    let n_sx_bx_wtz = n_sx_bx_w.sub_mul(n_tz_bx_w, gain_tz_sx);
-    let n_sx_by_wtz = n_sx_by_w.sub_mul(n_tz_by_w, gain_tz_sx);
-    let n_sx_bz_wtz = n_sx_bz_w.sub_mul(n_tz_bz_w, gain_tz_sx);
-    let mass_sxsx_wtz = mass_sxsx_w.sub_mul(mass_sxtz_w, gain_tz_sx);
-    let tau_sx_wtz = tau_sx_w.sub_mul(mass_sxtz_w, free_tz);
-    let f_sy_bx_wtz = f_sy_bx_w.sub_mul(f_tz_bx_w, gain_tz_sy);
-    let f_sy_by_wtz = f_sy_by_w.sub_mul(f_tz_by_w, gain_tz_sy);
-    let f_sy_bz_wtz = f_sy_bz_w.sub_mul(f_tz_bz_w, gain_tz_sy);
-    let n_sy_bx_wtz = n_sy_bx_w.sub_mul(n_tz_bx_w, gain_tz_sy);
-    let n_sy_by_wtz = n_sy_by_w.sub_mul(n_tz_by_w, gain_tz_sy);
-    let n_sy_bz_wtz = n_sy_bz_w.sub_mul(n_tz_bz_w, gain_tz_sy);
-    let mass_sxsy_wtz = mass_sxsy_w.sub_mul(mass_sxtz_w, gain_tz_sy);
-    let mass_sysy_wtz = mass_sysy_w.sub_mul(mass_sytz_w, gain_tz_sy);
-    let tau_sy_wtz = tau_sy_w.sub_mul(mass_sytz_w, free_tz);
-    let f_sz_bx_wtz = f_sz_bx_w.sub_mul(f_tz_bx_w, gain_tz_sz);
-    let f_sz_by_wtz = f_sz_by_w.sub_mul(f_tz_by_w, gain_tz_sz);
-    let f_sz_bz_wtz = f_sz_bz_w.sub_mul(f_tz_bz_w, gain_tz_sz);
-    let n_sz_bx_wtz = n_sz_bx_w.sub_mul(n_tz_bx_w, gain_tz_sz);
-    let n_sz_by_wtz = n_sz_by_w.sub_mul(n_tz_by_w, gain_tz_sz);
-    let n_sz_bz_wtz = n_sz_bz_w.sub_mul(n_tz_bz_w, gain_tz_sz);
-    let mass_sxsz_wtz = mass_sxsz_w.sub_mul(mass_sxtz_w, gain_tz_sz);
-    let mass_sysz_wtz = mass_sysz_w.sub_mul(mass_sytz_w, gain_tz_sz);
-    let mass_szsz_wtz = mass_szsz_w.sub_mul(mass_sztz_w, gain_tz_sz);
-    let tau_sz_wtz = tau_sz_w.sub_mul(mass_sztz_w, free_tz);
-    let f_ty_bx_wtz = f_ty_bx_w.sub_mul(f_tz_bx_w, gain_tz_ty);
-    let f_ty_by_wtz = f_ty_by_w.sub_mul(f_tz_by_w, gain_tz_ty);
-    let f_ty_bz_wtz = f_ty_bz_w.sub_mul(f_tz_bz_w, gain_tz_ty);
-    let n_ty_bx_wtz = n_ty_bx_w.sub_mul(n_tz_bx_w, gain_tz_ty);
-    let n_ty_by_wtz = n_ty_by_w.sub_mul(n_tz_by_w, gain_tz_ty);
-    let n_ty_bz_wtz = n_ty_bz_w.sub_mul(n_tz_bz_w, gain_tz_ty);
-    let mass_sxty_wtz = mass_sxty_w.sub_mul(mass_sxtz_w, gain_tz_ty);
-    let mass_syty_wtz = mass_syty_w.sub_mul(mass_sytz_w, gain_tz_ty);
-    let mass_szty_wtz = mass_szty_w.sub_mul(mass_sztz_w, gain_tz_ty);
-    let mass_tyty_wtz = mass_tyty_w.sub_mul(mass_tytz_w, gain_tz_ty);
-    let tau_ty_wtz = tau_ty_w.sub_mul(mass_tytz_w, free_tz);
+    let f_sx_bx_wtz = f_sx_bx_w - f_tz_bx_w * gain_tz_sx;
+    let f_sx_by_wtz = f_sx_by_w - f_tz_by_w * gain_tz_sx;
+    let f_sx_bz_wtz = f_sx_bz_w - f_tz_bz_w * gain_tz_sx;
+    let n_sx_bx_wtz = n_sx_bx_w - n_tz_bx_w * gain_tz_sx;
+    let n_sx_by_wtz = n_sx_by_w - n_tz_by_w * gain_tz_sx;
+    let n_sx_bz_wtz = n_sx_bz_w - n_tz_bz_w * gain_tz_sx;
+    let mass_sxsx_wtz = mass_sxsx_w - mass_sxtz_w * gain_tz_sx;
+    let tau_sx_wtz = tau_sx_w - mass_sxtz_w * free_tz;
+    let f_sy_bx_wtz = f_sy_bx_w - f_tz_bx_w * gain_tz_sy;
+    let f_sy_by_wtz = f_sy_by_w - f_tz_by_w * gain_tz_sy;
+    let f_sy_bz_wtz = f_sy_bz_w - f_tz_bz_w * gain_tz_sy;
+    let n_sy_bx_wtz = n_sy_bx_w - n_tz_bx_w * gain_tz_sy;
+    let n_sy_by_wtz = n_sy_by_w - n_tz_by_w * gain_tz_sy;
+    let n_sy_bz_wtz = n_sy_bz_w - n_tz_bz_w * gain_tz_sy;
+    let mass_sxsy_wtz = mass_sxsy_w - mass_sxtz_w * gain_tz_sy;
+    let mass_sysy_wtz = mass_sysy_w - mass_sytz_w * gain_tz_sy;
+    let tau_sy_wtz = tau_sy_w - mass_sytz_w * free_tz;
+    let f_sz_bx_wtz = f_sz_bx_w - f_tz_bx_w * gain_tz_sz;
+    let f_sz_by_wtz = f_sz_by_w - f_tz_by_w * gain_tz_sz;
+    let f_sz_bz_wtz = f_sz_bz_w - f_tz_bz_w * gain_tz_sz;
+    let n_sz_bx_wtz = n_sz_bx_w - n_tz_bx_w * gain_tz_sz;
+    let n_sz_by_wtz = n_sz_by_w - n_tz_by_w * gain_tz_sz;
+    let n_sz_bz_wtz = n_sz_bz_w - n_tz_bz_w * gain_tz_sz;
+    let mass_sxsz_wtz = mass_sxsz_w - mass_sxtz_w * gain_tz_sz;
+    let mass_sysz_wtz = mass_sysz_w - mass_sytz_w * gain_tz_sz;
+    let mass_szsz_wtz = mass_szsz_w - mass_sztz_w * gain_tz_sz;
+    let tau_sz_wtz = tau_sz_w - mass_sztz_w * free_tz;
+    let f_ty_bx_wtz = f_ty_bx_w - f_tz_bx_w * gain_tz_ty;
+    let f_ty_by_wtz = f_ty_by_w - f_tz_by_w * gain_tz_ty;
+    let f_ty_bz_wtz = f_ty_bz_w - f_tz_bz_w * gain_tz_ty;
+    let n_ty_bx_wtz = n_ty_bx_w - n_tz_bx_w * gain_tz_ty;
+    let n_ty_by_wtz = n_ty_by_w - n_tz_by_w * gain_tz_ty;
+    let n_ty_bz_wtz = n_ty_bz_w - n_tz_bz_w * gain_tz_ty;
+    let mass_sxty_wtz = mass_sxty_w - mass_sxtz_w * gain_tz_ty;
+    let mass_syty_wtz = mass_syty_w - mass_sytz_w * gain_tz_ty;
+    let mass_szty_wtz = mass_szty_w - mass_sztz_w * gain_tz_ty;
+    let mass_tyty_wtz = mass_tyty_w - mass_tytz_w * gain_tz_ty;
+    let tau_ty_wtz = tau_ty_w - mass_tytz_w * free_tz;
 
     // Joint ty, eq. (D10): its pivot, kg m², and gains.
     let divisor_ty = m.held_ty + mass_tyty_wtz;
@@ -2832,36 +2769,36 @@ pub fn eliminate<T: Real>(
     let gain_ty_sx = mass_sxty_wtz * recip_ty;
     let gain_ty_sy = mass_syty_wtz * recip_ty;
     let gain_ty_sz = mass_szty_wtz * recip_ty;
-    let free_ty = m.given_ty.add_mul(tau_ty_wtz, recip_ty);
+    let free_ty = m.given_ty + tau_ty_wtz * recip_ty;
 
     // Joint ty eliminated from the rows of the inboard joints, eq. (D11).
-    let f_sx_bx_wtzty = f_sx_bx_wtz.sub_mul(f_ty_bx_wtz, gain_ty_sx);
-    let f_sx_by_wtzty = f_sx_by_wtz.sub_mul(f_ty_by_wtz, gain_ty_sx);
-    let f_sx_bz_wtzty = f_sx_bz_wtz.sub_mul(f_ty_bz_wtz, gain_ty_sx);
-    let n_sx_bx_wtzty = n_sx_bx_wtz.sub_mul(n_ty_bx_wtz, gain_ty_sx);
-    let n_sx_by_wtzty = n_sx_by_wtz.sub_mul(n_ty_by_wtz, gain_ty_sx);
-    let n_sx_bz_wtzty = n_sx_bz_wtz.sub_mul(n_ty_bz_wtz, gain_ty_sx);
-    let mass_sxsx_wtzty = mass_sxsx_wtz.sub_mul(mass_sxty_wtz, gain_ty_sx);
-    let tau_sx_wtzty = tau_sx_wtz.sub_mul(mass_sxty_wtz, free_ty);
-    let f_sy_bx_wtzty = f_sy_bx_wtz.sub_mul(f_ty_bx_wtz, gain_ty_sy);
-    let f_sy_by_wtzty = f_sy_by_wtz.sub_mul(f_ty_by_wtz, gain_ty_sy);
-    let f_sy_bz_wtzty = f_sy_bz_wtz.sub_mul(f_ty_bz_wtz, gain_ty_sy);
-    let n_sy_bx_wtzty = n_sy_bx_wtz.sub_mul(n_ty_bx_wtz, gain_ty_sy);
-    let n_sy_by_wtzty = n_sy_by_wtz.sub_mul(n_ty_by_wtz, gain_ty_sy);
-    let n_sy_bz_wtzty = n_sy_bz_wtz.sub_mul(n_ty_bz_wtz, gain_ty_sy);
-    let mass_sxsy_wtzty = mass_sxsy_wtz.sub_mul(mass_sxty_wtz, gain_ty_sy);
-    let mass_sysy_wtzty = mass_sysy_wtz.sub_mul(mass_syty_wtz, gain_ty_sy);
-    let tau_sy_wtzty = tau_sy_wtz.sub_mul(mass_syty_wtz, free_ty);
-    let f_sz_bx_wtzty = f_sz_bx_wtz.sub_mul(f_ty_bx_wtz, gain_ty_sz);
-    let f_sz_by_wtzty = f_sz_by_wtz.sub_mul(f_ty_by_wtz, gain_ty_sz);
-    let f_sz_bz_wtzty = f_sz_bz_wtz.sub_mul(f_ty_bz_wtz, gain_ty_sz);
-    let n_sz_bx_wtzty = n_sz_bx_wtz.sub_mul(n_ty_bx_wtz, gain_ty_sz);
-    let n_sz_by_wtzty = n_sz_by_wtz.sub_mul(n_ty_by_wtz, gain_ty_sz);
-    let n_sz_bz_wtzty = n_sz_bz_wtz.sub_mul(n_ty_bz_wtz, gain_ty_sz);
-    let mass_sxsz_wtzty = mass_sxsz_wtz.sub_mul(mass_sxty_wtz, gain_ty_sz);
-    let mass_sysz_wtzty = mass_sysz_wtz.sub_mul(mass_syty_wtz, gain_ty_sz);
-    let mass_szsz_wtzty = mass_szsz_wtz.sub_mul(mass_szty_wtz, gain_ty_sz);
-    let tau_sz_wtzty = tau_sz_wtz.sub_mul(mass_szty_wtz, free_ty);
+    let f_sx_bx_wtzty = f_sx_bx_wtz - f_ty_bx_wtz * gain_ty_sx;
+    let f_sx_by_wtzty = f_sx_by_wtz - f_ty_by_wtz * gain_ty_sx;
+    let f_sx_bz_wtzty = f_sx_bz_wtz - f_ty_bz_wtz * gain_ty_sx;
+    let n_sx_bx_wtzty = n_sx_bx_wtz - n_ty_bx_wtz * gain_ty_sx;
+    let n_sx_by_wtzty = n_sx_by_wtz - n_ty_by_wtz * gain_ty_sx;
+    let n_sx_bz_wtzty = n_sx_bz_wtz - n_ty_bz_wtz * gain_ty_sx;
+    let mass_sxsx_wtzty = mass_sxsx_wtz - mass_sxty_wtz * gain_ty_sx;
+    let tau_sx_wtzty = tau_sx_wtz - mass_sxty_wtz * free_ty;
+    let f_sy_bx_wtzty = f_sy_bx_wtz - f_ty_bx_wtz * gain_ty_sy;
+    let f_sy_by_wtzty = f_sy_by_wtz - f_ty_by_wtz * gain_ty_sy;
+    let f_sy_bz_wtzty = f_sy_bz_wtz - f_ty_bz_wtz * gain_ty_sy;
+    let n_sy_bx_wtzty = n_sy_bx_wtz - n_ty_bx_wtz * gain_ty_sy;
+    let n_sy_by_wtzty = n_sy_by_wtz - n_ty_by_wtz * gain_ty_sy;
+    let n_sy_bz_wtzty = n_sy_bz_wtz - n_ty_bz_wtz * gain_ty_sy;
+    let mass_sxsy_wtzty = mass_sxsy_wtz - mass_sxty_wtz * gain_ty_sy;
+    let mass_sysy_wtzty = mass_sysy_wtz - mass_syty_wtz * gain_ty_sy;
+    let tau_sy_wtzty = tau_sy_wtz - mass_syty_wtz * free_ty;
+    let f_sz_bx_wtzty = f_sz_bx_wtz - f_ty_bx_wtz * gain_ty_sz;
+    let f_sz_by_wtzty = f_sz_by_wtz - f_ty_by_wtz * gain_ty_sz;
+    let f_sz_bz_wtzty = f_sz_bz_wtz - f_ty_bz_wtz * gain_ty_sz;
+    let n_sz_bx_wtzty = n_sz_bx_wtz - n_ty_bx_wtz * gain_ty_sz;
+    let n_sz_by_wtzty = n_sz_by_wtz - n_ty_by_wtz * gain_ty_sz;
+    let n_sz_bz_wtzty = n_sz_bz_wtz - n_ty_bz_wtz * gain_ty_sz;
+    let mass_sxsz_wtzty = mass_sxsz_wtz - mass_sxty_wtz * gain_ty_sz;
+    let mass_sysz_wtzty = mass_sysz_wtz - mass_syty_wtz * gain_ty_sz;
+    let mass_szsz_wtzty = mass_szsz_wtz - mass_szty_wtz * gain_ty_sz;
+    let tau_sz_wtzty = tau_sz_wtz - mass_szty_wtz * free_ty;
 
     // Joint sz, eq. (D10): its pivot, kg, and gains.
     let divisor_sz = m.held_sz + mass_szsz_wtzty;
@@ -2874,26 +2811,26 @@ pub fn eliminate<T: Real>(
     let gain_sz_w3 = n_sz_bz_wtzty * recip_sz;
     let gain_sz_sx = mass_sxsz_wtzty * recip_sz;
     let gain_sz_sy = mass_sysz_wtzty * recip_sz;
-    let free_sz = m.given_sz.add_mul(tau_sz_wtzty, recip_sz);
+    let free_sz = m.given_sz + tau_sz_wtzty * recip_sz;
 
     // Joint sz eliminated from the rows of the inboard joints, eq. (D11).
-    let f_sx_bx_wtztysz = f_sx_bx_wtzty.sub_mul(f_sz_bx_wtzty, gain_sz_sx);
-    let f_sx_by_wtztysz = f_sx_by_wtzty.sub_mul(f_sz_by_wtzty, gain_sz_sx);
-    let f_sx_bz_wtztysz = f_sx_bz_wtzty.sub_mul(f_sz_bz_wtzty, gain_sz_sx);
-    let n_sx_bx_wtztysz = n_sx_bx_wtzty.sub_mul(n_sz_bx_wtzty, gain_sz_sx);
-    let n_sx_by_wtztysz = n_sx_by_wtzty.sub_mul(n_sz_by_wtzty, gain_sz_sx);
-    let n_sx_bz_wtztysz = n_sx_bz_wtzty.sub_mul(n_sz_bz_wtzty, gain_sz_sx);
-    let mass_sxsx_wtztysz = mass_sxsx_wtzty.sub_mul(mass_sxsz_wtzty, gain_sz_sx);
-    let tau_sx_wtztysz = tau_sx_wtzty.sub_mul(mass_sxsz_wtzty, free_sz);
-    let f_sy_bx_wtztysz = f_sy_bx_wtzty.sub_mul(f_sz_bx_wtzty, gain_sz_sy);
-    let f_sy_by_wtztysz = f_sy_by_wtzty.sub_mul(f_sz_by_wtzty, gain_sz_sy);
-    let f_sy_bz_wtztysz = f_sy_bz_wtzty.sub_mul(f_sz_bz_wtzty, gain_sz_sy);
-    let n_sy_bx_wtztysz = n_sy_bx_wtzty.sub_mul(n_sz_bx_wtzty, gain_sz_sy);
-    let n_sy_by_wtztysz = n_sy_by_wtzty.sub_mul(n_sz_by_wtzty, gain_sz_sy);
-    let n_sy_bz_wtztysz = n_sy_bz_wtzty.sub_mul(n_sz_bz_wtzty, gain_sz_sy);
-    let mass_sxsy_wtztysz = mass_sxsy_wtzty.sub_mul(mass_sxsz_wtzty, gain_sz_sy);
-    let mass_sysy_wtztysz = mass_sysy_wtzty.sub_mul(mass_sysz_wtzty, gain_sz_sy);
-    let tau_sy_wtztysz = tau_sy_wtzty.sub_mul(mass_sysz_wtzty, free_sz);
+    let f_sx_bx_wtztysz = f_sx_bx_wtzty - f_sz_bx_wtzty * gain_sz_sx;
+    let f_sx_by_wtztysz = f_sx_by_wtzty - f_sz_by_wtzty * gain_sz_sx;
+    let f_sx_bz_wtztysz = f_sx_bz_wtzty - f_sz_bz_wtzty * gain_sz_sx;
+    let n_sx_bx_wtztysz = n_sx_bx_wtzty - n_sz_bx_wtzty * gain_sz_sx;
+    let n_sx_by_wtztysz = n_sx_by_wtzty - n_sz_by_wtzty * gain_sz_sx;
+    let n_sx_bz_wtztysz = n_sx_bz_wtzty - n_sz_bz_wtzty * gain_sz_sx;
+    let mass_sxsx_wtztysz = mass_sxsx_wtzty - mass_sxsz_wtzty * gain_sz_sx;
+    let tau_sx_wtztysz = tau_sx_wtzty - mass_sxsz_wtzty * free_sz;
+    let f_sy_bx_wtztysz = f_sy_bx_wtzty - f_sz_bx_wtzty * gain_sz_sy;
+    let f_sy_by_wtztysz = f_sy_by_wtzty - f_sz_by_wtzty * gain_sz_sy;
+    let f_sy_bz_wtztysz = f_sy_bz_wtzty - f_sz_bz_wtzty * gain_sz_sy;
+    let n_sy_bx_wtztysz = n_sy_bx_wtzty - n_sz_bx_wtzty * gain_sz_sy;
+    let n_sy_by_wtztysz = n_sy_by_wtzty - n_sz_by_wtzty * gain_sz_sy;
+    let n_sy_bz_wtztysz = n_sy_bz_wtzty - n_sz_bz_wtzty * gain_sz_sy;
+    let mass_sxsy_wtztysz = mass_sxsy_wtzty - mass_sxsz_wtzty * gain_sz_sy;
+    let mass_sysy_wtztysz = mass_sysy_wtzty - mass_sysz_wtzty * gain_sz_sy;
+    let tau_sy_wtztysz = tau_sy_wtzty - mass_sysz_wtzty * free_sz;
 
     // Joint sy, eq. (D10): its pivot, kg, and gains.
     let divisor_sy = m.held_sy + mass_sysy_wtztysz;
@@ -2905,17 +2842,17 @@ pub fn eliminate<T: Real>(
     let gain_sy_w2 = n_sy_by_wtztysz * recip_sy;
     let gain_sy_w3 = n_sy_bz_wtztysz * recip_sy;
     let gain_sy_sx = mass_sxsy_wtztysz * recip_sy;
-    let free_sy = m.given_sy.add_mul(tau_sy_wtztysz, recip_sy);
+    let free_sy = m.given_sy + tau_sy_wtztysz * recip_sy;
 
     // Joint sy eliminated from the rows of the inboard joints, eq. (D11).
-    let f_sx_bx_wtztyszsy = f_sx_bx_wtztysz.sub_mul(f_sy_bx_wtztysz, gain_sy_sx);
-    let f_sx_by_wtztyszsy = f_sx_by_wtztysz.sub_mul(f_sy_by_wtztysz, gain_sy_sx);
-    let f_sx_bz_wtztyszsy = f_sx_bz_wtztysz.sub_mul(f_sy_bz_wtztysz, gain_sy_sx);
-    let n_sx_bx_wtztyszsy = n_sx_bx_wtztysz.sub_mul(n_sy_bx_wtztysz, gain_sy_sx);
-    let n_sx_by_wtztyszsy = n_sx_by_wtztysz.sub_mul(n_sy_by_wtztysz, gain_sy_sx);
-    let n_sx_bz_wtztyszsy = n_sx_bz_wtztysz.sub_mul(n_sy_bz_wtztysz, gain_sy_sx);
-    let mass_sxsx_wtztyszsy = mass_sxsx_wtztysz.sub_mul(mass_sxsy_wtztysz, gain_sy_sx);
-    let tau_sx_wtztyszsy = tau_sx_wtztysz.sub_mul(mass_sxsy_wtztysz, free_sy);
+    let f_sx_bx_wtztyszsy = f_sx_bx_wtztysz - f_sy_bx_wtztysz * gain_sy_sx;
+    let f_sx_by_wtztyszsy = f_sx_by_wtztysz - f_sy_by_wtztysz * gain_sy_sx;
+    let f_sx_bz_wtztyszsy = f_sx_bz_wtztysz - f_sy_bz_wtztysz * gain_sy_sx;
+    let n_sx_bx_wtztyszsy = n_sx_bx_wtztysz - n_sy_bx_wtztysz * gain_sy_sx;
+    let n_sx_by_wtztyszsy = n_sx_by_wtztysz - n_sy_by_wtztysz * gain_sy_sx;
+    let n_sx_bz_wtztyszsy = n_sx_bz_wtztysz - n_sy_bz_wtztysz * gain_sy_sx;
+    let mass_sxsx_wtztyszsy = mass_sxsx_wtztysz - mass_sxsy_wtztysz * gain_sy_sx;
+    let tau_sx_wtztyszsy = tau_sx_wtztysz - mass_sxsy_wtztysz * free_sy;
 
     // Joint sx, eq. (D10): its pivot, kg, and gains.
     let divisor_sx = m.held_sx + mass_sxsx_wtztyszsy;
@@ -2926,144 +2863,117 @@ pub fn eliminate<T: Real>(
     let gain_sx_w1 = n_sx_bx_wtztyszsy * recip_sx;
     let gain_sx_w2 = n_sx_by_wtztyszsy * recip_sx;
     let gain_sx_w3 = n_sx_bz_wtztyszsy * recip_sx;
-    let free_sx = m.given_sx.add_mul(tau_sx_wtztyszsy, recip_sx);
+    let free_sx = m.given_sx + tau_sx_wtztyszsy * recip_sx;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
-    let hub_0 = (f_w_bx * gain_w_v1).add_mul(f_tz_bx_w, gain_tz_v1);
-    let hub_1 = hub_0.add_mul(f_ty_bx_wtz, gain_ty_v1);
-    let hub_2 = hub_1.add_mul(f_sz_bx_wtzty, gain_sz_v1);
-    let hub_3 = hub_2.add_mul(f_sy_bx_wtztysz, gain_sy_v1);
-    let m_vv_11 = hub_3.add_mul(f_sx_bx_wtztyszsy, gain_sx_v1);
-    let hub_4 = (f_w_by * gain_w_v1).add_mul(f_tz_by_w, gain_tz_v1);
-    let hub_5 = hub_4.add_mul(f_ty_by_wtz, gain_ty_v1);
-    let hub_6 = hub_5.add_mul(f_sz_by_wtzty, gain_sz_v1);
-    let hub_7 = hub_6.add_mul(f_sy_by_wtztysz, gain_sy_v1);
-    let m_vv_12 = hub_7.add_mul(f_sx_by_wtztyszsy, gain_sx_v1);
-    let hub_8 = (f_w_bz * gain_w_v1).add_mul(f_tz_bz_w, gain_tz_v1);
-    let hub_9 = hub_8.add_mul(f_ty_bz_wtz, gain_ty_v1);
-    let hub_10 = hub_9.add_mul(f_sz_bz_wtzty, gain_sz_v1);
-    let hub_11 = hub_10.add_mul(f_sy_bz_wtztysz, gain_sy_v1);
-    let m_vv_13 = hub_11.add_mul(f_sx_bz_wtztyszsy, gain_sx_v1);
-    let hub_12 = (f_w_by * gain_w_v2).add_mul(f_tz_by_w, gain_tz_v2);
-    let hub_13 = hub_12.add_mul(f_ty_by_wtz, gain_ty_v2);
-    let hub_14 = hub_13.add_mul(f_sz_by_wtzty, gain_sz_v2);
-    let hub_15 = hub_14.add_mul(f_sy_by_wtztysz, gain_sy_v2);
-    let m_vv_22 = hub_15.add_mul(f_sx_by_wtztyszsy, gain_sx_v2);
-    let hub_16 = (f_w_bz * gain_w_v2).add_mul(f_tz_bz_w, gain_tz_v2);
-    let hub_17 = hub_16.add_mul(f_ty_bz_wtz, gain_ty_v2);
-    let hub_18 = hub_17.add_mul(f_sz_bz_wtzty, gain_sz_v2);
-    let hub_19 = hub_18.add_mul(f_sy_bz_wtztysz, gain_sy_v2);
-    let m_vv_23 = hub_19.add_mul(f_sx_bz_wtztyszsy, gain_sx_v2);
-    let hub_20 = (f_w_bz * gain_w_v3).add_mul(f_tz_bz_w, gain_tz_v3);
-    let hub_21 = hub_20.add_mul(f_ty_bz_wtz, gain_ty_v3);
-    let hub_22 = hub_21.add_mul(f_sz_bz_wtzty, gain_sz_v3);
-    let hub_23 = hub_22.add_mul(f_sy_bz_wtztysz, gain_sy_v3);
-    let m_vv_33 = hub_23.add_mul(f_sx_bz_wtztyszsy, gain_sx_v3);
+    let hub_0 = f_w_bx * gain_w_v1 + f_tz_bx_w * gain_tz_v1;
+    let hub_1 = hub_0 + f_ty_bx_wtz * gain_ty_v1 + f_sz_bx_wtzty * gain_sz_v1;
+    let hub_2 = hub_1 + f_sy_bx_wtztysz * gain_sy_v1;
+    let m_vv_11 = hub_2 + f_sx_bx_wtztyszsy * gain_sx_v1;
+    let hub_3 = f_w_by * gain_w_v1 + f_tz_by_w * gain_tz_v1;
+    let hub_4 = hub_3 + f_ty_by_wtz * gain_ty_v1 + f_sz_by_wtzty * gain_sz_v1;
+    let hub_5 = hub_4 + f_sy_by_wtztysz * gain_sy_v1;
+    let m_vv_12 = hub_5 + f_sx_by_wtztyszsy * gain_sx_v1;
+    let hub_6 = f_w_bz * gain_w_v1 + f_tz_bz_w * gain_tz_v1;
+    let hub_7 = hub_6 + f_ty_bz_wtz * gain_ty_v1 + f_sz_bz_wtzty * gain_sz_v1;
+    let hub_8 = hub_7 + f_sy_bz_wtztysz * gain_sy_v1;
+    let m_vv_13 = hub_8 + f_sx_bz_wtztyszsy * gain_sx_v1;
+    let hub_9 = f_w_by * gain_w_v2 + f_tz_by_w * gain_tz_v2;
+    let hub_10 = hub_9 + f_ty_by_wtz * gain_ty_v2 + f_sz_by_wtzty * gain_sz_v2;
+    let hub_11 = hub_10 + f_sy_by_wtztysz * gain_sy_v2;
+    let m_vv_22 = hub_11 + f_sx_by_wtztyszsy * gain_sx_v2;
+    let hub_12 = f_w_bz * gain_w_v2 + f_tz_bz_w * gain_tz_v2;
+    let hub_13 = hub_12 + f_ty_bz_wtz * gain_ty_v2 + f_sz_bz_wtzty * gain_sz_v2;
+    let hub_14 = hub_13 + f_sy_bz_wtztysz * gain_sy_v2;
+    let m_vv_23 = hub_14 + f_sx_bz_wtztyszsy * gain_sx_v2;
+    let hub_15 = f_w_bz * gain_w_v3 + f_tz_bz_w * gain_tz_v3;
+    let hub_16 = hub_15 + f_ty_bz_wtz * gain_ty_v3 + f_sz_bz_wtzty * gain_sz_v3;
+    let hub_17 = hub_16 + f_sy_bz_wtztysz * gain_sy_v3;
+    let m_vv_33 = hub_17 + f_sx_bz_wtztyszsy * gain_sx_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
-    let hub_24 = (n_w_bx * gain_w_v1).add_mul(n_tz_bx_w, gain_tz_v1);
-    let hub_25 = hub_24.add_mul(n_ty_bx_wtz, gain_ty_v1);
-    let hub_26 = hub_25.add_mul(n_sz_bx_wtzty, gain_sz_v1);
-    let hub_27 = hub_26.add_mul(n_sy_bx_wtztysz, gain_sy_v1);
-    let m_vw_11 = hub_27.add_mul(n_sx_bx_wtztyszsy, gain_sx_v1);
-    let hub_28 = (n_w_by * gain_w_v1).add_mul(n_tz_by_w, gain_tz_v1);
-    let hub_29 = hub_28.add_mul(n_ty_by_wtz, gain_ty_v1);
-    let hub_30 = hub_29.add_mul(n_sz_by_wtzty, gain_sz_v1);
-    let hub_31 = hub_30.add_mul(n_sy_by_wtztysz, gain_sy_v1);
-    let m_vw_12 = hub_31.add_mul(n_sx_by_wtztyszsy, gain_sx_v1);
-    let hub_32 = (n_w_bz * gain_w_v1).add_mul(n_tz_bz_w, gain_tz_v1);
-    let hub_33 = hub_32.add_mul(n_ty_bz_wtz, gain_ty_v1);
-    let hub_34 = hub_33.add_mul(n_sz_bz_wtzty, gain_sz_v1);
-    let hub_35 = hub_34.add_mul(n_sy_bz_wtztysz, gain_sy_v1);
-    let m_vw_13 = hub_35.add_mul(n_sx_bz_wtztyszsy, gain_sx_v1);
-    let hub_36 = (n_w_bx * gain_w_v2).add_mul(n_tz_bx_w, gain_tz_v2);
-    let hub_37 = hub_36.add_mul(n_ty_bx_wtz, gain_ty_v2);
-    let hub_38 = hub_37.add_mul(n_sz_bx_wtzty, gain_sz_v2);
-    let hub_39 = hub_38.add_mul(n_sy_bx_wtztysz, gain_sy_v2);
-    let m_vw_21 = hub_39.add_mul(n_sx_bx_wtztyszsy, gain_sx_v2);
-    let hub_40 = (n_w_by * gain_w_v2).add_mul(n_tz_by_w, gain_tz_v2);
-    let hub_41 = hub_40.add_mul(n_ty_by_wtz, gain_ty_v2);
-    let hub_42 = hub_41.add_mul(n_sz_by_wtzty, gain_sz_v2);
-    let hub_43 = hub_42.add_mul(n_sy_by_wtztysz, gain_sy_v2);
-    let m_vw_22 = hub_43.add_mul(n_sx_by_wtztyszsy, gain_sx_v2);
-    let hub_44 = (n_w_bz * gain_w_v2).add_mul(n_tz_bz_w, gain_tz_v2);
-    let hub_45 = hub_44.add_mul(n_ty_bz_wtz, gain_ty_v2);
-    let hub_46 = hub_45.add_mul(n_sz_bz_wtzty, gain_sz_v2);
-    let hub_47 = hub_46.add_mul(n_sy_bz_wtztysz, gain_sy_v2);
-    let m_vw_23 = hub_47.add_mul(n_sx_bz_wtztyszsy, gain_sx_v2);
-    let hub_48 = (n_w_bx * gain_w_v3).add_mul(n_tz_bx_w, gain_tz_v3);
-    let hub_49 = hub_48.add_mul(n_ty_bx_wtz, gain_ty_v3);
-    let hub_50 = hub_49.add_mul(n_sz_bx_wtzty, gain_sz_v3);
-    let hub_51 = hub_50.add_mul(n_sy_bx_wtztysz, gain_sy_v3);
-    let m_vw_31 = hub_51.add_mul(n_sx_bx_wtztyszsy, gain_sx_v3);
-    let hub_52 = (n_w_by * gain_w_v3).add_mul(n_tz_by_w, gain_tz_v3);
-    let hub_53 = hub_52.add_mul(n_ty_by_wtz, gain_ty_v3);
-    let hub_54 = hub_53.add_mul(n_sz_by_wtzty, gain_sz_v3);
-    let hub_55 = hub_54.add_mul(n_sy_by_wtztysz, gain_sy_v3);
-    let m_vw_32 = hub_55.add_mul(n_sx_by_wtztyszsy, gain_sx_v3);
-    let hub_56 = (n_w_bz * gain_w_v3).add_mul(n_tz_bz_w, gain_tz_v3);
-    let hub_57 = hub_56.add_mul(n_ty_bz_wtz, gain_ty_v3);
-    let hub_58 = hub_57.add_mul(n_sz_bz_wtzty, gain_sz_v3);
-    let hub_59 = hub_58.add_mul(n_sy_bz_wtztysz, gain_sy_v3);
-    let m_vw_33 = hub_59.add_mul(n_sx_bz_wtztyszsy, gain_sx_v3);
+    let hub_18 = n_w_bx * gain_w_v1 + n_tz_bx_w * gain_tz_v1;
+    let hub_19 = hub_18 + n_ty_bx_wtz * gain_ty_v1 + n_sz_bx_wtzty * gain_sz_v1;
+    let hub_20 = hub_19 + n_sy_bx_wtztysz * gain_sy_v1;
+    let m_vw_11 = hub_20 + n_sx_bx_wtztyszsy * gain_sx_v1;
+    let hub_21 = n_w_by * gain_w_v1 + n_tz_by_w * gain_tz_v1;
+    let hub_22 = hub_21 + n_ty_by_wtz * gain_ty_v1 + n_sz_by_wtzty * gain_sz_v1;
+    let hub_23 = hub_22 + n_sy_by_wtztysz * gain_sy_v1;
+    let m_vw_12 = hub_23 + n_sx_by_wtztyszsy * gain_sx_v1;
+    let hub_24 = n_w_bz * gain_w_v1 + n_tz_bz_w * gain_tz_v1;
+    let hub_25 = hub_24 + n_ty_bz_wtz * gain_ty_v1 + n_sz_bz_wtzty * gain_sz_v1;
+    let hub_26 = hub_25 + n_sy_bz_wtztysz * gain_sy_v1;
+    let m_vw_13 = hub_26 + n_sx_bz_wtztyszsy * gain_sx_v1;
+    let hub_27 = n_w_bx * gain_w_v2 + n_tz_bx_w * gain_tz_v2;
+    let hub_28 = hub_27 + n_ty_bx_wtz * gain_ty_v2 + n_sz_bx_wtzty * gain_sz_v2;
+    let hub_29 = hub_28 + n_sy_bx_wtztysz * gain_sy_v2;
+    let m_vw_21 = hub_29 + n_sx_bx_wtztyszsy * gain_sx_v2;
+    let hub_30 = n_w_by * gain_w_v2 + n_tz_by_w * gain_tz_v2;
+    let hub_31 = hub_30 + n_ty_by_wtz * gain_ty_v2 + n_sz_by_wtzty * gain_sz_v2;
+    let hub_32 = hub_31 + n_sy_by_wtztysz * gain_sy_v2;
+    let m_vw_22 = hub_32 + n_sx_by_wtztyszsy * gain_sx_v2;
+    let hub_33 = n_w_bz * gain_w_v2 + n_tz_bz_w * gain_tz_v2;
+    let hub_34 = hub_33 + n_ty_bz_wtz * gain_ty_v2 + n_sz_bz_wtzty * gain_sz_v2;
+    let hub_35 = hub_34 + n_sy_bz_wtztysz * gain_sy_v2;
+    let m_vw_23 = hub_35 + n_sx_bz_wtztyszsy * gain_sx_v2;
+    let hub_36 = n_w_bx * gain_w_v3 + n_tz_bx_w * gain_tz_v3;
+    let hub_37 = hub_36 + n_ty_bx_wtz * gain_ty_v3 + n_sz_bx_wtzty * gain_sz_v3;
+    let hub_38 = hub_37 + n_sy_bx_wtztysz * gain_sy_v3;
+    let m_vw_31 = hub_38 + n_sx_bx_wtztyszsy * gain_sx_v3;
+    let hub_39 = n_w_by * gain_w_v3 + n_tz_by_w * gain_tz_v3;
+    let hub_40 = hub_39 + n_ty_by_wtz * gain_ty_v3 + n_sz_by_wtzty * gain_sz_v3;
+    let hub_41 = hub_40 + n_sy_by_wtztysz * gain_sy_v3;
+    let m_vw_32 = hub_41 + n_sx_by_wtztyszsy * gain_sx_v3;
+    let hub_42 = n_w_bz * gain_w_v3 + n_tz_bz_w * gain_tz_v3;
+    let hub_43 = hub_42 + n_ty_bz_wtz * gain_ty_v3 + n_sz_bz_wtzty * gain_sz_v3;
+    let hub_44 = hub_43 + n_sy_bz_wtztysz * gain_sy_v3;
+    let m_vw_33 = hub_44 + n_sx_bz_wtztyszsy * gain_sx_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let hub_60 = (n_w_bx * gain_w_w1).add_mul(n_tz_bx_w, gain_tz_w1);
-    let hub_61 = hub_60.add_mul(n_ty_bx_wtz, gain_ty_w1);
-    let hub_62 = hub_61.add_mul(n_sz_bx_wtzty, gain_sz_w1);
-    let hub_63 = hub_62.add_mul(n_sy_bx_wtztysz, gain_sy_w1);
-    let m_ww_11 = hub_63.add_mul(n_sx_bx_wtztyszsy, gain_sx_w1);
-    let hub_64 = (n_w_by * gain_w_w1).add_mul(n_tz_by_w, gain_tz_w1);
-    let hub_65 = hub_64.add_mul(n_ty_by_wtz, gain_ty_w1);
-    let hub_66 = hub_65.add_mul(n_sz_by_wtzty, gain_sz_w1);
-    let hub_67 = hub_66.add_mul(n_sy_by_wtztysz, gain_sy_w1);
-    let m_ww_12 = hub_67.add_mul(n_sx_by_wtztyszsy, gain_sx_w1);
-    let hub_68 = (n_w_bz * gain_w_w1).add_mul(n_tz_bz_w, gain_tz_w1);
-    let hub_69 = hub_68.add_mul(n_ty_bz_wtz, gain_ty_w1);
-    let hub_70 = hub_69.add_mul(n_sz_bz_wtzty, gain_sz_w1);
-    let hub_71 = hub_70.add_mul(n_sy_bz_wtztysz, gain_sy_w1);
-    let m_ww_13 = hub_71.add_mul(n_sx_bz_wtztyszsy, gain_sx_w1);
-    let hub_72 = (n_w_by * gain_w_w2).add_mul(n_tz_by_w, gain_tz_w2);
-    let hub_73 = hub_72.add_mul(n_ty_by_wtz, gain_ty_w2);
-    let hub_74 = hub_73.add_mul(n_sz_by_wtzty, gain_sz_w2);
-    let hub_75 = hub_74.add_mul(n_sy_by_wtztysz, gain_sy_w2);
-    let m_ww_22 = hub_75.add_mul(n_sx_by_wtztyszsy, gain_sx_w2);
-    let hub_76 = (n_w_bz * gain_w_w2).add_mul(n_tz_bz_w, gain_tz_w2);
-    let hub_77 = hub_76.add_mul(n_ty_bz_wtz, gain_ty_w2);
-    let hub_78 = hub_77.add_mul(n_sz_bz_wtzty, gain_sz_w2);
-    let hub_79 = hub_78.add_mul(n_sy_bz_wtztysz, gain_sy_w2);
-    let m_ww_23 = hub_79.add_mul(n_sx_bz_wtztyszsy, gain_sx_w2);
-    let hub_80 = (n_w_bz * gain_w_w3).add_mul(n_tz_bz_w, gain_tz_w3);
-    let hub_81 = hub_80.add_mul(n_ty_bz_wtz, gain_ty_w3);
-    let hub_82 = hub_81.add_mul(n_sz_bz_wtzty, gain_sz_w3);
-    let hub_83 = hub_82.add_mul(n_sy_bz_wtztysz, gain_sy_w3);
-    let m_ww_33 = hub_83.add_mul(n_sx_bz_wtztyszsy, gain_sx_w3);
+    let hub_45 = n_w_bx * gain_w_w1 + n_tz_bx_w * gain_tz_w1;
+    let hub_46 = hub_45 + n_ty_bx_wtz * gain_ty_w1 + n_sz_bx_wtzty * gain_sz_w1;
+    let hub_47 = hub_46 + n_sy_bx_wtztysz * gain_sy_w1;
+    let m_ww_11 = hub_47 + n_sx_bx_wtztyszsy * gain_sx_w1;
+    let hub_48 = n_w_by * gain_w_w1 + n_tz_by_w * gain_tz_w1;
+    let hub_49 = hub_48 + n_ty_by_wtz * gain_ty_w1 + n_sz_by_wtzty * gain_sz_w1;
+    let hub_50 = hub_49 + n_sy_by_wtztysz * gain_sy_w1;
+    let m_ww_12 = hub_50 + n_sx_by_wtztyszsy * gain_sx_w1;
+    let hub_51 = n_w_bz * gain_w_w1 + n_tz_bz_w * gain_tz_w1;
+    let hub_52 = hub_51 + n_ty_bz_wtz * gain_ty_w1 + n_sz_bz_wtzty * gain_sz_w1;
+    let hub_53 = hub_52 + n_sy_bz_wtztysz * gain_sy_w1;
+    let m_ww_13 = hub_53 + n_sx_bz_wtztyszsy * gain_sx_w1;
+    let hub_54 = n_w_by * gain_w_w2 + n_tz_by_w * gain_tz_w2;
+    let hub_55 = hub_54 + n_ty_by_wtz * gain_ty_w2 + n_sz_by_wtzty * gain_sz_w2;
+    let hub_56 = hub_55 + n_sy_by_wtztysz * gain_sy_w2;
+    let m_ww_22 = hub_56 + n_sx_by_wtztyszsy * gain_sx_w2;
+    let hub_57 = n_w_bz * gain_w_w2 + n_tz_bz_w * gain_tz_w2;
+    let hub_58 = hub_57 + n_ty_bz_wtz * gain_ty_w2 + n_sz_bz_wtzty * gain_sz_w2;
+    let hub_59 = hub_58 + n_sy_bz_wtztysz * gain_sy_w2;
+    let m_ww_23 = hub_59 + n_sx_bz_wtztyszsy * gain_sx_w2;
+    let hub_60 = n_w_bz * gain_w_w3 + n_tz_bz_w * gain_tz_w3;
+    let hub_61 = hub_60 + n_ty_bz_wtz * gain_ty_w3 + n_sz_bz_wtzty * gain_sz_w3;
+    let hub_62 = hub_61 + n_sy_bz_wtztysz * gain_sy_w3;
+    let m_ww_33 = hub_62 + n_sx_bz_wtztyszsy * gain_sx_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let hub_84 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_tz_bx_w, free_tz);
-    let hub_85 = hub_84.add_mul(f_ty_bx_wtz, free_ty).add_mul(f_sz_bx_wtzty, free_sz);
-    let hub_86 = hub_85.add_mul(f_sy_bx_wtztysz, free_sy);
-    let h_v_1 = hub_86.add_mul(f_sx_bx_wtztyszsy, free_sx);
-    let hub_87 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_tz_by_w, free_tz);
-    let hub_88 = hub_87.add_mul(f_ty_by_wtz, free_ty).add_mul(f_sz_by_wtzty, free_sz);
-    let hub_89 = hub_88.add_mul(f_sy_by_wtztysz, free_sy);
-    let h_v_2 = hub_89.add_mul(f_sx_by_wtztyszsy, free_sx);
-    let hub_90 = f_rates_bz.add_mul(f_w_bz, free_w).add_mul(f_tz_bz_w, free_tz);
-    let hub_91 = hub_90.add_mul(f_ty_bz_wtz, free_ty).add_mul(f_sz_bz_wtzty, free_sz);
-    let hub_92 = hub_91.add_mul(f_sy_bz_wtztysz, free_sy);
-    let h_v_3 = hub_92.add_mul(f_sx_bz_wtztyszsy, free_sx);
-    let hub_93 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_tz_bx_w, free_tz);
-    let hub_94 = hub_93.add_mul(n_ty_bx_wtz, free_ty).add_mul(n_sz_bx_wtzty, free_sz);
-    let hub_95 = hub_94.add_mul(n_sy_bx_wtztysz, free_sy);
-    let h_w_1 = hub_95.add_mul(n_sx_bx_wtztyszsy, free_sx);
-    let hub_96 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_tz_by_w, free_tz);
-    let hub_97 = hub_96.add_mul(n_ty_by_wtz, free_ty).add_mul(n_sz_by_wtzty, free_sz);
-    let hub_98 = hub_97.add_mul(n_sy_by_wtztysz, free_sy);
-    let h_w_2 = hub_98.add_mul(n_sx_by_wtztyszsy, free_sx);
-    let hub_99 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_tz_bz_w, free_tz);
-    let hub_100 = hub_99.add_mul(n_ty_bz_wtz, free_ty).add_mul(n_sz_bz_wtzty, free_sz);
-    let hub_101 = hub_100.add_mul(n_sy_bz_wtztysz, free_sy);
-    let h_w_3 = hub_101.add_mul(n_sx_bz_wtztyszsy, free_sx);
+    let hub_63 = f_rates_bx + f_w_bx * free_w + f_tz_bx_w * free_tz;
+    let hub_64 = hub_63 + f_ty_bx_wtz * free_ty + f_sz_bx_wtzty * free_sz;
+    let h_v_1 = hub_64 + f_sy_bx_wtztysz * free_sy + f_sx_bx_wtztyszsy * free_sx;
+    let hub_65 = f_rates_by + f_w_by * free_w + f_tz_by_w * free_tz;
+    let hub_66 = hub_65 + f_ty_by_wtz * free_ty + f_sz_by_wtzty * free_sz;
+    let h_v_2 = hub_66 + f_sy_by_wtztysz * free_sy + f_sx_by_wtztyszsy * free_sx;
+    let hub_67 = f_rates_bz + f_w_bz * free_w + f_tz_bz_w * free_tz;
+    let hub_68 = hub_67 + f_ty_bz_wtz * free_ty + f_sz_bz_wtzty * free_sz;
+    let h_v_3 = hub_68 + f_sy_bz_wtztysz * free_sy + f_sx_bz_wtztyszsy * free_sx;
+    let hub_69 = n_rates_bx + n_w_bx * free_w + n_tz_bx_w * free_tz;
+    let hub_70 = hub_69 + n_ty_bx_wtz * free_ty + n_sz_bx_wtzty * free_sz;
+    let h_w_1 = hub_70 + n_sy_bx_wtztysz * free_sy + n_sx_bx_wtztyszsy * free_sx;
+    let hub_71 = n_rates_by + n_w_by * free_w + n_tz_by_w * free_tz;
+    let hub_72 = hub_71 + n_ty_by_wtz * free_ty + n_sz_by_wtzty * free_sz;
+    let h_w_2 = hub_72 + n_sy_by_wtztysz * free_sy + n_sx_by_wtztyszsy * free_sx;
+    let hub_73 = n_rates_bz + n_w_bz * free_w + n_tz_bz_w * free_tz;
+    let hub_74 = hub_73 + n_ty_bz_wtz * free_ty + n_sz_bz_wtzty * free_sz;
+    let h_w_3 = hub_74 + n_sy_bz_wtztysz * free_sy + n_sx_bz_wtztyszsy * free_sx;
 
     Eliminated {
         share: HubShare {
@@ -3187,55 +3097,48 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_sx.sub_mul(a.r_b_n_ddot_bx, e.gain_sx_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_sx_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_sx_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_sx_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_sx_w2);
-    let x_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_sx_w3);
-    let row_5 = e.free_sy.sub_mul(a.r_b_n_ddot_bx, e.gain_sy_v1);
-    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_sy_v2);
-    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_sy_v3);
-    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_sy_w1);
-    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_sy_w2);
-    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_sy_w3);
-    let y_ddot = row_10.sub_mul(x_ddot, e.gain_sy_sx);
-    let row_11 = e.free_sz.sub_mul(a.r_b_n_ddot_bx, e.gain_sz_v1);
-    let row_12 = row_11.sub_mul(a.r_b_n_ddot_by, e.gain_sz_v2);
-    let row_13 = row_12.sub_mul(a.r_b_n_ddot_bz, e.gain_sz_v3);
-    let row_14 = row_13.sub_mul(a.omega_dot_bx, e.gain_sz_w1);
-    let row_15 = row_14.sub_mul(a.omega_dot_by, e.gain_sz_w2);
-    let row_16 = row_15.sub_mul(a.omega_dot_bz, e.gain_sz_w3);
-    let z_ddot = row_16.sub_mul(x_ddot, e.gain_sz_sx).sub_mul(y_ddot, e.gain_sz_sy);
-    let row_17 = e.free_ty.sub_mul(a.r_b_n_ddot_bx, e.gain_ty_v1);
-    let row_18 = row_17.sub_mul(a.r_b_n_ddot_by, e.gain_ty_v2);
-    let row_19 = row_18.sub_mul(a.r_b_n_ddot_bz, e.gain_ty_v3);
-    let row_20 = row_19.sub_mul(a.omega_dot_bx, e.gain_ty_w1);
-    let row_21 = row_20.sub_mul(a.omega_dot_by, e.gain_ty_w2);
-    let row_22 = row_21.sub_mul(a.omega_dot_bz, e.gain_ty_w3);
-    let row_23 = row_22.sub_mul(x_ddot, e.gain_ty_sx);
-    let row_24 = row_23.sub_mul(y_ddot, e.gain_ty_sy);
-    let tilt_y_ddot = row_24.sub_mul(z_ddot, e.gain_ty_sz);
-    let row_25 = e.free_tz.sub_mul(a.r_b_n_ddot_bx, e.gain_tz_v1);
-    let row_26 = row_25.sub_mul(a.r_b_n_ddot_by, e.gain_tz_v2);
-    let row_27 = row_26.sub_mul(a.r_b_n_ddot_bz, e.gain_tz_v3);
-    let row_28 = row_27.sub_mul(a.omega_dot_bx, e.gain_tz_w1);
-    let row_29 = row_28.sub_mul(a.omega_dot_by, e.gain_tz_w2);
-    let row_30 = row_29.sub_mul(a.omega_dot_bz, e.gain_tz_w3);
-    let row_31 = row_30.sub_mul(x_ddot, e.gain_tz_sx);
-    let row_32 = row_31.sub_mul(y_ddot, e.gain_tz_sy);
-    let row_33 = row_32.sub_mul(z_ddot, e.gain_tz_sz);
-    let tilt_z_ddot = row_33.sub_mul(tilt_y_ddot, e.gain_tz_ty);
-    let row_34 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_35 = row_34.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_36 = row_35.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_37 = row_36.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_38 = row_37.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let row_39 = row_38.sub_mul(a.omega_dot_bz, e.gain_w_w3);
-    let row_40 = row_39.sub_mul(x_ddot, e.gain_w_sx).sub_mul(y_ddot, e.gain_w_sy);
-    let row_41 = row_40.sub_mul(z_ddot, e.gain_w_sz);
-    let row_42 = row_41.sub_mul(tilt_y_ddot, e.gain_w_ty);
-    let spin_dot = row_42.sub_mul(tilt_z_ddot, e.gain_w_tz);
+    let row_0 = e.free_sx - a.r_b_n_ddot_bx * e.gain_sx_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_sx_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_sx_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_sx_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_sx_w2;
+    let x_ddot = row_4 - a.omega_dot_bz * e.gain_sx_w3;
+    let row_5 = e.free_sy - a.r_b_n_ddot_bx * e.gain_sy_v1;
+    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_sy_v2;
+    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_sy_v3;
+    let row_8 = row_7 - a.omega_dot_bx * e.gain_sy_w1;
+    let row_9 = row_8 - a.omega_dot_by * e.gain_sy_w2;
+    let y_ddot = row_9 - a.omega_dot_bz * e.gain_sy_w3 - x_ddot * e.gain_sy_sx;
+    let row_10 = e.free_sz - a.r_b_n_ddot_bx * e.gain_sz_v1;
+    let row_11 = row_10 - a.r_b_n_ddot_by * e.gain_sz_v2;
+    let row_12 = row_11 - a.r_b_n_ddot_bz * e.gain_sz_v3;
+    let row_13 = row_12 - a.omega_dot_bx * e.gain_sz_w1;
+    let row_14 = row_13 - a.omega_dot_by * e.gain_sz_w2;
+    let row_15 = row_14 - a.omega_dot_bz * e.gain_sz_w3 - x_ddot * e.gain_sz_sx;
+    let z_ddot = row_15 - y_ddot * e.gain_sz_sy;
+    let row_16 = e.free_ty - a.r_b_n_ddot_bx * e.gain_ty_v1;
+    let row_17 = row_16 - a.r_b_n_ddot_by * e.gain_ty_v2;
+    let row_18 = row_17 - a.r_b_n_ddot_bz * e.gain_ty_v3;
+    let row_19 = row_18 - a.omega_dot_bx * e.gain_ty_w1;
+    let row_20 = row_19 - a.omega_dot_by * e.gain_ty_w2;
+    let row_21 = row_20 - a.omega_dot_bz * e.gain_ty_w3 - x_ddot * e.gain_ty_sx;
+    let tilt_y_ddot = row_21 - y_ddot * e.gain_ty_sy - z_ddot * e.gain_ty_sz;
+    let row_22 = e.free_tz - a.r_b_n_ddot_bx * e.gain_tz_v1;
+    let row_23 = row_22 - a.r_b_n_ddot_by * e.gain_tz_v2;
+    let row_24 = row_23 - a.r_b_n_ddot_bz * e.gain_tz_v3;
+    let row_25 = row_24 - a.omega_dot_bx * e.gain_tz_w1;
+    let row_26 = row_25 - a.omega_dot_by * e.gain_tz_w2;
+    let row_27 = row_26 - a.omega_dot_bz * e.gain_tz_w3 - x_ddot * e.gain_tz_sx;
+    let row_28 = row_27 - y_ddot * e.gain_tz_sy - z_ddot * e.gain_tz_sz;
+    let tilt_z_ddot = row_28 - tilt_y_ddot * e.gain_tz_ty;
+    let row_29 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_30 = row_29 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_31 = row_30 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_32 = row_31 - a.omega_dot_bx * e.gain_w_w1;
+    let row_33 = row_32 - a.omega_dot_by * e.gain_w_w2;
+    let row_34 = row_33 - a.omega_dot_bz * e.gain_w_w3 - x_ddot * e.gain_w_sx;
+    let row_35 = row_34 - y_ddot * e.gain_w_sy - z_ddot * e.gain_w_sz;
+    let spin_dot = row_35 - tilt_y_ddot * e.gain_w_ty - tilt_z_ddot * e.gain_w_tz;
 
     JointAccelerations { x_ddot, y_ddot, z_ddot, tilt_y_ddot, tilt_z_ddot, spin_dot }
 }

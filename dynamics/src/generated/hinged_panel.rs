@@ -1141,28 +1141,27 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the panel, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_phi * p.mount_11).add_mul(q.sin_phi, p.mount_12);
-    let e_x_by = (q.cos_phi * p.mount_21).add_mul(q.sin_phi, p.mount_22);
-    let e_x_bz = (q.cos_phi * p.mount_31).add_mul(q.sin_phi, p.mount_32);
-    let e_y_bx = (q.cos_phi * p.mount_12).sub_mul(q.sin_phi, p.mount_11);
-    let e_y_by = (q.cos_phi * p.mount_22).sub_mul(q.sin_phi, p.mount_21);
-    let e_y_bz = (q.cos_phi * p.mount_32).sub_mul(q.sin_phi, p.mount_31);
+    let e_x_bx = q.cos_phi * p.mount_11 + q.sin_phi * p.mount_12;
+    let e_x_by = q.cos_phi * p.mount_21 + q.sin_phi * p.mount_22;
+    let e_x_bz = q.cos_phi * p.mount_31 + q.sin_phi * p.mount_32;
+    let e_y_bx = q.cos_phi * p.mount_12 - q.sin_phi * p.mount_11;
+    let e_y_by = q.cos_phi * p.mount_22 - q.sin_phi * p.mount_21;
+    let e_y_bz = q.cos_phi * p.mount_32 - q.sin_phi * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the panel, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_px = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_py = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_pz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_px = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_py = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_pz = rate_2 + w.omega_bz * p.mount_33;
 
     // Joint row of the panel about pz, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m.
-    let row_0 = (p.i_p_base_23 * omega_b_n_pz).sub_mul(p.i_p_base_11, omega_b_n_py);
-    let row_1 = omega_b_n_py * omega_b_n_pz;
-    let row_2 = (omega_b_n_px * omega_b_n_px).sub_mul(omega_b_n_py, omega_b_n_py);
-    let row_3 = (omega_b_n_px * row_0).sub_mul(p.i_p_base_13, row_1);
-    let field_p = row_3.add_mul(p.i_p_base_12, row_2);
+    let row_0 = p.i_p_base_23 * omega_b_n_pz - p.i_p_base_11 * omega_b_n_py;
+    let row_1 = omega_b_n_px * omega_b_n_px - omega_b_n_py * omega_b_n_py;
+    let row_2 = omega_b_n_px * row_0 - omega_b_n_py * omega_b_n_pz * p.i_p_base_13;
+    let field_p = row_2 + p.i_p_base_12 * row_1;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the panel
     // requires, eq. (D8), expressed in the axes of the panel: force, N, and moment, N m, about P
@@ -1172,86 +1171,85 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_p_py = p.mr_pc_p_py * coriolis_0;
     let coriolis_1 = v.phi_dot * omega_b_n_px;
     let coriolis_2 = v.phi_dot * omega_b_n_py;
-    let coriolis_3 = (p.mr_pc_p_px * coriolis_1).add_mul(p.mr_pc_p_py, coriolis_2);
+    let coriolis_3 = p.mr_pc_p_px * coriolis_1 + p.mr_pc_p_py * coriolis_2;
     let f_rates_p_pz = coriolis_3 + coriolis_3;
-    let coriolis_4 = (coriolis_2 * p.k_9).sub_mul(coriolis_1, p.k_8);
-    let n_rates_p_px = coriolis_4.sub_mul(p.i_p_base_23, coriolis_0);
-    let coriolis_5 = (p.i_p_base_13 * coriolis_0).add_mul(coriolis_2, p.k_8);
-    let n_rates_p_py = coriolis_5.sub_mul(coriolis_1, p.k_10);
+    let coriolis_4 = coriolis_2 * p.k_9 - coriolis_1 * p.k_8;
+    let n_rates_p_px = coriolis_4 - p.i_p_base_23 * coriolis_0;
+    let coriolis_5 = p.i_p_base_13 * coriolis_0 + coriolis_2 * p.k_8;
+    let n_rates_p_py = coriolis_5 - coriolis_1 * p.k_10;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_p_bx = (p.mr_pc_p_px * e_y_bx).sub_mul(p.mr_pc_p_py, e_x_bx);
-    let f_p_by = (p.mr_pc_p_px * e_y_by).sub_mul(p.mr_pc_p_py, e_x_by);
-    let f_p_bz = (p.mr_pc_p_px * e_y_bz).sub_mul(p.mr_pc_p_py, e_x_bz);
-    let col_0 = (p.i_p_base_13 * e_x_bx).add_mul(p.i_p_base_23, e_y_bx) + p.k_11;
-    let n_p_bx = (p.reach_by * f_p_bz).sub_mul(p.reach_bz, f_p_by) + col_0;
-    let col_1 = (p.i_p_base_13 * e_x_by).add_mul(p.i_p_base_23, e_y_by) + p.k_12;
-    let n_p_by = (p.reach_bz * f_p_bx).sub_mul(p.reach_bx, f_p_bz) + col_1;
-    let col_2 = (p.i_p_base_13 * e_x_bz).add_mul(p.i_p_base_23, e_y_bz) + p.k_13;
-    let n_p_bz = (p.reach_bx * f_p_by).sub_mul(p.reach_by, f_p_bx) + col_2;
+    let f_p_bx = p.mr_pc_p_px * e_y_bx - p.mr_pc_p_py * e_x_bx;
+    let f_p_by = p.mr_pc_p_px * e_y_by - p.mr_pc_p_py * e_x_by;
+    let f_p_bz = p.mr_pc_p_px * e_y_bz - p.mr_pc_p_py * e_x_bz;
+    let col_0 = p.i_p_base_13 * e_x_bx + p.i_p_base_23 * e_y_bx + p.k_11;
+    let n_p_bx = p.reach_by * f_p_bz - p.reach_bz * f_p_by + col_0;
+    let col_1 = p.i_p_base_13 * e_x_by + p.i_p_base_23 * e_y_by + p.k_12;
+    let n_p_by = p.reach_bz * f_p_bx - p.reach_bx * f_p_bz + col_1;
+    let col_2 = p.i_p_base_13 * e_x_bz + p.i_p_base_23 * e_y_bz + p.k_13;
+    let n_p_bz = p.reach_bx * f_p_by - p.reach_by * f_p_bx + col_2;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let mr_moving_bx = (p.mr_pc_p_px * e_x_bx).add_mul(p.mr_pc_p_py, e_y_bx);
-    let mr_moving_by = (p.mr_pc_p_px * e_x_by).add_mul(p.mr_pc_p_py, e_y_by);
-    let mr_moving_bz = (p.mr_pc_p_px * e_x_bz).add_mul(p.mr_pc_p_py, e_y_bz);
-    let moment_0 = (e_x_bx * p.k_14).add_mul(p.i_p_base_12, e_y_bx);
+    let mr_moving_bx = p.mr_pc_p_px * e_x_bx + p.mr_pc_p_py * e_y_bx;
+    let mr_moving_by = p.mr_pc_p_px * e_x_by + p.mr_pc_p_py * e_y_by;
+    let mr_moving_bz = p.mr_pc_p_px * e_x_bz + p.mr_pc_p_py * e_y_bz;
+    let moment_0 = e_x_bx * p.k_14 + p.i_p_base_12 * e_y_bx;
     let moment_1 = col_0 + p.k_15;
-    let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
+    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
     let moment_3 = moment_2 + moment_2;
     let moment_4 = mr_moving_by * p.k_19;
     let moment_5 = mr_moving_bz * p.k_20;
     let i_moving_11 = moment_4 + moment_5 + moment_3;
-    let moment_6 = (e_x_by * p.k_14).add_mul(p.i_p_base_12, e_y_by);
+    let moment_6 = e_x_by * p.k_14 + p.i_p_base_12 * e_y_by;
     let moment_7 = col_1 + p.k_16;
-    let moment_8 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
-    let moment_9 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_10 = (e_x_bx * moment_6).add_mul(p.mount_13, moment_7) + moment_8;
-    let i_moving_12 = moment_10 - moment_9;
-    let moment_11 = (e_x_bz * p.k_14).add_mul(p.i_p_base_12, e_y_bz);
-    let moment_12 = col_2 + p.k_17;
-    let moment_13 = (e_x_bx * moment_11).add_mul(p.mount_13, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_15 = moment_13 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
-    let i_moving_13 = moment_15 - moment_14;
-    let moment_16 = (e_x_by * moment_6).add_mul(p.mount_23, moment_7);
-    let moment_17 = moment_16 + moment_16;
-    let moment_18 = mr_moving_bx * p.k_18;
-    let i_moving_22 = moment_18 + moment_5 + moment_17;
-    let moment_19 = (e_x_by * moment_11).add_mul(p.mount_23, moment_12);
-    let moment_20 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
-    let moment_21 = moment_19 + (e_x_bz * moment_6).add_mul(p.mount_33, moment_7);
-    let i_moving_23 = moment_21 - moment_20;
-    let i_moving_33 = moment_18 + moment_4 + (p.k_9 - moment_3 - moment_17);
+    let moment_8 = e_x_by * moment_0 + p.mount_23 * moment_1;
+    let moment_9 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_x_bx * moment_6 + p.mount_13 * moment_7 + moment_8 - moment_9;
+    let moment_10 = e_x_bz * p.k_14 + p.i_p_base_12 * e_y_bz;
+    let moment_11 = col_2 + p.k_17;
+    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
+    let moment_13 = moment_12 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
+    let moment_14 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_13 - moment_14;
+    let moment_15 = e_x_by * moment_6 + p.mount_23 * moment_7;
+    let moment_16 = moment_15 + moment_15;
+    let moment_17 = mr_moving_bx * p.k_18;
+    let i_moving_22 = moment_17 + moment_5 + moment_16;
+    let moment_18 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_19 = moment_18 + (e_x_bz * moment_6 + p.mount_33 * moment_7);
+    let moment_20 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_19 - moment_20;
+    let i_moving_33 = moment_17 + moment_4 + (p.k_9 - moment_3 - moment_16);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * neg_f_rates_p_px).add_mul(e_y_bx, neg_f_rates_p_py);
-    let f_rates_bx = p.mount_13.mul_sub(f_rates_p_pz, bias_0);
-    let bias_1 = (e_x_by * neg_f_rates_p_px).add_mul(e_y_by, neg_f_rates_p_py);
-    let f_rates_by = p.mount_23.mul_sub(f_rates_p_pz, bias_1);
-    let bias_2 = (e_x_bz * neg_f_rates_p_px).add_mul(e_y_bz, neg_f_rates_p_py);
-    let f_rates_bz = p.mount_33.mul_sub(f_rates_p_pz, bias_2);
-    let bias_3 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = (e_x_bx * n_rates_p_px).add_mul(e_y_bx, n_rates_p_py) + bias_3;
-    let bias_4 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = (e_x_by * n_rates_p_px).add_mul(e_y_by, n_rates_p_py) + bias_4;
-    let bias_5 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = (e_x_bz * n_rates_p_px).add_mul(e_y_bz, n_rates_p_py) + bias_5;
+    let bias_0 = e_x_bx * neg_f_rates_p_px + e_y_bx * neg_f_rates_p_py;
+    let f_rates_bx = p.mount_13 * f_rates_p_pz - bias_0;
+    let bias_1 = e_x_by * neg_f_rates_p_px + e_y_by * neg_f_rates_p_py;
+    let f_rates_by = p.mount_23 * f_rates_p_pz - bias_1;
+    let bias_2 = e_x_bz * neg_f_rates_p_px + e_y_bz * neg_f_rates_p_py;
+    let f_rates_bz = p.mount_33 * f_rates_p_pz - bias_2;
+    let bias_3 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = e_x_bx * n_rates_p_px + e_y_bx * n_rates_p_py + bias_3;
+    let bias_4 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = e_x_by * n_rates_p_px + e_y_by * n_rates_p_py + bias_4;
+    let bias_5 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = e_x_bz * n_rates_p_px + e_y_bz * n_rates_p_py + bias_5;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
-    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
-    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
-    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
-    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
-    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_6 = (f_p_bx * r_first_rest_bx).add_mul(f_p_by, r_first_rest_by);
-    let u_rest_p = bias_6.add_mul(f_p_bz, r_first_rest_bz) + field_p;
+    let bias_6 = f_p_bx * r_first_rest_bx + f_p_by * r_first_rest_by;
+    let u_rest_p = bias_6 + f_p_bz * r_first_rest_bz + field_p;
 
     // Right side of each joint row, eq. (80): motor torque less bias, N m.
     let tau_p = u.u_p - u_rest_p;
@@ -1265,7 +1263,7 @@ pub fn eliminate<T: Real>(
     let gain_p_w1 = n_p_bx * recip_p;
     let gain_p_w2 = n_p_by * recip_p;
     let gain_p_w3 = n_p_bz * recip_p;
-    let free_p = m.given_p.add_mul(tau_p, recip_p);
+    let free_p = m.given_p + tau_p * recip_p;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_p_bx * gain_p_v1;
@@ -1295,12 +1293,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_p_bz * gain_p_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_p_bx, free_p);
-    let h_v_2 = f_rates_by.add_mul(f_p_by, free_p);
-    let h_v_3 = f_rates_bz.add_mul(f_p_bz, free_p);
-    let h_w_1 = n_rates_bx.add_mul(n_p_bx, free_p);
-    let h_w_2 = n_rates_by.add_mul(n_p_by, free_p);
-    let h_w_3 = n_rates_bz.add_mul(n_p_bz, free_p);
+    let h_v_1 = f_rates_bx + f_p_bx * free_p;
+    let h_v_2 = f_rates_by + f_p_by * free_p;
+    let h_v_3 = f_rates_bz + f_p_bz * free_p;
+    let h_w_1 = n_rates_bx + n_p_bx * free_p;
+    let h_w_2 = n_rates_by + n_p_by * free_p;
+    let h_w_3 = n_rates_bz + n_p_bz * free_p;
 
     Eliminated {
         share: HubShare {
@@ -1356,12 +1354,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_p.sub_mul(a.r_b_n_ddot_bx, e.gain_p_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_p_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_p_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_p_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_p_w2);
-    let phi_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_p_w3);
+    let row_0 = e.free_p - a.r_b_n_ddot_bx * e.gain_p_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_p_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_p_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_p_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_p_w2;
+    let phi_ddot = row_4 - a.omega_dot_bz * e.gain_p_w3;
 
     JointAccelerations { phi_ddot }
 }

@@ -1064,27 +1064,27 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the wheel, eq. (D1), expressed in B, 1.
-    let e_y_bx = (q.cos_theta * p.mount_12).add_mul(q.sin_theta, p.mount_13);
-    let e_y_by = (q.cos_theta * p.mount_22).add_mul(q.sin_theta, p.mount_23);
-    let e_y_bz = (q.cos_theta * p.mount_32).add_mul(q.sin_theta, p.mount_33);
-    let e_z_bx = (q.cos_theta * p.mount_13).sub_mul(q.sin_theta, p.mount_12);
-    let e_z_by = (q.cos_theta * p.mount_23).sub_mul(q.sin_theta, p.mount_22);
-    let e_z_bz = (q.cos_theta * p.mount_33).sub_mul(q.sin_theta, p.mount_32);
+    let e_y_bx = q.cos_theta * p.mount_12 + q.sin_theta * p.mount_13;
+    let e_y_by = q.cos_theta * p.mount_22 + q.sin_theta * p.mount_23;
+    let e_y_bz = q.cos_theta * p.mount_32 + q.sin_theta * p.mount_33;
+    let e_z_bx = q.cos_theta * p.mount_13 - q.sin_theta * p.mount_12;
+    let e_z_by = q.cos_theta * p.mount_23 - q.sin_theta * p.mount_22;
+    let e_z_bz = q.cos_theta * p.mount_33 - q.sin_theta * p.mount_32;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let rate_0 = (w.omega_bx * p.mount_11).add_mul(w.omega_by, p.mount_21);
-    let omega_b_n_wx = rate_0.add_mul(w.omega_bz, p.mount_31);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_wy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * e_z_bx).add_mul(w.omega_by, e_z_by);
-    let omega_b_n_wz = rate_2.add_mul(w.omega_bz, e_z_bz);
+    let rate_0 = w.omega_bx * p.mount_11 + w.omega_by * p.mount_21;
+    let omega_b_n_wx = rate_0 + w.omega_bz * p.mount_31;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_wy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * e_z_bx + w.omega_by * e_z_by;
+    let omega_b_n_wz = rate_2 + w.omega_bz * e_z_bz;
 
     // Joint row of the wheel about wx, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m.
-    let row_0 = (omega_b_n_wy * omega_b_n_wy).sub_mul(omega_b_n_wz, omega_b_n_wz);
-    let row_1 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
-    let row_2 = (p.j_23 * row_0).add_mul(omega_b_n_wx, row_1);
-    let field_w = row_2.sub_mul(p.i_w_base_22, omega_b_n_wy * omega_b_n_wz);
+    let row_0 = omega_b_n_wy * omega_b_n_wy - omega_b_n_wz * omega_b_n_wz;
+    let row_1 = p.j_13 * omega_b_n_wy - p.i_w_base_12 * omega_b_n_wz;
+    let row_2 = omega_b_n_wy * omega_b_n_wz * p.i_w_base_22;
+    let field_w = p.j_23 * row_0 + omega_b_n_wx * row_1 - row_2;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
@@ -1095,81 +1095,79 @@ pub fn eliminate<T: Real>(
     let coriolis_2 = v.spin * (v.spin + omega_b_n_wx + omega_b_n_wx);
     let neg_f_rates_w_wy = p.mr_wc_w_wy * coriolis_2;
     let coriolis_3 = v.spin * omega_b_n_wz;
-    let coriolis_4 = (coriolis_3 * p.k_7).sub_mul(p.k_2, coriolis_0);
-    let n_rates_w_wy = coriolis_4.sub_mul(p.j_13, coriolis_2);
-    let coriolis_5 = (p.i_w_base_12 * coriolis_2).add_mul(p.k_2, coriolis_3);
-    let n_rates_w_wz = coriolis_5.sub_mul(coriolis_0, p.k_8);
+    let n_rates_w_wy = coriolis_3 * p.k_7 - p.k_2 * coriolis_0 - p.j_13 * coriolis_2;
+    let coriolis_4 = p.i_w_base_12 * coriolis_2 + p.k_2 * coriolis_3;
+    let n_rates_w_wz = coriolis_4 - coriolis_0 * p.k_8;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
-    let col_0 = p.k_9.add_mul(p.i_w_base_12, e_y_bx).add_mul(p.j_13, e_z_bx);
-    let n_w_bx = (p.reach_by * f_w_bz).sub_mul(p.reach_bz, f_w_by) + col_0;
-    let col_1 = p.k_10.add_mul(p.i_w_base_12, e_y_by).add_mul(p.j_13, e_z_by);
-    let n_w_by = (p.reach_bz * f_w_bx).sub_mul(p.reach_bx, f_w_bz) + col_1;
-    let col_2 = p.k_11.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
-    let n_w_bz = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx) + col_2;
+    let col_0 = p.k_9 + p.i_w_base_12 * e_y_bx + p.j_13 * e_z_bx;
+    let n_w_bx = p.reach_by * f_w_bz - p.reach_bz * f_w_by + col_0;
+    let col_1 = p.k_10 + p.i_w_base_12 * e_y_by + p.j_13 * e_z_by;
+    let n_w_by = p.reach_bz * f_w_bx - p.reach_bx * f_w_bz + col_1;
+    let col_2 = p.k_11 + p.i_w_base_12 * e_y_bz + p.j_13 * e_z_bz;
+    let n_w_bz = p.reach_bx * f_w_by - p.reach_by * f_w_bx + col_2;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
     let mr_moving_bx = p.mr_wc_w_wy * e_y_bx;
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
-    let moment_0 = (e_y_bx * p.k_12).add_mul(p.j_23, e_z_bx);
+    let moment_0 = e_y_bx * p.k_12 + p.j_23 * e_z_bx;
     let moment_1 = col_0 + p.k_13;
-    let moment_2 = (e_y_bx * moment_0).add_mul(p.mount_11, moment_1);
+    let moment_2 = e_y_bx * moment_0 + p.mount_11 * moment_1;
     let moment_3 = moment_2 + moment_2;
     let moment_4 = mr_moving_by * p.k_17;
     let moment_5 = mr_moving_bz * p.k_18;
     let i_moving_11 = moment_4 + moment_5 + moment_3;
-    let moment_6 = (e_y_by * p.k_12).add_mul(p.j_23, e_z_by);
+    let moment_6 = e_y_by * p.k_12 + p.j_23 * e_z_by;
     let moment_7 = col_1 + p.k_14;
-    let moment_8 = (e_y_by * moment_0).add_mul(p.mount_21, moment_1);
-    let moment_9 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_10 = (e_y_bx * moment_6).add_mul(p.mount_11, moment_7) + moment_8;
-    let i_moving_12 = moment_10 - moment_9;
-    let moment_11 = (e_y_bz * p.k_12).add_mul(p.j_23, e_z_bz);
-    let moment_12 = col_2 + p.k_15;
-    let moment_13 = (e_y_bx * moment_11).add_mul(p.mount_11, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_15 = moment_13 + (e_y_bz * moment_0).add_mul(p.mount_31, moment_1);
-    let i_moving_13 = moment_15 - moment_14;
-    let moment_16 = (e_y_by * moment_6).add_mul(p.mount_21, moment_7);
-    let moment_17 = moment_16 + moment_16;
-    let moment_18 = mr_moving_bx * p.k_16;
-    let i_moving_22 = moment_18 + moment_5 + moment_17;
-    let moment_19 = (e_y_by * moment_11).add_mul(p.mount_21, moment_12);
-    let moment_20 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
-    let moment_21 = moment_19 + (e_y_bz * moment_6).add_mul(p.mount_31, moment_7);
-    let i_moving_23 = moment_21 - moment_20;
-    let i_moving_33 = moment_18 + moment_4 + (p.k_7 - moment_3 - moment_17);
+    let moment_8 = e_y_by * moment_0 + p.mount_21 * moment_1;
+    let moment_9 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_y_bx * moment_6 + p.mount_11 * moment_7 + moment_8 - moment_9;
+    let moment_10 = e_y_bz * p.k_12 + p.j_23 * e_z_bz;
+    let moment_11 = col_2 + p.k_15;
+    let moment_12 = e_y_bx * moment_10 + p.mount_11 * moment_11;
+    let moment_13 = moment_12 + (e_y_bz * moment_0 + p.mount_31 * moment_1);
+    let moment_14 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_13 - moment_14;
+    let moment_15 = e_y_by * moment_6 + p.mount_21 * moment_7;
+    let moment_16 = moment_15 + moment_15;
+    let moment_17 = mr_moving_bx * p.k_16;
+    let i_moving_22 = moment_17 + moment_5 + moment_16;
+    let moment_18 = e_y_by * moment_10 + p.mount_21 * moment_11;
+    let moment_19 = moment_18 + (e_y_bz * moment_6 + p.mount_31 * moment_7);
+    let moment_20 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_19 - moment_20;
+    let i_moving_33 = moment_17 + moment_4 + (p.k_7 - moment_3 - moment_16);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let f_rates_bx = (p.mount_11 * f_rates_w_wx).sub_mul(e_y_bx, neg_f_rates_w_wy);
-    let f_rates_by = (p.mount_21 * f_rates_w_wx).sub_mul(e_y_by, neg_f_rates_w_wy);
-    let f_rates_bz = (p.mount_31 * f_rates_w_wx).sub_mul(e_y_bz, neg_f_rates_w_wy);
-    let bias_0 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = (e_y_bx * n_rates_w_wy).add_mul(e_z_bx, n_rates_w_wz) + bias_0;
-    let bias_1 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = (e_y_by * n_rates_w_wy).add_mul(e_z_by, n_rates_w_wz) + bias_1;
-    let bias_2 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = (e_y_bz * n_rates_w_wy).add_mul(e_z_bz, n_rates_w_wz) + bias_2;
+    let f_rates_bx = p.mount_11 * f_rates_w_wx - e_y_bx * neg_f_rates_w_wy;
+    let f_rates_by = p.mount_21 * f_rates_w_wx - e_y_by * neg_f_rates_w_wy;
+    let f_rates_bz = p.mount_31 * f_rates_w_wx - e_y_bz * neg_f_rates_w_wy;
+    let bias_0 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = e_y_bx * n_rates_w_wy + e_z_bx * n_rates_w_wz + bias_0;
+    let bias_1 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = e_y_by * n_rates_w_wy + e_z_by * n_rates_w_wz + bias_1;
+    let bias_2 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = e_y_bz * n_rates_w_wy + e_z_bz * n_rates_w_wz + bias_2;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
-    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
-    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
-    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
-    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
-    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_3 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
-    let u_rest_w = bias_3.add_mul(f_w_bz, r_first_rest_bz) + field_w;
+    let bias_3 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
+    let u_rest_w = bias_3 + f_w_bz * r_first_rest_bz + field_w;
 
     // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -1183,7 +1181,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
@@ -1213,12 +1211,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_w_bz * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
-    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w;
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w;
 
     Eliminated {
         share: HubShare {
@@ -1274,12 +1272,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_4.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_w_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_4 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

@@ -1688,20 +1688,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
-    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
-    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
-    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
-    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
-    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
 
     // ω_{G/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1714,32 +1714,31 @@ pub fn eliminate<T: Real>(
     // in the axes of the gimbal: first moment, kg m, and inertia, kg m², about W moved by (D3).
     let mr_behind_w_gy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_gz = q.sin_theta * p.mr_wc_w_wy;
-    let i_behind_w_12 = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
-    let i_behind_w_13 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.i_w_base_12);
-    let lump_0 = (q.cos_theta * p.k_2).add_mul(q.sin_theta, p.i_w_base_22);
+    let i_behind_w_12 = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let i_behind_w_13 = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
+    let lump_0 = q.cos_theta * p.k_2 + q.sin_theta * p.i_w_base_22;
     let i_behind_w_33 = q.sin_theta * lump_0;
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
-    let i_behind_w_23 = p.k_3.add_mul(q.cos_theta, lump_0);
+    let i_behind_w_23 = p.k_3 + q.cos_theta * lump_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the gimbal: force, N, and moment, N m, about
     // W moved by (D3).
     let coriolis_0 = v.spin * omega_b_n_gy;
     let coriolis_1 = v.spin * omega_g_n_gz;
-    let coriolis_2 = mr_behind_w_gy * coriolis_0;
-    let coriolis_3 = coriolis_2.add_mul(mr_behind_w_gz, coriolis_1);
-    let f_rates_w_gx = coriolis_3 + coriolis_3;
-    let coriolis_4 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
-    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_4;
-    let coriolis_5 = mr_behind_w_gz * coriolis_4;
-    let f_rates_w_gz = -coriolis_5;
-    let coriolis_6 = i_behind_w_22 - i_behind_w_33;
-    let coriolis_7 = i_behind_w_23 + i_behind_w_23;
-    let coriolis_8 = coriolis_1 * (p.i_w_w_11 + coriolis_6);
-    let coriolis_9 = coriolis_8.sub_mul(coriolis_0, coriolis_7);
-    let n_rates_w_gy = coriolis_9.sub_mul(i_behind_w_13, coriolis_4);
-    let coriolis_10 = (i_behind_w_12 * coriolis_4).add_mul(coriolis_1, coriolis_7);
-    let n_rates_w_gz = coriolis_10.sub_mul(coriolis_0, p.i_w_w_11 - coriolis_6);
+    let coriolis_2 = mr_behind_w_gy * coriolis_0 + mr_behind_w_gz * coriolis_1;
+    let f_rates_w_gx = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
+    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_3;
+    let coriolis_4 = mr_behind_w_gz * coriolis_3;
+    let f_rates_w_gz = -coriolis_4;
+    let coriolis_5 = i_behind_w_22 - i_behind_w_33;
+    let coriolis_6 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_7 = coriolis_1 * (p.i_w_w_11 + coriolis_5);
+    let coriolis_8 = coriolis_7 - coriolis_0 * coriolis_6;
+    let n_rates_w_gy = coriolis_8 - i_behind_w_13 * coriolis_3;
+    let coriolis_9 = i_behind_w_12 * coriolis_3 + coriolis_1 * coriolis_6;
+    let n_rates_w_gz = coriolis_9 - coriolis_0 * (p.i_w_w_11 - coriolis_5);
 
     // Outboard composite of the joint of the gimbal, D, by base parameters, eq. (D6), expressed
     // in the axes of the gimbal: first moment, kg m, and inertia, kg m², about G moved by (D3).
@@ -1748,125 +1747,121 @@ pub fn eliminate<T: Real>(
     let i_behind_d_11 = lump_1 + p.k_36;
     let i_behind_d_12 = p.i_g_base_12 + i_behind_w_12;
     let i_behind_d_13 = p.i_g_base_13 + i_behind_w_13;
-    let lump_2 = i_behind_w_23.sub_mul(p.l_g_y, mr_behind_w_gz);
-    let i_behind_d_23 = lump_2 + p.i_g_base_23;
+    let i_behind_d_23 = i_behind_w_23 - p.l_g_y * mr_behind_w_gz + p.i_g_base_23;
 
     // Joint row of the gimbal about gz, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m, which contains the moment that the rates of the outboard joints require
     // about the same axis.
     let mass_gg = lump_1 + i_behind_w_33 + p.i_g_base_33;
-    let n_rates_g_gz = n_rates_w_gz.sub_mul(p.l_g_y, f_rates_w_gx);
+    let n_rates_g_gz = n_rates_w_gz - p.l_g_y * f_rates_w_gx;
     let row_0 = i_behind_d_11 - i_behind_w_22;
-    let row_1 = (omega_b_n_gz * i_behind_d_23).sub_mul(omega_b_n_gy, row_0);
-    let row_2 = omega_b_n_gy * omega_b_n_gz;
-    let row_3 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
-    let row_4 = (omega_b_n_gx * row_1).sub_mul(i_behind_d_13, row_2);
-    let field_g = row_4.add_mul(i_behind_d_12, row_3) + n_rates_g_gz;
+    let row_1 = omega_b_n_gz * i_behind_d_23 - omega_b_n_gy * row_0;
+    let row_2 = omega_b_n_gx * omega_b_n_gx - omega_b_n_gy * omega_b_n_gy;
+    let row_3 = omega_b_n_gx * row_1 - omega_b_n_gy * omega_b_n_gz * i_behind_d_13;
+    let field_g = row_3 + i_behind_d_12 * row_2 + n_rates_g_gz;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the gimbal:
     // force, N, and moment, N m, about G moved by (D3).
-    let coriolis_11 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
-    let f_rates_g_gx = f_rates_w_gx.sub_mul(p.mr_d_g_gx, coriolis_11);
-    let neg_f_rates_g_gy = neg_f_rates_w_gy.add_mul(mr_behind_d_gy, coriolis_11);
-    let coriolis_12 = p.mr_d_g_gx * neg_alpha_g_gy;
-    let coriolis_13 = coriolis_12.add_mul(alpha_g_gx, mr_behind_d_gy);
-    let f_rates_g_gz = coriolis_13 + coriolis_13 + f_rates_w_gz;
-    let coriolis_14 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_15 = mass_gg + row_0;
-    let coriolis_16 = alpha_g_gx * coriolis_15;
-    let coriolis_17 = coriolis_16.sub_mul(neg_alpha_g_gy, coriolis_14);
-    let coriolis_18 = coriolis_17.sub_mul(i_behind_d_23, coriolis_11);
-    let n_rates_g_gx = coriolis_18.sub_mul(p.l_g_y, coriolis_5);
-    let coriolis_19 = (i_behind_d_13 * coriolis_11).add_mul(alpha_g_gx, coriolis_14);
-    let coriolis_20 = coriolis_19.sub_mul(neg_alpha_g_gy, mass_gg - row_0);
-    let n_rates_g_gy = coriolis_20 + n_rates_w_gy;
+    let coriolis_10 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
+    let f_rates_g_gx = f_rates_w_gx - p.mr_d_g_gx * coriolis_10;
+    let neg_f_rates_g_gy = neg_f_rates_w_gy + mr_behind_d_gy * coriolis_10;
+    let coriolis_11 = p.mr_d_g_gx * neg_alpha_g_gy + alpha_g_gx * mr_behind_d_gy;
+    let f_rates_g_gz = coriolis_11 + coriolis_11 + f_rates_w_gz;
+    let coriolis_12 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_13 = mass_gg + row_0;
+    let coriolis_14 = alpha_g_gx * coriolis_13 - neg_alpha_g_gy * coriolis_12;
+    let coriolis_15 = coriolis_14 - i_behind_d_23 * coriolis_10;
+    let n_rates_g_gx = coriolis_15 - p.l_g_y * coriolis_4;
+    let coriolis_16 = i_behind_d_13 * coriolis_10 + alpha_g_gx * coriolis_12;
+    let coriolis_17 = coriolis_16 - neg_alpha_g_gy * (mass_gg - row_0);
+    let n_rates_g_gy = coriolis_17 + n_rates_w_gy;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(e_x_bx, mr_behind_d_gy);
-    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(e_x_by, mr_behind_d_gy);
-    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(e_x_bz, mr_behind_d_gy);
-    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
-    let col_1 = col_0.add_mul(p.mount_13, mass_gg);
-    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_1;
-    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
-    let col_3 = col_2.add_mul(p.mount_23, mass_gg);
-    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_3;
-    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
-    let col_5 = col_4.add_mul(p.mount_33, mass_gg);
-    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_5;
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - e_x_bx * mr_behind_d_gy;
+    let f_g_by = p.mr_d_g_gx * e_y_by - e_x_by * mr_behind_d_gy;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - e_x_bz * mr_behind_d_gy;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * mass_gg;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * mass_gg;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * mass_gg;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_5;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let moment_0 = (p.mr_d_g_gx * e_x_bx).add_mul(e_y_bx, mr_behind_d_gy);
-    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_w_gz);
-    let moment_1 = (p.mr_d_g_gx * e_x_by).add_mul(e_y_by, mr_behind_d_gy);
-    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_w_gz);
-    let moment_2 = (p.mr_d_g_gx * e_x_bz).add_mul(e_y_bz, mr_behind_d_gy);
-    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_w_gz);
+    let moment_0 = p.mr_d_g_gx * e_x_bx + e_y_bx * mr_behind_d_gy;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_w_gz;
+    let moment_1 = p.mr_d_g_gx * e_x_by + e_y_by * mr_behind_d_gy;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_w_gz;
+    let moment_2 = p.mr_d_g_gx * e_x_bz + e_y_bz * mr_behind_d_gy;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_w_gz;
     let half = q.sin_gamma.like(0.5);
     let moment_3 = half * (i_behind_w_22 + mass_gg);
-    let moment_4 = col_1.sub_mul(p.mount_13, moment_3);
+    let moment_4 = col_1 - p.mount_13 * moment_3;
     let moment_5 = mr_moving_by * p.k_22;
-    let moment_6 = i_behind_w_22.add_mul(mr_moving_bz, p.k_23);
+    let moment_6 = i_behind_w_22 + mr_moving_bz * p.k_23;
     let moment_7 = half * row_0;
-    let moment_8 = (e_y_bx * i_behind_d_12).add_mul(e_x_bx, moment_7);
-    let moment_9 = (p.mount_13 * moment_4).add_mul(e_x_bx, moment_8);
+    let moment_8 = e_y_bx * i_behind_d_12 + e_x_bx * moment_7;
+    let moment_9 = p.mount_13 * moment_4 + e_x_bx * moment_8;
     let moment_10 = moment_9 + moment_9;
     let i_moving_11 = moment_5 + moment_6 + moment_10;
-    let moment_11 = col_3.sub_mul(p.mount_23, moment_3);
-    let moment_12 = (e_y_by * i_behind_d_12).add_mul(e_x_by, moment_7);
-    let moment_13 = (p.mount_13 * moment_11).add_mul(e_x_bx, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_15 = moment_13 + (p.mount_23 * moment_4).add_mul(e_x_by, moment_8);
-    let i_moving_12 = moment_15 - moment_14;
-    let moment_16 = col_5.sub_mul(p.mount_33, moment_3);
-    let moment_17 = (e_y_bz * i_behind_d_12).add_mul(e_x_bz, moment_7);
-    let moment_18 = (p.mount_13 * moment_16).add_mul(e_x_bx, moment_17);
-    let moment_19 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_20 = moment_18 + (p.mount_33 * moment_4).add_mul(e_x_bz, moment_8);
-    let i_moving_13 = moment_20 - moment_19;
+    let moment_11 = col_3 - p.mount_23 * moment_3;
+    let moment_12 = e_y_by * i_behind_d_12 + e_x_by * moment_7;
+    let moment_13 = p.mount_13 * moment_11 + e_x_bx * moment_12;
+    let moment_14 = moment_13 + (p.mount_23 * moment_4 + e_x_by * moment_8);
+    let moment_15 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_14 - moment_15;
+    let moment_16 = col_5 - p.mount_33 * moment_3;
+    let moment_17 = e_y_bz * i_behind_d_12 + e_x_bz * moment_7;
+    let moment_18 = p.mount_13 * moment_16 + e_x_bx * moment_17;
+    let moment_19 = moment_18 + (p.mount_33 * moment_4 + e_x_bz * moment_8);
+    let moment_20 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_19 - moment_20;
     let moment_21 = mr_moving_bx * p.k_21;
-    let moment_22 = (p.mount_23 * moment_11).add_mul(e_x_by, moment_12);
+    let moment_22 = p.mount_23 * moment_11 + e_x_by * moment_12;
     let moment_23 = moment_22 + moment_22;
     let i_moving_22 = moment_21 + moment_6 + moment_23;
-    let moment_24 = (p.mount_33 * moment_11).add_mul(e_x_bz, moment_12);
-    let moment_25 = (p.mount_23 * moment_16).add_mul(e_x_by, moment_17) + moment_24;
-    let moment_26 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_24 = p.mount_33 * moment_11 + e_x_bz * moment_12;
+    let moment_25 = p.mount_23 * moment_16 + e_x_by * moment_17 + moment_24;
+    let moment_26 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
     let i_moving_23 = moment_25 - moment_26;
-    let i_moving_33 = moment_21 + moment_5 + (coriolis_15 - moment_10 - moment_23);
+    let i_moving_33 = moment_21 + moment_5 + (coriolis_13 - moment_10 - moment_23);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * f_rates_g_gx).sub_mul(e_y_bx, neg_f_rates_g_gy);
-    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_g_gz);
-    let bias_1 = (e_x_by * f_rates_g_gx).sub_mul(e_y_by, neg_f_rates_g_gy);
-    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_g_gz);
-    let bias_2 = (e_x_bz * f_rates_g_gx).sub_mul(e_y_bz, neg_f_rates_g_gy);
-    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_g_gz);
-    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_4 + bias_3.add_mul(p.mount_13, n_rates_g_gz);
-    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_6 + bias_5.add_mul(p.mount_23, n_rates_g_gz);
-    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_8 + bias_7.add_mul(p.mount_33, n_rates_g_gz);
+    let bias_0 = e_x_bx * f_rates_g_gx - e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_g_gz;
+    let bias_1 = e_x_by * f_rates_g_gx - e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_g_gz;
+    let bias_2 = e_x_bz * f_rates_g_gx - e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_g_gz;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_4 + (bias_3 + p.mount_13 * n_rates_g_gz);
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_6 + (bias_5 + p.mount_23 * n_rates_g_gz);
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_8 + (bias_7 + p.mount_33 * n_rates_g_gz);
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
-    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
-    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
-    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
-    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
-    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_9 = (f_g_bx * r_first_rest_bx).add_mul(f_g_by, r_first_rest_by);
-    let u_rest_g = bias_9.add_mul(f_g_bz, r_first_rest_bz) + field_g;
+    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
+    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
 
     // Right side of each joint row, eq. (80): motor torque less bias, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1880,7 +1875,7 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
-    let free_g = m.given_g.add_mul(tau_g, recip_g);
+    let free_g = m.given_g + tau_g * recip_g;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_g_bx * gain_g_v1;
@@ -1910,12 +1905,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_g_bz * gain_g_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_g_bx, free_g);
-    let h_v_2 = f_rates_by.add_mul(f_g_by, free_g);
-    let h_v_3 = f_rates_bz.add_mul(f_g_bz, free_g);
-    let h_w_1 = n_rates_bx.add_mul(n_g_bx, free_g);
-    let h_w_2 = n_rates_by.add_mul(n_g_by, free_g);
-    let h_w_3 = n_rates_bz.add_mul(n_g_bz, free_g);
+    let h_v_1 = f_rates_bx + f_g_bx * free_g;
+    let h_v_2 = f_rates_by + f_g_by * free_g;
+    let h_v_3 = f_rates_bz + f_g_bz * free_g;
+    let h_w_1 = n_rates_bx + n_g_bx * free_g;
+    let h_w_2 = n_rates_by + n_g_by * free_g;
+    let h_w_3 = n_rates_bz + n_g_bz * free_g;
 
     Eliminated {
         share: HubShare {
@@ -1971,12 +1966,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
-    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
+    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
+    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
 
     let zero = e.gain_g_v1.like(0.0);
 

@@ -689,18 +689,18 @@ pub fn eliminate<T: Real>(
     let arm_s_dx = p.r_s_b_bx + s.x;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the slosh mass, rad/s.
-    let rate_0 = (w.omega_bx * p.mount_11).add_mul(w.omega_by, p.mount_21);
-    let omega_b_n_sx = rate_0.add_mul(w.omega_bz, p.mount_31);
-    let rate_1 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
-    let omega_b_n_sy = rate_1.add_mul(w.omega_bz, p.mount_32);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_sz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * p.mount_11 + w.omega_by * p.mount_21;
+    let omega_b_n_sx = rate_0 + w.omega_bz * p.mount_31;
+    let rate_1 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
+    let omega_b_n_sy = rate_1 + w.omega_bz * p.mount_32;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_sz = rate_2 + w.omega_bz * p.mount_33;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the slosh mass, m/s².
-    let path_0 = (p.r_s_b_by * omega_b_n_sx).sub_mul(arm_s_dx, omega_b_n_sy);
-    let path_1 = (arm_s_dx * omega_b_n_sz).sub_mul(p.r_s_b_bz, omega_b_n_sx);
-    let r_first_rest_sx = (omega_b_n_sy * path_0).sub_mul(omega_b_n_sz, path_1);
+    let path_0 = p.r_s_b_by * omega_b_n_sx - arm_s_dx * omega_b_n_sy;
+    let path_1 = arm_s_dx * omega_b_n_sz - p.r_s_b_bz * omega_b_n_sx;
+    let r_first_rest_sx = omega_b_n_sy * path_0 - omega_b_n_sz * path_1;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the slosh
     // mass requires, eq. (D8), expressed in the axes of the slosh mass: force, N, and moment, N
@@ -711,15 +711,15 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_s_sz = p.m_s * (coriolis_1 + coriolis_1);
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
-    let reach_bx = p.k_3.add_mul(arm_s_dx, p.mount_11);
-    let reach_by = p.k_4.add_mul(arm_s_dx, p.mount_21);
-    let reach_bz = p.k_5.add_mul(arm_s_dx, p.mount_31);
+    let reach_bx = arm_s_dx * p.mount_11 + p.k_3;
+    let reach_by = arm_s_dx * p.mount_21 + p.k_4;
+    let reach_bz = arm_s_dx * p.mount_31 + p.k_5;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg, and moment, kg m, about
     // B, per unit joint acceleration.
-    let n_s_bx = (p.f_s_bz * reach_by).sub_mul(p.f_s_by, reach_bz);
-    let n_s_by = (p.f_s_bx * reach_bz).sub_mul(p.f_s_bz, reach_bx);
-    let n_s_bz = (p.f_s_by * reach_bx).sub_mul(p.f_s_bx, reach_by);
+    let n_s_bx = p.f_s_bz * reach_by - p.f_s_by * reach_bz;
+    let n_s_by = p.f_s_bx * reach_bz - p.f_s_bz * reach_bx;
+    let n_s_bz = p.f_s_by * reach_bx - p.f_s_bx * reach_by;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
@@ -738,15 +738,12 @@ pub fn eliminate<T: Real>(
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = p.mount_12 * f_rates_s_sy;
-    let f_rates_bx = bias_0.sub_mul(p.mount_13, neg_f_rates_s_sz);
-    let bias_1 = p.mount_22 * f_rates_s_sy;
-    let f_rates_by = bias_1.sub_mul(p.mount_23, neg_f_rates_s_sz);
-    let bias_2 = p.mount_32 * f_rates_s_sy;
-    let f_rates_bz = bias_2.sub_mul(p.mount_33, neg_f_rates_s_sz);
-    let n_rates_bx = (f_rates_bz * reach_by).sub_mul(f_rates_by, reach_bz);
-    let n_rates_by = (f_rates_bx * reach_bz).sub_mul(f_rates_bz, reach_bx);
-    let n_rates_bz = (f_rates_by * reach_bx).sub_mul(f_rates_bx, reach_by);
+    let f_rates_bx = p.mount_12 * f_rates_s_sy - p.mount_13 * neg_f_rates_s_sz;
+    let f_rates_by = p.mount_22 * f_rates_s_sy - p.mount_23 * neg_f_rates_s_sz;
+    let f_rates_bz = p.mount_32 * f_rates_s_sy - p.mount_33 * neg_f_rates_s_sz;
+    let n_rates_bx = f_rates_bz * reach_by - f_rates_by * reach_bz;
+    let n_rates_by = f_rates_bx * reach_bz - f_rates_bz * reach_bx;
+    let n_rates_bz = f_rates_by * reach_bx - f_rates_bx * reach_by;
 
     // Bias of each joint row, eq. (D9), N.
     let u_rest_s = p.m_s * r_first_rest_sx;
@@ -763,7 +760,7 @@ pub fn eliminate<T: Real>(
     let gain_s_w1 = n_s_bx * recip_s;
     let gain_s_w2 = n_s_by * recip_s;
     let gain_s_w3 = n_s_bz * recip_s;
-    let free_s = m.given_s.add_mul(tau_s, recip_s);
+    let free_s = m.given_s + tau_s * recip_s;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = p.f_s_bx * gain_s_v1;
@@ -793,12 +790,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_s_bz * gain_s_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(p.f_s_bx, free_s);
-    let h_v_2 = f_rates_by.add_mul(p.f_s_by, free_s);
-    let h_v_3 = f_rates_bz.add_mul(p.f_s_bz, free_s);
-    let h_w_1 = n_rates_bx.add_mul(n_s_bx, free_s);
-    let h_w_2 = n_rates_by.add_mul(n_s_by, free_s);
-    let h_w_3 = n_rates_bz.add_mul(n_s_bz, free_s);
+    let h_v_1 = f_rates_bx + p.f_s_bx * free_s;
+    let h_v_2 = f_rates_by + p.f_s_by * free_s;
+    let h_v_3 = f_rates_bz + p.f_s_bz * free_s;
+    let h_w_1 = n_rates_bx + n_s_bx * free_s;
+    let h_w_2 = n_rates_by + n_s_by * free_s;
+    let h_w_3 = n_rates_bz + n_s_bz * free_s;
 
     Eliminated {
         share: HubShare {
@@ -854,12 +851,10 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_s.sub_mul(a.r_b_n_ddot_bx, e.gain_s_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_s_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_s_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_s_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_s_w2);
-    let x_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_s_w3);
+    let row_0 = e.free_s - a.r_b_n_ddot_bx * e.gain_s_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_s_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_s_v3 - a.omega_dot_bx * e.gain_s_w1;
+    let x_ddot = row_2 - a.omega_dot_by * e.gain_s_w2 - a.omega_dot_bz * e.gain_s_w3;
 
     JointAccelerations { x_ddot }
 }

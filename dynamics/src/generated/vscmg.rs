@@ -1724,34 +1724,34 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (D1), expressed in B, 1.
-    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
-    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
-    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
-    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
-    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
-    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the gimbal, rad/s.
-    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
-    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
-    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
-    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
-    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
 
     // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in the axes of the
     // gimbal, m.
-    let reach_gx = (p.r_g_b_bx * q.cos_gamma).add_mul(p.r_g_b_by, q.sin_gamma);
-    let reach_gy = (p.r_g_b_by * q.cos_gamma).sub_mul(p.r_g_b_bx, q.sin_gamma);
+    let reach_gx = p.r_g_b_bx * q.cos_gamma + p.r_g_b_by * q.sin_gamma;
+    let reach_gy = p.r_g_b_by * q.cos_gamma - p.r_g_b_bx * q.sin_gamma;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // the axes of the gimbal, m/s².
-    let path_0 = (reach_gx * omega_b_n_gz).sub_mul(p.arm_g_dz, omega_b_n_gx);
-    let path_1 = (reach_gy * omega_b_n_gx).sub_mul(reach_gx, omega_b_n_gy);
-    let r_first_rest_gx = (omega_b_n_gy * path_1).sub_mul(omega_b_n_gz, path_0);
-    let path_2 = (p.arm_g_dz * omega_b_n_gy).sub_mul(reach_gy, omega_b_n_gz);
-    let r_first_rest_gy = (omega_b_n_gz * path_2).sub_mul(omega_b_n_gx, path_1);
-    let r_first_rest_gz = (omega_b_n_gx * path_0).sub_mul(omega_b_n_gy, path_2);
+    let path_0 = reach_gx * omega_b_n_gz - p.arm_g_dz * omega_b_n_gx;
+    let path_1 = reach_gy * omega_b_n_gx - reach_gx * omega_b_n_gy;
+    let r_first_rest_gx = omega_b_n_gy * path_1 - omega_b_n_gz * path_0;
+    let path_2 = p.arm_g_dz * omega_b_n_gy - reach_gy * omega_b_n_gz;
+    let r_first_rest_gy = omega_b_n_gz * path_2 - omega_b_n_gx * path_1;
+    let r_first_rest_gz = omega_b_n_gx * path_0 - omega_b_n_gy * path_2;
 
     // ω_{G/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1764,40 +1764,38 @@ pub fn eliminate<T: Real>(
     // expressed in the axes of the gimbal, m/s².
     let path_3 = omega_b_n_gx * omega_b_n_gx;
     let path_4 = omega_g_n_gz * omega_g_n_gz;
-    let r_w_rest_gy = r_first_rest_gy.sub_mul(p.l_g_y, path_3 + path_4);
+    let r_w_rest_gy = r_first_rest_gy - p.l_g_y * (path_3 + path_4);
     let path_5 = omega_b_n_gy * omega_g_n_gz;
-    let r_w_rest_gz = r_first_rest_gz.add_mul(p.l_g_y, alpha_g_gx + path_5);
+    let r_w_rest_gz = r_first_rest_gz + p.l_g_y * (alpha_g_gx + path_5);
 
     // Outboard composite of the joint of the wheel, W, by base parameters, eq. (D6), expressed
     // in the axes of the gimbal: first moment, kg m, and inertia, kg m², about W moved by (D3).
     let mr_behind_w_gy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_gz = q.sin_theta * p.mr_wc_w_wy;
-    let i_behind_w_12 = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
-    let lump_0 = (q.cos_theta * p.k_2).add_mul(q.sin_theta, p.i_w_base_22);
+    let i_behind_w_12 = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let lump_0 = q.cos_theta * p.k_2 + q.sin_theta * p.i_w_base_22;
     let i_behind_w_33 = q.sin_theta * lump_0;
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
-    let i_behind_w_23 = p.k_3.add_mul(q.cos_theta, lump_0);
+    let i_behind_w_23 = p.k_3 + q.cos_theta * lump_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the gimbal: force, N, and moment, N m, about
     // W moved by (D3).
     let coriolis_0 = v.spin * omega_b_n_gy;
     let coriolis_1 = v.spin * omega_g_n_gz;
-    let coriolis_2 = mr_behind_w_gy * coriolis_0;
-    let coriolis_3 = coriolis_2.add_mul(mr_behind_w_gz, coriolis_1);
-    let f_rates_w_gx = coriolis_3 + coriolis_3;
-    let coriolis_4 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
-    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_4;
-    let coriolis_5 = mr_behind_w_gz * coriolis_4;
-    let f_rates_w_gz = -coriolis_5;
-    let mass_gw = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.i_w_base_12);
-    let coriolis_6 = i_behind_w_22 - i_behind_w_33;
-    let coriolis_7 = i_behind_w_23 + i_behind_w_23;
-    let coriolis_8 = coriolis_1 * (p.mass_ww + coriolis_6);
-    let coriolis_9 = coriolis_8.sub_mul(coriolis_0, coriolis_7);
-    let n_rates_w_gy = coriolis_9.sub_mul(mass_gw, coriolis_4);
-    let coriolis_10 = (i_behind_w_12 * coriolis_4).add_mul(coriolis_1, coriolis_7);
-    let n_rates_w_gz = coriolis_10.sub_mul(coriolis_0, p.mass_ww - coriolis_6);
+    let coriolis_2 = mr_behind_w_gy * coriolis_0 + mr_behind_w_gz * coriolis_1;
+    let f_rates_w_gx = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
+    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_3;
+    let coriolis_4 = mr_behind_w_gz * coriolis_3;
+    let f_rates_w_gz = -coriolis_4;
+    let mass_gw = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
+    let coriolis_5 = i_behind_w_22 - i_behind_w_33;
+    let coriolis_6 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_7 = coriolis_1 * (p.mass_ww + coriolis_5);
+    let n_rates_w_gy = coriolis_7 - coriolis_0 * coriolis_6 - mass_gw * coriolis_3;
+    let coriolis_8 = i_behind_w_12 * coriolis_3 + coriolis_1 * coriolis_6;
+    let n_rates_w_gz = coriolis_8 - coriolis_0 * (p.mass_ww - coriolis_5);
 
     // Outboard composite of the joint of the gimbal, D, by base parameters, eq. (D6), expressed
     // in the axes of the gimbal: first moment, kg m, and inertia, kg m², about G moved by (D3).
@@ -1806,8 +1804,7 @@ pub fn eliminate<T: Real>(
     let i_behind_d_11 = lump_1 + p.k_36;
     let i_behind_d_12 = p.i_g_base_12 + i_behind_w_12;
     let i_behind_d_13 = p.i_g_base_13 + mass_gw;
-    let lump_2 = i_behind_w_23.sub_mul(p.l_g_y, mr_behind_w_gz);
-    let i_behind_d_23 = lump_2 + p.i_g_base_23;
+    let i_behind_d_23 = i_behind_w_23 - p.l_g_y * mr_behind_w_gz + p.i_g_base_23;
 
     // Joint row of the gimbal about gz, eqs. (80), (D7), (D9): M_ij, kg m², and bias, N m, which
     // contains the moment that the rates of the outboard joints require about the same axis.
@@ -1816,123 +1813,118 @@ pub fn eliminate<T: Real>(
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the gimbal:
     // force, N, and moment, N m, about G moved by (D3).
-    let coriolis_11 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
-    let f_rates_g_gx = f_rates_w_gx.sub_mul(p.mr_d_g_gx, coriolis_11);
-    let neg_f_rates_g_gy = neg_f_rates_w_gy.add_mul(mr_behind_d_gy, coriolis_11);
-    let coriolis_12 = p.mr_d_g_gx * neg_alpha_g_gy;
-    let coriolis_13 = coriolis_12.add_mul(alpha_g_gx, mr_behind_d_gy);
-    let f_rates_g_gz = coriolis_13 + coriolis_13 + f_rates_w_gz;
-    let coriolis_14 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_15 = i_behind_d_11 - i_behind_w_22;
-    let coriolis_16 = mass_gg + coriolis_15;
-    let coriolis_17 = alpha_g_gx * coriolis_16;
-    let coriolis_18 = coriolis_17.sub_mul(neg_alpha_g_gy, coriolis_14);
-    let coriolis_19 = coriolis_18.sub_mul(i_behind_d_23, coriolis_11);
-    let n_rates_g_gx = coriolis_19.sub_mul(p.l_g_y, coriolis_5);
-    let coriolis_20 = (i_behind_d_13 * coriolis_11).add_mul(alpha_g_gx, coriolis_14);
-    let coriolis_21 = coriolis_20.sub_mul(neg_alpha_g_gy, mass_gg - coriolis_15);
-    let n_rates_g_gy = coriolis_21 + n_rates_w_gy;
-    let n_rates_g_gz = n_rates_w_gz.sub_mul(p.l_g_y, f_rates_w_gx);
+    let coriolis_9 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
+    let f_rates_g_gx = f_rates_w_gx - p.mr_d_g_gx * coriolis_9;
+    let neg_f_rates_g_gy = neg_f_rates_w_gy + mr_behind_d_gy * coriolis_9;
+    let coriolis_10 = p.mr_d_g_gx * neg_alpha_g_gy + alpha_g_gx * mr_behind_d_gy;
+    let f_rates_g_gz = coriolis_10 + coriolis_10 + f_rates_w_gz;
+    let coriolis_11 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_12 = i_behind_d_11 - i_behind_w_22;
+    let coriolis_13 = mass_gg + coriolis_12;
+    let coriolis_14 = alpha_g_gx * coriolis_13 - neg_alpha_g_gy * coriolis_11;
+    let coriolis_15 = coriolis_14 - i_behind_d_23 * coriolis_9;
+    let n_rates_g_gx = coriolis_15 - p.l_g_y * coriolis_4;
+    let coriolis_16 = i_behind_d_13 * coriolis_9 + alpha_g_gx * coriolis_11;
+    let coriolis_17 = coriolis_16 - neg_alpha_g_gy * (mass_gg - coriolis_12);
+    let n_rates_g_gy = coriolis_17 + n_rates_w_gy;
+    let n_rates_g_gz = n_rates_w_gz - p.l_g_y * f_rates_w_gx;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(e_x_bx, mr_behind_d_gy);
-    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(e_x_by, mr_behind_d_gy);
-    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(e_x_bz, mr_behind_d_gy);
-    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
-    let col_1 = col_0.add_mul(p.mount_13, mass_gg);
-    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_1;
-    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
-    let col_3 = col_2.add_mul(p.mount_23, mass_gg);
-    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_3;
-    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
-    let col_5 = col_4.add_mul(p.mount_33, mass_gg);
-    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_5;
-    let f_w_bx = (p.mount_13 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_bx);
-    let f_w_by = (p.mount_23 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_by);
-    let f_w_bz = (p.mount_33 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_bz);
-    let col_6 = i_behind_w_12.sub_mul(reach_gx, mr_behind_w_gy);
-    let col_7 = mass_gw.sub_mul(reach_gx, mr_behind_w_gz);
-    let col_8 = p.arm_g_dz * mr_behind_w_gz;
-    let col_9 = col_8.add_mul(p.l_g_y + reach_gy, mr_behind_w_gy) + p.mass_ww;
-    let n_w_bx = (e_y_bx * col_6).add_mul(e_x_bx, col_9).add_mul(p.mount_13, col_7);
-    let n_w_by = (e_y_by * col_6).add_mul(e_x_by, col_9).add_mul(p.mount_23, col_7);
-    let n_w_bz = (e_y_bz * col_6).add_mul(e_x_bz, col_9).add_mul(p.mount_33, col_7);
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - e_x_bx * mr_behind_d_gy;
+    let f_g_by = p.mr_d_g_gx * e_y_by - e_x_by * mr_behind_d_gy;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - e_x_bz * mr_behind_d_gy;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * mass_gg;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * mass_gg;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * mass_gg;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_5;
+    let f_w_bx = p.mount_13 * mr_behind_w_gy - mr_behind_w_gz * e_y_bx;
+    let f_w_by = p.mount_23 * mr_behind_w_gy - mr_behind_w_gz * e_y_by;
+    let f_w_bz = p.mount_33 * mr_behind_w_gy - mr_behind_w_gz * e_y_bz;
+    let col_6 = i_behind_w_12 - reach_gx * mr_behind_w_gy;
+    let col_7 = mass_gw - reach_gx * mr_behind_w_gz;
+    let col_8 = p.arm_g_dz * mr_behind_w_gz + (p.l_g_y + reach_gy) * mr_behind_w_gy;
+    let col_9 = col_8 + p.mass_ww;
+    let n_w_bx = e_y_bx * col_6 + e_x_bx * col_9 + p.mount_13 * col_7;
+    let n_w_by = e_y_by * col_6 + e_x_by * col_9 + p.mount_23 * col_7;
+    let n_w_bz = e_y_bz * col_6 + e_x_bz * col_9 + p.mount_33 * col_7;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
-    let moment_0 = (p.mr_d_g_gx * e_x_bx).add_mul(e_y_bx, mr_behind_d_gy);
-    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_w_gz);
-    let moment_1 = (p.mr_d_g_gx * e_x_by).add_mul(e_y_by, mr_behind_d_gy);
-    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_w_gz);
-    let moment_2 = (p.mr_d_g_gx * e_x_bz).add_mul(e_y_bz, mr_behind_d_gy);
-    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_w_gz);
+    let moment_0 = p.mr_d_g_gx * e_x_bx + e_y_bx * mr_behind_d_gy;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_w_gz;
+    let moment_1 = p.mr_d_g_gx * e_x_by + e_y_by * mr_behind_d_gy;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_w_gz;
+    let moment_2 = p.mr_d_g_gx * e_x_bz + e_y_bz * mr_behind_d_gy;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_w_gz;
     let half = q.sin_gamma.like(0.5);
     let moment_3 = half * (i_behind_w_22 + mass_gg);
-    let moment_4 = col_1.sub_mul(p.mount_13, moment_3);
+    let moment_4 = col_1 - p.mount_13 * moment_3;
     let moment_5 = mr_moving_by * p.k_22;
-    let moment_6 = i_behind_w_22.add_mul(mr_moving_bz, p.k_23);
-    let moment_7 = half * coriolis_15;
-    let moment_8 = (e_y_bx * i_behind_d_12).add_mul(e_x_bx, moment_7);
-    let moment_9 = (p.mount_13 * moment_4).add_mul(e_x_bx, moment_8);
+    let moment_6 = i_behind_w_22 + mr_moving_bz * p.k_23;
+    let moment_7 = half * coriolis_12;
+    let moment_8 = e_y_bx * i_behind_d_12 + e_x_bx * moment_7;
+    let moment_9 = p.mount_13 * moment_4 + e_x_bx * moment_8;
     let moment_10 = moment_9 + moment_9;
     let i_moving_11 = moment_5 + moment_6 + moment_10;
-    let moment_11 = col_3.sub_mul(p.mount_23, moment_3);
-    let moment_12 = (e_y_by * i_behind_d_12).add_mul(e_x_by, moment_7);
-    let moment_13 = (p.mount_13 * moment_11).add_mul(e_x_bx, moment_12);
-    let moment_14 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_15 = moment_13 + (p.mount_23 * moment_4).add_mul(e_x_by, moment_8);
-    let i_moving_12 = moment_15 - moment_14;
-    let moment_16 = col_5.sub_mul(p.mount_33, moment_3);
-    let moment_17 = (e_y_bz * i_behind_d_12).add_mul(e_x_bz, moment_7);
-    let moment_18 = (p.mount_13 * moment_16).add_mul(e_x_bx, moment_17);
-    let moment_19 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_20 = moment_18 + (p.mount_33 * moment_4).add_mul(e_x_bz, moment_8);
-    let i_moving_13 = moment_20 - moment_19;
+    let moment_11 = col_3 - p.mount_23 * moment_3;
+    let moment_12 = e_y_by * i_behind_d_12 + e_x_by * moment_7;
+    let moment_13 = p.mount_13 * moment_11 + e_x_bx * moment_12;
+    let moment_14 = moment_13 + (p.mount_23 * moment_4 + e_x_by * moment_8);
+    let moment_15 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_14 - moment_15;
+    let moment_16 = col_5 - p.mount_33 * moment_3;
+    let moment_17 = e_y_bz * i_behind_d_12 + e_x_bz * moment_7;
+    let moment_18 = p.mount_13 * moment_16 + e_x_bx * moment_17;
+    let moment_19 = moment_18 + (p.mount_33 * moment_4 + e_x_bz * moment_8);
+    let moment_20 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_19 - moment_20;
     let moment_21 = mr_moving_bx * p.k_21;
-    let moment_22 = (p.mount_23 * moment_11).add_mul(e_x_by, moment_12);
+    let moment_22 = p.mount_23 * moment_11 + e_x_by * moment_12;
     let moment_23 = moment_22 + moment_22;
     let i_moving_22 = moment_21 + moment_6 + moment_23;
-    let moment_24 = (p.mount_33 * moment_11).add_mul(e_x_bz, moment_12);
-    let moment_25 = (p.mount_23 * moment_16).add_mul(e_x_by, moment_17) + moment_24;
-    let moment_26 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_24 = p.mount_33 * moment_11 + e_x_bz * moment_12;
+    let moment_25 = p.mount_23 * moment_16 + e_x_by * moment_17 + moment_24;
+    let moment_26 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
     let i_moving_23 = moment_25 - moment_26;
-    let i_moving_33 = moment_21 + moment_5 + (coriolis_16 - moment_10 - moment_23);
+    let i_moving_33 = moment_21 + moment_5 + (coriolis_13 - moment_10 - moment_23);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = (e_x_bx * f_rates_g_gx).sub_mul(e_y_bx, neg_f_rates_g_gy);
-    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_g_gz);
-    let bias_1 = (e_x_by * f_rates_g_gx).sub_mul(e_y_by, neg_f_rates_g_gy);
-    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_g_gz);
-    let bias_2 = (e_x_bz * f_rates_g_gx).sub_mul(e_y_bz, neg_f_rates_g_gy);
-    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_g_gz);
-    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
-    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_4 + bias_3.add_mul(p.mount_13, n_rates_g_gz);
-    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
-    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_6 + bias_5.add_mul(p.mount_23, n_rates_g_gz);
-    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
-    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_8 + bias_7.add_mul(p.mount_33, n_rates_g_gz);
+    let bias_0 = e_x_bx * f_rates_g_gx - e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_g_gz;
+    let bias_1 = e_x_by * f_rates_g_gx - e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_g_gz;
+    let bias_2 = e_x_bz * f_rates_g_gx - e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_g_gz;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_4 + (bias_3 + p.mount_13 * n_rates_g_gz);
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_6 + (bias_5 + p.mount_23 * n_rates_g_gz);
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_8 + (bias_7 + p.mount_33 * n_rates_g_gz);
 
     // Bias of each joint row, eq. (D9), N m.
     let bias_9 = omega_b_n_gy * omega_b_n_gy;
     let bias_10 = omega_b_n_gx * omega_b_n_gy;
-    let bias_11 = p.mr_d_g_gx * r_first_rest_gy;
-    let bias_12 = omega_b_n_gx * i_behind_d_23;
-    let bias_13 = bias_11.sub_mul(r_first_rest_gx, mr_behind_d_gy);
-    let bias_14 = bias_12.sub_mul(omega_b_n_gy, i_behind_d_13);
-    let bias_15 = bias_13.add_mul(omega_b_n_gz, bias_14);
-    let bias_16 = bias_15.add_mul(i_behind_d_12, path_3 - bias_9);
-    let u_rest_g = bias_16.sub_mul(bias_10, coriolis_15) + n_rates_g_gz;
-    let bias_17 = mr_behind_w_gy * r_w_rest_gz;
-    let bias_18 = neg_alpha_g_gy.add_mul(omega_b_n_gx, omega_g_n_gz);
-    let bias_19 = (bias_10 * mass_gw).sub_mul(bias_18, i_behind_w_12);
-    let bias_20 = (i_behind_w_23 * (bias_9 - path_4)).sub_mul(path_5, coriolis_6);
-    let bias_21 = bias_19.add_mul(p.mass_ww, alpha_g_gx) + bias_20;
-    let u_rest_w = bias_17.sub_mul(mr_behind_w_gz, r_w_rest_gy) + bias_21;
+    let bias_11 = omega_b_n_gx * i_behind_d_23 - omega_b_n_gy * i_behind_d_13;
+    let bias_12 = p.mr_d_g_gx * r_first_rest_gy - r_first_rest_gx * mr_behind_d_gy;
+    let bias_13 = i_behind_d_12 * (path_3 - bias_9);
+    let bias_14 = bias_12 + omega_b_n_gz * bias_11 + bias_13 - bias_10 * coriolis_12;
+    let u_rest_g = bias_14 + n_rates_g_gz;
+    let bias_15 = (neg_alpha_g_gy + omega_b_n_gx * omega_g_n_gz) * i_behind_w_12;
+    let bias_16 = i_behind_w_23 * (bias_9 - path_4) - path_5 * coriolis_5;
+    let bias_17 = bias_10 * mass_gw - bias_15 + p.mass_ww * alpha_g_gx + bias_16;
+    let bias_18 = mr_behind_w_gy * r_w_rest_gz - mr_behind_w_gz * r_w_rest_gy;
+    let u_rest_w = bias_18 + bias_17;
 
     // Right side of each joint row, eqs. (80), (119): motor torque less bias, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1948,17 +1940,17 @@ pub fn eliminate<T: Real>(
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_g = mass_gw * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Joint w eliminated from the rows of the inboard joints, eq. (D11).
-    let f_g_bx_w = f_g_bx.sub_mul(f_w_bx, gain_w_g);
-    let f_g_by_w = f_g_by.sub_mul(f_w_by, gain_w_g);
-    let f_g_bz_w = f_g_bz.sub_mul(f_w_bz, gain_w_g);
-    let n_g_bx_w = n_g_bx.sub_mul(n_w_bx, gain_w_g);
-    let n_g_by_w = n_g_by.sub_mul(n_w_by, gain_w_g);
-    let n_g_bz_w = n_g_bz.sub_mul(n_w_bz, gain_w_g);
-    let mass_gg_w = mass_gg.sub_mul(mass_gw, gain_w_g);
-    let tau_g_w = tau_g.sub_mul(mass_gw, free_w);
+    let f_g_bx_w = f_g_bx - f_w_bx * gain_w_g;
+    let f_g_by_w = f_g_by - f_w_by * gain_w_g;
+    let f_g_bz_w = f_g_bz - f_w_bz * gain_w_g;
+    let n_g_bx_w = n_g_bx - n_w_bx * gain_w_g;
+    let n_g_by_w = n_g_by - n_w_by * gain_w_g;
+    let n_g_bz_w = n_g_bz - n_w_bz * gain_w_g;
+    let mass_gg_w = mass_gg - mass_gw * gain_w_g;
+    let tau_g_w = tau_g - mass_gw * free_w;
 
     // Joint g, eq. (D10): its pivot, kg m², and gains.
     let divisor_g = m.held_g + mass_gg_w;
@@ -1969,42 +1961,42 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx_w * recip_g;
     let gain_g_w2 = n_g_by_w * recip_g;
     let gain_g_w3 = n_g_bz_w * recip_g;
-    let free_g = m.given_g.add_mul(tau_g_w, recip_g);
+    let free_g = m.given_g + tau_g_w * recip_g;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
-    let m_vv_11 = (f_w_bx * gain_w_v1).add_mul(f_g_bx_w, gain_g_v1);
-    let m_vv_12 = (f_w_by * gain_w_v1).add_mul(f_g_by_w, gain_g_v1);
-    let m_vv_13 = (f_w_bz * gain_w_v1).add_mul(f_g_bz_w, gain_g_v1);
-    let m_vv_22 = (f_w_by * gain_w_v2).add_mul(f_g_by_w, gain_g_v2);
-    let m_vv_23 = (f_w_bz * gain_w_v2).add_mul(f_g_bz_w, gain_g_v2);
-    let m_vv_33 = (f_w_bz * gain_w_v3).add_mul(f_g_bz_w, gain_g_v3);
+    let m_vv_11 = f_w_bx * gain_w_v1 + f_g_bx_w * gain_g_v1;
+    let m_vv_12 = f_w_by * gain_w_v1 + f_g_by_w * gain_g_v1;
+    let m_vv_13 = f_w_bz * gain_w_v1 + f_g_bz_w * gain_g_v1;
+    let m_vv_22 = f_w_by * gain_w_v2 + f_g_by_w * gain_g_v2;
+    let m_vv_23 = f_w_bz * gain_w_v2 + f_g_bz_w * gain_g_v2;
+    let m_vv_33 = f_w_bz * gain_w_v3 + f_g_bz_w * gain_g_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
-    let m_vw_11 = (n_w_bx * gain_w_v1).add_mul(n_g_bx_w, gain_g_v1);
-    let m_vw_12 = (n_w_by * gain_w_v1).add_mul(n_g_by_w, gain_g_v1);
-    let m_vw_13 = (n_w_bz * gain_w_v1).add_mul(n_g_bz_w, gain_g_v1);
-    let m_vw_21 = (n_w_bx * gain_w_v2).add_mul(n_g_bx_w, gain_g_v2);
-    let m_vw_22 = (n_w_by * gain_w_v2).add_mul(n_g_by_w, gain_g_v2);
-    let m_vw_23 = (n_w_bz * gain_w_v2).add_mul(n_g_bz_w, gain_g_v2);
-    let m_vw_31 = (n_w_bx * gain_w_v3).add_mul(n_g_bx_w, gain_g_v3);
-    let m_vw_32 = (n_w_by * gain_w_v3).add_mul(n_g_by_w, gain_g_v3);
-    let m_vw_33 = (n_w_bz * gain_w_v3).add_mul(n_g_bz_w, gain_g_v3);
+    let m_vw_11 = n_w_bx * gain_w_v1 + n_g_bx_w * gain_g_v1;
+    let m_vw_12 = n_w_by * gain_w_v1 + n_g_by_w * gain_g_v1;
+    let m_vw_13 = n_w_bz * gain_w_v1 + n_g_bz_w * gain_g_v1;
+    let m_vw_21 = n_w_bx * gain_w_v2 + n_g_bx_w * gain_g_v2;
+    let m_vw_22 = n_w_by * gain_w_v2 + n_g_by_w * gain_g_v2;
+    let m_vw_23 = n_w_bz * gain_w_v2 + n_g_bz_w * gain_g_v2;
+    let m_vw_31 = n_w_bx * gain_w_v3 + n_g_bx_w * gain_g_v3;
+    let m_vw_32 = n_w_by * gain_w_v3 + n_g_by_w * gain_g_v3;
+    let m_vw_33 = n_w_bz * gain_w_v3 + n_g_bz_w * gain_g_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let m_ww_11 = (n_w_bx * gain_w_w1).add_mul(n_g_bx_w, gain_g_w1);
-    let m_ww_12 = (n_w_by * gain_w_w1).add_mul(n_g_by_w, gain_g_w1);
-    let m_ww_13 = (n_w_bz * gain_w_w1).add_mul(n_g_bz_w, gain_g_w1);
-    let m_ww_22 = (n_w_by * gain_w_w2).add_mul(n_g_by_w, gain_g_w2);
-    let m_ww_23 = (n_w_bz * gain_w_w2).add_mul(n_g_bz_w, gain_g_w2);
-    let m_ww_33 = (n_w_bz * gain_w_w3).add_mul(n_g_bz_w, gain_g_w3);
+    let m_ww_11 = n_w_bx * gain_w_w1 + n_g_bx_w * gain_g_w1;
+    let m_ww_12 = n_w_by * gain_w_w1 + n_g_by_w * gain_g_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1 + n_g_bz_w * gain_g_w1;
+    let m_ww_22 = n_w_by * gain_w_w2 + n_g_by_w * gain_g_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2 + n_g_bz_w * gain_g_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3 + n_g_bz_w * gain_g_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_g_bx_w, free_g);
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_g_by_w, free_g);
-    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w).add_mul(f_g_bz_w, free_g);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_g_bx_w, free_g);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_g_by_w, free_g);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_g_bz_w, free_g);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w + f_g_bx_w * free_g;
+    let h_v_2 = f_rates_by + f_w_by * free_w + f_g_by_w * free_g;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w + f_g_bz_w * free_g;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_g_bx_w * free_g;
+    let h_w_2 = n_rates_by + n_w_by * free_w + n_g_by_w * free_g;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_g_bz_w * free_g;
 
     Eliminated {
         share: HubShare {
@@ -2078,19 +2070,18 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
-    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
-    let row_5 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_w_w3);
-    let spin_dot = row_10.sub_mul(gamma_ddot, e.gain_w_g);
+    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
+    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
+    let row_5 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_8 = row_7 - a.omega_dot_bx * e.gain_w_w1;
+    let row_9 = row_8 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_9 - a.omega_dot_bz * e.gain_w_w3 - gamma_ddot * e.gain_w_g;
 
     JointAccelerations { gamma_ddot, spin_dot }
 }

@@ -68,35 +68,23 @@ fn written(e: &Expr) -> Option<Written> {
         }
         Expr::MethodCall(call) => {
             let object = written(&call.receiver)?;
-            let arguments: Vec<_> =
-                call.args.iter().map(|argument| (argument, written(argument))).collect();
+            let arguments: Vec<_> = call.args.iter().collect();
             match (call.method.to_string().as_str(), arguments.as_slice()) {
                 ("recip", []) => {
                     let text = format!("1.0 / {}", inside(object, Binding::Unary));
                     Written { text, binding: Binding::Quotient }
                 }
                 // A constant of the same kind: here there is one kind.
-                ("like", [(Expr::Lit(literal), _)]) => match &literal.lit {
+                ("like", [Expr::Lit(literal)]) => match &literal.lit {
                     Lit::Float(value) => atom(value.to_string()),
                     _ => return None,
                 },
-                (name, [(a, _), (b, _)]) => fused(name, object, written(a)?, written(b)?)?,
                 _ => return None,
             }
         }
         _ => return None,
     };
     Some(done)
-}
-
-/// A sum with a product. A plain number rounds both, in whatever order the sum is written.
-fn fused(name: &str, object: Written, a: Written, b: Written) -> Option<Written> {
-    match name {
-        "add_mul" => Some(sum(object, '+', product(a, b))),
-        "sub_mul" => Some(sum(object, '-', product(a, b))),
-        "mul_sub" => Some(sum(product(object, a), '-', b)),
-        _ => None,
-    }
 }
 
 fn sum(a: Written, sign: char, b: Written) -> Written {
@@ -132,9 +120,8 @@ mod tests {
             (quote!(let x = -(a * b) + c;), "-(a * b) + c"),
             (quote!(let x = (a + b).recip() * c;), "(1.0 / (a + b)) * c"),
             (quote!(let x = -a.recip();), "-(1.0 / a)"),
-            (quote!(let x = c.add_mul(a + b, d * e);), "c + (a + b) * (d * e)"),
-            (quote!(let x = (c + d).sub_mul(-a, b);), "c + d - -a * b"),
-            (quote!(let x = (c + d).mul_sub(a, b + e);), "(c + d) * a - (b + e)"),
+            (quote!(let x = c + (a + b) * (d * e);), "c + (a + b) * (d * e)"),
+            (quote!(let x = c + d - -a * b;), "c + d - -a * b"),
             (quote!(let x = q.sin_theta.like(0.5);), "0.5"),
         ];
         for (rust, c) in cases {

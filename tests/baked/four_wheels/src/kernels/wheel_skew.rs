@@ -365,21 +365,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the wheel, eq. (D1), expressed in B, 1.
-    let e_y_bx = (q.cos_theta * p.parent_y_bx).add_mul(q.sin_theta, p.parent_z_bx);
-    let e_y_by = (q.cos_theta * p.cos_mount_a).add_mul(q.sin_theta, p.parent_z_by);
+    let e_y_bx = q.cos_theta * p.parent_y_bx + q.sin_theta * p.parent_z_bx;
+    let e_y_by = q.cos_theta * p.cos_mount_a + q.sin_theta * p.parent_z_by;
     let e_y_bz = q.sin_theta * p.cos_mount_b;
-    let e_z_bx = (q.cos_theta * p.parent_z_bx).sub_mul(q.sin_theta, p.parent_y_bx);
-    let e_z_by = (q.cos_theta * p.parent_z_by).sub_mul(q.sin_theta, p.cos_mount_a);
+    let e_z_bx = q.cos_theta * p.parent_z_bx - q.sin_theta * p.parent_y_bx;
+    let e_z_by = q.cos_theta * p.parent_z_by - q.sin_theta * p.cos_mount_a;
     let e_z_bz = q.cos_theta * p.cos_mount_b;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let rate_0 = w.omega_bx * p.parent_x_bx;
-    let rate_1 = rate_0.add_mul(w.omega_by, p.parent_x_by);
-    let omega_b_n_wx = rate_1.add_mul(w.omega_bz, p.parent_x_bz);
-    let rate_2 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_wy = rate_2.add_mul(w.omega_bz, e_y_bz);
-    let rate_3 = (w.omega_bx * e_z_bx).add_mul(w.omega_by, e_z_by);
-    let omega_b_n_wz = rate_3.add_mul(w.omega_bz, e_z_bz);
+    let rate_0 = w.omega_bx * p.parent_x_bx + w.omega_by * p.parent_x_by;
+    let omega_b_n_wx = rate_0 + w.omega_bz * p.parent_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_wy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * e_z_bx + w.omega_by * e_z_by;
+    let omega_b_n_wz = rate_2 + w.omega_bz * e_z_bz;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
@@ -387,18 +386,17 @@ pub fn eliminate<T: Real>(
     let f_rates_w_wx = omega_b_n_wy * p.k_10 * v.spin;
     let coriolis_0 = v.spin + omega_b_n_wx + omega_b_n_wx;
     let neg_f_rates_w_wy = v.spin * coriolis_0 * p.mr_wc_w_wy;
-    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1).sub_mul(p.j_13, coriolis_0);
-    let coriolis_1 = (p.i_w_base_12 * coriolis_0).sub_mul(omega_b_n_wy, p.k_2);
-    let n_rates_w_wz = v.spin * coriolis_1;
+    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1 - p.j_13 * coriolis_0);
+    let n_rates_w_wz = v.spin * (p.i_w_base_12 * coriolis_0 - omega_b_n_wy * p.k_2);
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
-    let n_w_bx = p.k_3.add_mul(p.i_w_base_12, e_y_bx).add_mul(p.j_13, e_z_bx);
-    let n_w_by = p.k_4.add_mul(p.i_w_base_12, e_y_by).add_mul(p.j_13, e_z_by);
-    let n_w_bz = p.k_5.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
+    let n_w_bx = p.k_3 + p.i_w_base_12 * e_y_bx + p.j_13 * e_z_bx;
+    let n_w_by = p.k_4 + p.i_w_base_12 * e_y_by + p.j_13 * e_z_by;
+    let n_w_bz = p.k_5 + p.i_w_base_12 * e_y_bz + p.j_13 * e_z_bz;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
@@ -406,34 +404,33 @@ pub fn eliminate<T: Real>(
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
     let moment_0 = n_w_bx + p.k_7;
-    let moment_1 = (p.parent_x_bx * moment_0).sub_mul(e_y_bx, e_y_bx * p.k_6);
+    let moment_1 = p.parent_x_bx * moment_0 - e_y_bx * p.k_6 * e_y_bx;
     let i_moving_11 = moment_1 + moment_1;
     let moment_2 = n_w_by + p.k_8;
     let moment_3 = e_y_bx * p.k_11;
-    let moment_4 = (p.parent_x_bx * moment_2).sub_mul(e_y_by, moment_3);
-    let i_moving_12 = moment_4.add_mul(p.parent_x_by, moment_0);
+    let moment_4 = p.parent_x_bx * moment_2 - e_y_by * moment_3;
+    let i_moving_12 = moment_4 + p.parent_x_by * moment_0;
     let moment_5 = n_w_bz + p.k_9;
-    let moment_6 = (p.parent_x_bx * moment_5).sub_mul(e_y_bz, moment_3);
-    let i_moving_13 = moment_6.add_mul(p.parent_x_bz, moment_0);
-    let moment_7 = (p.parent_x_by * moment_2).sub_mul(e_y_by, e_y_by * p.k_6);
+    let moment_6 = p.parent_x_bx * moment_5 - e_y_bz * moment_3;
+    let i_moving_13 = moment_6 + p.parent_x_bz * moment_0;
+    let moment_7 = p.parent_x_by * moment_2 - e_y_by * p.k_6 * e_y_by;
     let i_moving_22 = moment_7 + moment_7;
-    let moment_8 = (p.parent_x_by * moment_5).sub_mul(e_y_bz, e_y_by * p.k_11);
-    let i_moving_23 = moment_8.add_mul(p.parent_x_bz, moment_2);
+    let moment_8 = p.parent_x_by * moment_5 - e_y_by * p.k_11 * e_y_bz;
+    let i_moving_23 = moment_8 + p.parent_x_bz * moment_2;
     let i_moving_33 = p.k_1 - i_moving_11 - i_moving_22;
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let f_rates_bx = (p.parent_x_bx * f_rates_w_wx).sub_mul(e_y_bx, neg_f_rates_w_wy);
-    let f_rates_by = (p.parent_x_by * f_rates_w_wx).sub_mul(e_y_by, neg_f_rates_w_wy);
-    let f_rates_bz = (p.parent_x_bz * f_rates_w_wx).sub_mul(e_y_bz, neg_f_rates_w_wy);
-    let n_rates_bx = (e_y_bx * n_rates_w_wy).add_mul(e_z_bx, n_rates_w_wz);
-    let n_rates_by = (e_y_by * n_rates_w_wy).add_mul(e_z_by, n_rates_w_wz);
-    let n_rates_bz = (e_y_bz * n_rates_w_wy).add_mul(e_z_bz, n_rates_w_wz);
+    let f_rates_bx = p.parent_x_bx * f_rates_w_wx - e_y_bx * neg_f_rates_w_wy;
+    let f_rates_by = p.parent_x_by * f_rates_w_wx - e_y_by * neg_f_rates_w_wy;
+    let f_rates_bz = p.parent_x_bz * f_rates_w_wx - e_y_bz * neg_f_rates_w_wy;
+    let n_rates_bx = e_y_bx * n_rates_w_wy + e_z_bx * n_rates_w_wz;
+    let n_rates_by = e_y_by * n_rates_w_wy + e_z_by * n_rates_w_wz;
+    let n_rates_bz = e_y_bz * n_rates_w_wy + e_z_bz * n_rates_w_wz;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_0 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
-    let bias_1 = omega_b_n_wy * omega_b_n_wz * p.k_0;
-    let u_rest_w = bias_1.add_mul(omega_b_n_wx, bias_0);
+    let bias_0 = p.j_13 * omega_b_n_wy - p.i_w_base_12 * omega_b_n_wz;
+    let u_rest_w = omega_b_n_wy * omega_b_n_wz * p.k_0 + omega_b_n_wx * bias_0;
 
     // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -447,7 +444,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
@@ -477,12 +474,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_w_bz * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
-    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w;
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w;
 
     Eliminated {
         share: HubShare {
@@ -538,12 +535,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_4.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_w_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_4 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

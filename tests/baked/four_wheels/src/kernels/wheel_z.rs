@@ -245,25 +245,24 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let omega_b_n_wy = (w.omega_bx * q.cos_theta).add_mul(w.omega_by, q.sin_theta);
-    let omega_b_n_wz = (w.omega_by * q.cos_theta).sub_mul(w.omega_bx, q.sin_theta);
+    let omega_b_n_wy = w.omega_bx * q.cos_theta + w.omega_by * q.sin_theta;
+    let omega_b_n_wz = w.omega_by * q.cos_theta - w.omega_bx * q.sin_theta;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
     // moved by (D3).
     let coriolis_0 = w.omega_bz + v.spin + w.omega_bz;
     let neg_f_rates_w_wy = v.spin * coriolis_0 * p.mr_wc_w_wy;
-    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1).sub_mul(p.j_13, coriolis_0);
-    let coriolis_1 = (p.i_w_base_12 * coriolis_0).sub_mul(omega_b_n_wy, p.k_2);
-    let n_rates_w_wz = v.spin * coriolis_1;
+    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1 - p.j_13 * coriolis_0);
+    let n_rates_w_wz = v.spin * (p.i_w_base_12 * coriolis_0 - omega_b_n_wy * p.k_2);
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
     let mr_moving_by = q.sin_theta * p.mr_wc_w_wy;
     let f_w_bx = -mr_moving_by;
     let f_w_by = q.cos_theta * p.mr_wc_w_wy;
-    let n_w_bx = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
-    let n_w_by = (q.sin_theta * p.i_w_base_12).add_mul(q.cos_theta, p.j_13);
+    let n_w_bx = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let n_w_by = q.sin_theta * p.i_w_base_12 + q.cos_theta * p.j_13;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
@@ -280,12 +279,12 @@ pub fn eliminate<T: Real>(
     let f_rates_bx = -(q.cos_theta * neg_f_rates_w_wy);
     let f_rates_by = -(q.sin_theta * neg_f_rates_w_wy);
     let f_rates_bz = omega_b_n_wy * p.k_3 * v.spin;
-    let n_rates_bx = (q.cos_theta * n_rates_w_wy).sub_mul(q.sin_theta, n_rates_w_wz);
-    let n_rates_by = (q.sin_theta * n_rates_w_wy).add_mul(q.cos_theta, n_rates_w_wz);
+    let n_rates_bx = q.cos_theta * n_rates_w_wy - q.sin_theta * n_rates_w_wz;
+    let n_rates_by = q.sin_theta * n_rates_w_wy + q.cos_theta * n_rates_w_wz;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_0 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
-    let u_rest_w = (omega_b_n_wy * omega_b_n_wz * p.k_0).add_mul(w.omega_bz, bias_0);
+    let bias_0 = p.j_13 * omega_b_n_wy - p.i_w_base_12 * omega_b_n_wz;
+    let u_rest_w = omega_b_n_wy * omega_b_n_wz * p.k_0 + w.omega_bz * bias_0;
 
     // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -298,7 +297,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = p.mass_ww * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
@@ -322,10 +321,10 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = p.mass_ww * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w;
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
     let h_w_3 = p.mass_ww * free_w;
 
     let zero = q.sin_theta.like(0.0);
@@ -384,11 +383,11 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_2 = row_1.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_3 = row_2.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_3.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_2 = row_1 - a.omega_dot_bx * e.gain_w_w1;
+    let row_3 = row_2 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_3 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

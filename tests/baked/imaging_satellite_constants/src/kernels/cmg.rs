@@ -508,26 +508,25 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the wheel, eq. (D1), expressed in B, 1.
-    let e_y_bx = (q.cos_theta * p.parent_y_bx).add_mul(q.sin_theta, p.parent_z_bx);
-    let e_y_by = (q.cos_theta * p.parent_y_by).add_mul(q.sin_theta, p.parent_z_by);
-    let e_y_bz = (q.cos_theta * p.parent_y_bz).add_mul(q.sin_theta, p.parent_z_bz);
-    let e_z_bx = (q.cos_theta * p.parent_z_bx).sub_mul(q.sin_theta, p.parent_y_bx);
-    let e_z_by = (q.cos_theta * p.parent_z_by).sub_mul(q.sin_theta, p.parent_y_by);
-    let e_z_bz = (q.cos_theta * p.parent_z_bz).sub_mul(q.sin_theta, p.parent_y_bz);
+    let e_y_bx = q.cos_theta * p.parent_y_bx + q.sin_theta * p.parent_z_bx;
+    let e_y_by = q.cos_theta * p.parent_y_by + q.sin_theta * p.parent_z_by;
+    let e_y_bz = q.cos_theta * p.parent_y_bz + q.sin_theta * p.parent_z_bz;
+    let e_z_bx = q.cos_theta * p.parent_z_bx - q.sin_theta * p.parent_y_bx;
+    let e_z_by = q.cos_theta * p.parent_z_by - q.sin_theta * p.parent_y_by;
+    let e_z_bz = q.cos_theta * p.parent_z_bz - q.sin_theta * p.parent_y_bz;
 
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let rate_0 = w.omega_bx * p.parent_x_bx;
-    let rate_1 = rate_0.add_mul(w.omega_by, p.parent_x_by);
-    let omega_b_n_wx = rate_1.add_mul(w.omega_bz, p.parent_x_bz);
-    let rate_2 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
-    let omega_b_n_wy = rate_2.add_mul(w.omega_bz, e_y_bz);
-    let rate_3 = (w.omega_bx * e_z_bx).add_mul(w.omega_by, e_z_by);
-    let omega_b_n_wz = rate_3.add_mul(w.omega_bz, e_z_bz);
+    let rate_0 = w.omega_bx * p.parent_x_bx + w.omega_by * p.parent_x_by;
+    let omega_b_n_wx = rate_0 + w.omega_bz * p.parent_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_wy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * e_z_bx + w.omega_by * e_z_by;
+    let omega_b_n_wz = rate_2 + w.omega_bz * e_z_bz;
 
     // Joint row of the wheel about wx, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m.
-    let row_0 = (p.j_13 * omega_b_n_wy).sub_mul(p.j_12, omega_b_n_wz);
-    let field_w = (omega_b_n_wy * omega_b_n_wz * p.k_0).add_mul(omega_b_n_wx, row_0);
+    let row_0 = omega_b_n_wx * (p.j_13 * omega_b_n_wy - p.j_12 * omega_b_n_wz);
+    let field_w = omega_b_n_wy * omega_b_n_wz * p.k_0 + row_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
@@ -535,20 +534,20 @@ pub fn eliminate<T: Real>(
     let f_rates_w_wx = omega_b_n_wy * p.k_13 * v.spin;
     let coriolis_0 = v.spin + omega_b_n_wx + omega_b_n_wx;
     let neg_f_rates_w_wy = v.spin * coriolis_0 * p.mr_wc_w_wy;
-    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1).sub_mul(p.j_13, coriolis_0);
-    let n_rates_w_wz = v.spin * (p.j_12 * coriolis_0).sub_mul(omega_b_n_wy, p.k_2);
+    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_1 - p.j_13 * coriolis_0);
+    let n_rates_w_wz = v.spin * (p.j_12 * coriolis_0 - omega_b_n_wy * p.k_2);
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
-    let col_0 = p.k_3.add_mul(p.j_12, e_y_bx).add_mul(p.j_13, e_z_bx);
-    let n_w_bx = (p.reach_by * f_w_bz).sub_mul(p.reach_bz, f_w_by) + col_0;
-    let col_1 = p.k_4.add_mul(p.j_12, e_y_by).add_mul(p.j_13, e_z_by);
-    let n_w_by = (p.reach_bz * f_w_bx).sub_mul(p.reach_bx, f_w_bz) + col_1;
-    let col_2 = p.k_5.add_mul(p.j_12, e_y_bz).add_mul(p.j_13, e_z_bz);
-    let n_w_bz = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx) + col_2;
+    let col_0 = p.k_3 + p.j_12 * e_y_bx + p.j_13 * e_z_bx;
+    let n_w_bx = p.reach_by * f_w_bz - p.reach_bz * f_w_by + col_0;
+    let col_1 = p.k_4 + p.j_12 * e_y_by + p.j_13 * e_z_by;
+    let n_w_by = p.reach_bz * f_w_bx - p.reach_bx * f_w_bz + col_1;
+    let col_2 = p.k_5 + p.j_12 * e_y_bz + p.j_13 * e_z_bz;
+    let n_w_bz = p.reach_bx * f_w_by - p.reach_by * f_w_bx + col_2;
 
     // W without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
@@ -556,56 +555,55 @@ pub fn eliminate<T: Real>(
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
     let moment_0 = col_0 + p.k_7;
-    let moment_1 = (p.parent_x_bx * moment_0).sub_mul(e_y_bx, e_y_bx * p.k_6);
+    let moment_1 = p.parent_x_bx * moment_0 - e_y_bx * p.k_6 * e_y_bx;
     let moment_2 = moment_1 + moment_1;
     let moment_3 = mr_moving_by * p.k_11;
     let moment_4 = mr_moving_bz * p.k_12;
     let i_moving_11 = moment_3 + moment_4 + moment_2;
     let moment_5 = col_1 + p.k_8;
     let moment_6 = e_y_bx * p.k_14;
-    let moment_7 = (p.parent_x_bx * moment_5).sub_mul(e_y_by, moment_6);
-    let moment_8 = moment_7.add_mul(p.parent_x_by, moment_0);
-    let moment_9 = moment_8.sub_mul(p.reach_bx, mr_moving_by);
-    let i_moving_12 = moment_9.sub_mul(p.reach_by, mr_moving_bx);
-    let moment_10 = col_2 + p.k_9;
-    let moment_11 = (p.parent_x_bx * moment_10).sub_mul(e_y_bz, moment_6);
-    let moment_12 = moment_11.add_mul(p.parent_x_bz, moment_0);
-    let moment_13 = moment_12.sub_mul(p.reach_bx, mr_moving_bz);
-    let i_moving_13 = moment_13.sub_mul(p.reach_bz, mr_moving_bx);
-    let moment_14 = (p.parent_x_by * moment_5).sub_mul(e_y_by, e_y_by * p.k_6);
-    let moment_15 = moment_14 + moment_14;
-    let moment_16 = mr_moving_bx * p.k_10;
-    let i_moving_22 = moment_16 + moment_4 + moment_15;
-    let moment_17 = (p.parent_x_by * moment_10).sub_mul(e_y_bz, e_y_by * p.k_14);
-    let moment_18 = moment_17.add_mul(p.parent_x_bz, moment_5);
-    let moment_19 = moment_18.sub_mul(p.reach_by, mr_moving_bz);
-    let i_moving_23 = moment_19.sub_mul(p.reach_bz, mr_moving_by);
-    let i_moving_33 = moment_16 + moment_3 + (p.k_1 - moment_2 - moment_15);
+    let moment_7 = p.parent_x_bx * moment_5 - e_y_by * moment_6;
+    let moment_8 = moment_7 + p.parent_x_by * moment_0 - p.reach_bx * mr_moving_by;
+    let i_moving_12 = moment_8 - p.reach_by * mr_moving_bx;
+    let moment_9 = col_2 + p.k_9;
+    let moment_10 = p.parent_x_bx * moment_9 - e_y_bz * moment_6;
+    let moment_11 = moment_10 + p.parent_x_bz * moment_0;
+    let moment_12 = moment_11 - p.reach_bx * mr_moving_bz;
+    let i_moving_13 = moment_12 - p.reach_bz * mr_moving_bx;
+    let moment_13 = p.parent_x_by * moment_5 - e_y_by * p.k_6 * e_y_by;
+    let moment_14 = moment_13 + moment_13;
+    let moment_15 = mr_moving_bx * p.k_10;
+    let i_moving_22 = moment_15 + moment_4 + moment_14;
+    let moment_16 = p.parent_x_by * moment_9 - e_y_by * p.k_14 * e_y_bz;
+    let moment_17 = moment_16 + p.parent_x_bz * moment_5;
+    let moment_18 = moment_17 - p.reach_by * mr_moving_bz;
+    let i_moving_23 = moment_18 - p.reach_bz * mr_moving_by;
+    let i_moving_33 = moment_15 + moment_3 + (p.k_1 - moment_2 - moment_14);
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let f_rates_bx = (p.parent_x_bx * f_rates_w_wx).sub_mul(e_y_bx, neg_f_rates_w_wy);
-    let f_rates_by = (p.parent_x_by * f_rates_w_wx).sub_mul(e_y_by, neg_f_rates_w_wy);
-    let f_rates_bz = (p.parent_x_bz * f_rates_w_wx).sub_mul(e_y_bz, neg_f_rates_w_wy);
-    let bias_0 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_0 + (e_y_bx * n_rates_w_wy).add_mul(e_z_bx, n_rates_w_wz);
-    let bias_1 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_1 + (e_y_by * n_rates_w_wy).add_mul(e_z_by, n_rates_w_wz);
-    let bias_2 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_2 + (e_y_bz * n_rates_w_wy).add_mul(e_z_bz, n_rates_w_wz);
+    let f_rates_bx = p.parent_x_bx * f_rates_w_wx - e_y_bx * neg_f_rates_w_wy;
+    let f_rates_by = p.parent_x_by * f_rates_w_wx - e_y_by * neg_f_rates_w_wy;
+    let f_rates_bz = p.parent_x_bz * f_rates_w_wx - e_y_bz * neg_f_rates_w_wy;
+    let bias_0 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_0 + (e_y_bx * n_rates_w_wy + e_z_bx * n_rates_w_wz);
+    let bias_1 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_1 + (e_y_by * n_rates_w_wy + e_z_by * n_rates_w_wz);
+    let bias_2 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_2 + (e_y_bz * n_rates_w_wy + e_z_bz * n_rates_w_wz);
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
-    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
-    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
-    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
-    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
-    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_3 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
-    let u_rest_w = bias_3.add_mul(f_w_bz, r_first_rest_bz) + field_w;
+    let bias_3 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
+    let u_rest_w = bias_3 + f_w_bz * r_first_rest_bz + field_w;
 
     // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -619,7 +617,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
@@ -649,12 +647,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_w_bz * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
-    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w;
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w;
 
     Eliminated {
         share: HubShare {
@@ -710,12 +708,12 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_4.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_w_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_4 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

@@ -15,24 +15,6 @@ pub trait Real:
     /// A constant of the same kind.
     #[must_use]
     fn like(self, value: f64) -> Self;
-    /// `self + a b`.
-    #[inline(always)]
-    #[must_use]
-    fn add_mul(self, a: Self, b: Self) -> Self {
-        self + a * b
-    }
-    /// `self - a b`.
-    #[inline(always)]
-    #[must_use]
-    fn sub_mul(self, a: Self, b: Self) -> Self {
-        self - a * b
-    }
-    /// `self a - b`.
-    #[inline(always)]
-    #[must_use]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        self * a - b
-    }
 }
 
 impl Real for f64 {

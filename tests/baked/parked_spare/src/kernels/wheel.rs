@@ -285,31 +285,30 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{B/N}, eq. (D5), expressed in the axes of the wheel, rad/s.
-    let omega_b_n_wy = (w.omega_by * q.cos_theta).add_mul(w.omega_bz, q.sin_theta);
-    let omega_b_n_wz = (w.omega_bz * q.cos_theta).sub_mul(w.omega_by, q.sin_theta);
+    let omega_b_n_wy = w.omega_by * q.cos_theta + w.omega_bz * q.sin_theta;
+    let omega_b_n_wz = w.omega_bz * q.cos_theta - w.omega_by * q.sin_theta;
 
     // Joint row of the wheel about wx, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the
     // hub's part, N m.
-    let row_0 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
-    let field_w = (omega_b_n_wy * omega_b_n_wz * p.k_0).add_mul(w.omega_bx, row_0);
+    let row_0 = w.omega_bx * (p.j_13 * omega_b_n_wy - p.i_w_base_12 * omega_b_n_wz);
+    let field_w = omega_b_n_wy * omega_b_n_wz * p.k_0 + row_0;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the wheel: force, N, and moment, N m, about W
     // moved by (D3).
     let coriolis_0 = w.omega_bx + v.spin + w.omega_bx;
     let neg_f_rates_w_wy = v.spin * coriolis_0 * p.mr_wc_w_wy;
-    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_2).sub_mul(p.j_13, coriolis_0);
-    let coriolis_1 = (p.i_w_base_12 * coriolis_0).sub_mul(omega_b_n_wy, p.k_3);
-    let n_rates_w_wz = v.spin * coriolis_1;
+    let n_rates_w_wy = v.spin * (omega_b_n_wz * p.k_2 - p.j_13 * coriolis_0);
+    let n_rates_w_wz = v.spin * (p.i_w_base_12 * coriolis_0 - omega_b_n_wy * p.k_3);
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
     let mr_moving_bz = q.sin_theta * p.mr_wc_w_wy;
     let f_w_by = -mr_moving_bz;
     let f_w_bz = q.cos_theta * p.mr_wc_w_wy;
-    let n_w_bx = p.mass_ww.add_mul(p.r_w_b_by, f_w_bz);
-    let n_w_by = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
-    let n_w_bz = (q.sin_theta * p.i_w_base_12).add_mul(q.cos_theta, p.j_13);
+    let n_w_bx = p.mass_ww + p.r_w_b_by * f_w_bz;
+    let n_w_by = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let n_w_bz = q.sin_theta * p.i_w_base_12 + q.cos_theta * p.j_13;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
@@ -318,7 +317,7 @@ pub fn eliminate<T: Real>(
     let moment_1 = q.cos_theta * p.k_0;
     let moment_2 = q.cos_theta * moment_1;
     let i_moving_22 = -moment_2;
-    let i_moving_23 = -(p.r_w_b_by * mr_moving_bz).add_mul(q.sin_theta, moment_1);
+    let i_moving_23 = -(p.r_w_b_by * mr_moving_bz + q.sin_theta * moment_1);
     let i_moving_33 = p.k_5 + moment_2 + moment_0;
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
@@ -327,19 +326,18 @@ pub fn eliminate<T: Real>(
     let f_rates_by = -(q.cos_theta * neg_f_rates_w_wy);
     let f_rates_bz = -(q.sin_theta * neg_f_rates_w_wy);
     let n_rates_bx = p.r_w_b_by * f_rates_bz;
-    let n_rates_by = (q.cos_theta * n_rates_w_wy).sub_mul(q.sin_theta, n_rates_w_wz);
-    let bias_0 = (q.sin_theta * n_rates_w_wy).add_mul(q.cos_theta, n_rates_w_wz);
-    let n_rates_bz = bias_0.sub_mul(p.r_w_b_by, f_rates_bx);
+    let n_rates_by = q.cos_theta * n_rates_w_wy - q.sin_theta * n_rates_w_wz;
+    let bias_0 = q.sin_theta * n_rates_w_wy + q.cos_theta * n_rates_w_wz;
+    let n_rates_bz = bias_0 - p.r_w_b_by * f_rates_bx;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
-    let reach_0 = w.omega_bx * w.omega_bx;
-    let neg_r_first_rest_by = p.r_w_b_by * reach_0.add_mul(w.omega_bz, w.omega_bz);
+    let reach_0 = w.omega_bx * w.omega_bx + w.omega_bz * w.omega_bz;
+    let neg_r_first_rest_by = p.r_w_b_by * reach_0;
     let r_first_rest_bz = w.omega_bz * p.r_w_b_by * w.omega_by;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_1 = (f_w_bz * r_first_rest_bz).sub_mul(f_w_by, neg_r_first_rest_by);
-    let u_rest_w = bias_1 + field_w;
+    let u_rest_w = f_w_bz * r_first_rest_bz - f_w_by * neg_r_first_rest_by + field_w;
 
     // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -352,7 +350,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_22 = f_w_by * gain_w_v2;
@@ -376,11 +374,11 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_w_bz * gain_w_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
-    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
-    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
-    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
-    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w);
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w;
 
     let zero = q.sin_theta.like(0.0);
 
@@ -438,11 +436,11 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_2 = row_1.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_3 = row_2.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let spin_dot = row_3.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let row_0 = e.free_w - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_1 = row_0 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_2 = row_1 - a.omega_dot_bx * e.gain_w_w1;
+    let row_3 = row_2 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_3 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }

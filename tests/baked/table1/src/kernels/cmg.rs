@@ -421,10 +421,8 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{B/N}, eq. (D5), expressed in the axes of the outer gimbal, rad/s.
-    let rate_0 = w.omega_bx * q.cos_gamma_o;
-    let omega_b_n_gox = rate_0.add_mul(w.omega_by, q.sin_gamma_o);
-    let rate_1 = w.omega_by * q.cos_gamma_o;
-    let omega_b_n_goy = rate_1.sub_mul(w.omega_bx, q.sin_gamma_o);
+    let omega_b_n_gox = w.omega_bx * q.cos_gamma_o + w.omega_by * q.sin_gamma_o;
+    let omega_b_n_goy = w.omega_by * q.cos_gamma_o - w.omega_bx * q.sin_gamma_o;
 
     // ω_{Gᵒ/N}, eq. (31), expressed in its own axes, rad/s.
     let omega_go_n_goz = w.omega_bz + v.gamma_o_dot;
@@ -434,17 +432,15 @@ pub fn eliminate<T: Real>(
     let neg_alpha_go_goy = v.gamma_o_dot * omega_b_n_gox;
 
     // ω_{Gⁱ/N}, eq. (44), expressed in its own axes, rad/s.
-    let rate_2 = q.cos_gamma_i * omega_b_n_gox;
-    let omega_gi_n_gix = rate_2.sub_mul(q.sin_gamma_i, omega_go_n_goz);
+    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
+    let omega_gi_n_gix = q.cos_gamma_i * omega_b_n_gox - rate_0;
     let omega_gi_n_giy = v.gamma_i_dot + omega_b_n_goy;
-    let rate_3 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_3.add_mul(q.sin_gamma_i, omega_b_n_gox);
+    let rate_1 = q.cos_gamma_i * omega_go_n_goz;
+    let omega_gi_n_giz = rate_1 + q.sin_gamma_i * omega_b_n_gox;
 
     // Its derivative, no joint accelerating, as in eq. (47), expressed in the same axes, rad/s².
-    let turn_0 = q.cos_gamma_i * alpha_go_gox;
-    let alpha_gi_gix = turn_0.sub_mul(v.gamma_i_dot, omega_gi_n_giz);
-    let turn_1 = q.sin_gamma_i * alpha_go_gox;
-    let alpha_gi_giz = turn_1.add_mul(v.gamma_i_dot, omega_gi_n_gix);
+    let alpha_gi_gix = q.cos_gamma_i * alpha_go_gox - v.gamma_i_dot * omega_gi_n_giz;
+    let alpha_gi_giz = q.sin_gamma_i * alpha_go_gox + v.gamma_i_dot * omega_gi_n_gix;
 
     // Outboard composite of the joint of the wheel, W, by base parameters, eq. (D6), expressed
     // in the axes of the inner gimbal: first moment, kg m, and inertia, kg m², about W moved by
@@ -463,31 +459,27 @@ pub fn eliminate<T: Real>(
     // the hub's part, N m.
     let row_0 = q.sin_theta * p.j_13;
     let row_1 = lump_1 + i_behind_w_22;
-    let row_2 = neg_alpha_go_goy.add_mul(omega_gi_n_giz, omega_gi_n_gix) * row_0;
-    let row_3 = alpha_gi_giz.add_mul(omega_gi_n_gix, omega_gi_n_giy);
-    let row_4 = row_2.add_mul(row_3, i_behind_w_13);
-    let row_5 = omega_gi_n_giy * omega_gi_n_giy;
-    let row_6 = lump_2 * row_5.sub_mul(omega_gi_n_giz, omega_gi_n_giz);
-    let row_7 = row_6.add_mul(omega_gi_n_giz * omega_gi_n_giy, row_1);
-    let field_w = row_4.add_mul(p.mass_ww, alpha_gi_gix) - row_7;
+    let row_2 = (alpha_gi_giz + omega_gi_n_gix * omega_gi_n_giy) * i_behind_w_13;
+    let row_3 = (neg_alpha_go_goy + omega_gi_n_giz * omega_gi_n_gix) * row_0;
+    let row_4 = omega_gi_n_giy * omega_gi_n_giy - omega_gi_n_giz * omega_gi_n_giz;
+    let row_5 = lump_2 * row_4 + omega_gi_n_giz * omega_gi_n_giy * row_1;
+    let field_w = row_3 + row_2 + p.mass_ww * alpha_gi_gix - row_5;
 
     // Coriolis and centrifugal terms of the left side, which the rate of the joint of the wheel
     // requires, eq. (D8), expressed in the axes of the inner gimbal: force, N, and moment, N m,
     // about W moved by (D3).
     let coriolis_0 = v.spin * omega_gi_n_giy;
     let coriolis_1 = v.spin * omega_gi_n_giz;
-    let coriolis_2 = mr_behind_w_giy * coriolis_0;
-    let coriolis_3 = coriolis_2.add_mul(mr_behind_w_giz, coriolis_1);
-    let f_rates_w_gix = coriolis_3 + coriolis_3;
-    let coriolis_4 = v.spin * (v.spin + omega_gi_n_gix + omega_gi_n_gix);
-    let f_rates_w_giy = -(mr_behind_w_giy * coriolis_4);
-    let neg_f_rates_w_giz = mr_behind_w_giz * coriolis_4;
-    let coriolis_5 = lump_2 + lump_2;
-    let coriolis_6 = coriolis_1 * (p.mass_ww + row_1);
-    let coriolis_7 = coriolis_6.add_mul(coriolis_0, coriolis_5);
-    let n_rates_w_giy = coriolis_7.sub_mul(i_behind_w_13, coriolis_4);
-    let coriolis_8 = (row_0 * coriolis_4).add_mul(coriolis_1, coriolis_5);
-    let neg_n_rates_w_giz = coriolis_8.add_mul(coriolis_0, p.mass_ww - row_1);
+    let coriolis_2 = mr_behind_w_giy * coriolis_0 + mr_behind_w_giz * coriolis_1;
+    let f_rates_w_gix = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_gi_n_gix + omega_gi_n_gix);
+    let f_rates_w_giy = -(mr_behind_w_giy * coriolis_3);
+    let neg_f_rates_w_giz = mr_behind_w_giz * coriolis_3;
+    let coriolis_4 = lump_2 + lump_2;
+    let coriolis_5 = coriolis_1 * (p.mass_ww + row_1) + coriolis_0 * coriolis_4;
+    let n_rates_w_giy = coriolis_5 - i_behind_w_13 * coriolis_3;
+    let coriolis_6 = row_0 * coriolis_3 + coriolis_1 * coriolis_4;
+    let neg_n_rates_w_giz = coriolis_6 + coriolis_0 * (p.mass_ww - row_1);
 
     // Outboard composite of the joint of the inner gimbal, V, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
@@ -495,55 +487,53 @@ pub fn eliminate<T: Real>(
     let mr_behind_v_gox = q.sin_gamma_i * mr_behind_w_giz;
     let lump_3 = p.i_gi_13 + i_behind_w_13;
     let lump_4 = p.i_i_base_33 + i_behind_w_33;
-    let lump_5 = q.cos_gamma_i * (lump_3 + lump_3);
-    let lump_6 = lump_5.sub_mul(q.sin_gamma_i, p.mass_ww - lump_4);
+    let lump_5 = q.sin_gamma_i * (p.mass_ww - lump_4);
+    let lump_6 = q.cos_gamma_i * (lump_3 + lump_3) - lump_5;
     let lump_7 = q.sin_gamma_i * lump_6;
     let i_behind_v_11 = p.mass_ww + lump_7;
     let mass_iw = -row_0;
     let lump_8 = p.i_gi_12 + mass_iw;
     let lump_9 = p.i_gi_23 + i_behind_w_23;
-    let i_behind_v_12 = (q.cos_gamma_i * lump_8).add_mul(q.sin_gamma_i, lump_9);
-    let i_behind_v_13 = q.cos_gamma_i.mul_sub(lump_6, lump_3);
+    let i_behind_v_12 = q.cos_gamma_i * lump_8 + q.sin_gamma_i * lump_9;
+    let i_behind_v_13 = q.cos_gamma_i * lump_6 - lump_3;
     let i_behind_v_33 = lump_4 - lump_7;
 
     // Joint row of the inner gimbal about goy, eqs. (101), (D7), (D9): M_ij, kg m², and bias
     // without the hub's part, N m, which contains the moment that the rates of the outboard
     // joints require about the same axis.
     let mass_ii = p.i_i_base_22 + i_behind_w_22;
-    let row_8 = omega_b_n_gox * omega_b_n_gox;
-    let row_9 = omega_b_n_gox * omega_b_n_goy;
-    let mass_oi = (q.cos_gamma_i * lump_9).sub_mul(q.sin_gamma_i, lump_8);
-    let row_10 = i_behind_v_33 - i_behind_v_11;
-    let row_11 = alpha_go_gox.add_mul(omega_b_n_goy, omega_go_n_goz) * i_behind_v_12;
-    let row_12 = i_behind_v_13 * omega_go_n_goz.mul_sub(omega_go_n_goz, row_8);
-    let row_13 = row_11.sub_mul(row_9, mass_oi).sub_mul(neg_alpha_go_goy, mass_ii);
-    let row_14 = row_13 + row_12.sub_mul(omega_b_n_gox * omega_go_n_goz, row_10);
-    let field_i = row_14 + n_rates_w_giy;
+    let row_6 = omega_b_n_gox * omega_b_n_gox;
+    let row_7 = omega_b_n_gox * omega_b_n_goy;
+    let mass_oi = q.cos_gamma_i * lump_9 - q.sin_gamma_i * lump_8;
+    let row_8 = i_behind_v_33 - i_behind_v_11;
+    let row_9 = (alpha_go_gox + omega_b_n_goy * omega_go_n_goz) * i_behind_v_12;
+    let row_10 = i_behind_v_13 * (omega_go_n_goz * omega_go_n_goz - row_6);
+    let row_11 = row_9 - row_7 * mass_oi - neg_alpha_go_goy * mass_ii;
+    let row_12 = row_11 + (row_10 - omega_b_n_gox * omega_go_n_goz * row_8);
+    let field_i = row_12 + n_rates_w_giy;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the inner
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the outer
     // gimbal: force, N, and moment, N m, about Gⁱ moved by (D3).
-    let coriolis_9 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
-    let coriolis_10 = q.cos_gamma_i * f_rates_w_gix;
-    let coriolis_11 = coriolis_10.sub_mul(q.sin_gamma_i, neg_f_rates_w_giz);
-    let f_rates_i_gox = coriolis_11.sub_mul(mr_behind_v_gox, coriolis_9);
+    let coriolis_7 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
+    let coriolis_8 = q.sin_gamma_i * neg_f_rates_w_giz;
+    let coriolis_9 = q.cos_gamma_i * f_rates_w_gix - coriolis_8;
+    let f_rates_i_gox = coriolis_9 - mr_behind_v_gox * coriolis_7;
     let mr_moving_bz = q.cos_gamma_i * mr_behind_w_giz;
-    let coriolis_12 = v.gamma_i_dot * omega_go_n_goz;
-    let coriolis_13 = v.gamma_i_dot * omega_b_n_gox;
-    let coriolis_14 = mr_moving_bz * coriolis_12;
-    let coriolis_15 = coriolis_14.add_mul(mr_behind_v_gox, coriolis_13);
-    let f_rates_i_goy = coriolis_15 + coriolis_15 + f_rates_w_giy;
-    let coriolis_16 = q.cos_gamma_i * neg_f_rates_w_giz;
-    let coriolis_17 = coriolis_16.add_mul(q.sin_gamma_i, f_rates_w_gix);
-    let f_rates_i_goz = -coriolis_17.add_mul(mr_moving_bz, coriolis_9);
-    let coriolis_18 = i_behind_v_13 + i_behind_v_13;
-    let coriolis_19 = (mass_oi * coriolis_9).add_mul(coriolis_13, coriolis_18);
-    let coriolis_20 = coriolis_19.sub_mul(coriolis_12, mass_ii - row_10);
-    let n_rates_i_gox = coriolis_20.sub_mul(q.sin_gamma_i, neg_n_rates_w_giz);
-    let coriolis_21 = coriolis_13 * (mass_ii + row_10);
-    let coriolis_22 = coriolis_21.sub_mul(coriolis_12, coriolis_18);
-    let coriolis_23 = coriolis_22.sub_mul(i_behind_v_12, coriolis_9);
-    let n_rates_i_goz = coriolis_23.sub_mul(q.cos_gamma_i, neg_n_rates_w_giz);
+    let coriolis_10 = v.gamma_i_dot * omega_go_n_goz;
+    let coriolis_11 = v.gamma_i_dot * omega_b_n_gox;
+    let coriolis_12 = mr_moving_bz * coriolis_10 + mr_behind_v_gox * coriolis_11;
+    let f_rates_i_goy = coriolis_12 + coriolis_12 + f_rates_w_giy;
+    let coriolis_13 = q.cos_gamma_i * neg_f_rates_w_giz;
+    let coriolis_14 = coriolis_13 + q.sin_gamma_i * f_rates_w_gix;
+    let f_rates_i_goz = -(coriolis_14 + mr_moving_bz * coriolis_7);
+    let coriolis_15 = i_behind_v_13 + i_behind_v_13;
+    let coriolis_16 = mass_oi * coriolis_7 + coriolis_11 * coriolis_15;
+    let coriolis_17 = coriolis_16 - coriolis_10 * (mass_ii - row_8);
+    let n_rates_i_gox = coriolis_17 - q.sin_gamma_i * neg_n_rates_w_giz;
+    let coriolis_18 = coriolis_11 * (mass_ii + row_8) - coriolis_10 * coriolis_15;
+    let coriolis_19 = coriolis_18 - i_behind_v_12 * coriolis_7;
+    let n_rates_i_goz = coriolis_19 - q.cos_gamma_i * neg_n_rates_w_giz;
 
     // Outboard composite of the joint of the outer gimbal, D, by base parameters, eq. (D6),
     // expressed in the axes of the outer gimbal: first moment, kg m, and inertia, kg m², about
@@ -557,109 +547,95 @@ pub fn eliminate<T: Real>(
     // without the hub's part, N m, which contains the moment that the rates of the outboard
     // joints require about the same axis.
     let mass_oo = p.i_o_base_33 + i_behind_v_33;
-    let mass_ow = (q.cos_gamma_i * i_behind_w_13).sub_mul(q.sin_gamma_i, p.mass_ww);
-    let row_15 = i_behind_d_11 - mass_ii;
-    let row_16 = omega_b_n_gox * i_behind_d_23;
-    let row_17 = i_behind_d_12 * row_8.sub_mul(omega_b_n_goy, omega_b_n_goy);
-    let row_18 = row_16.sub_mul(omega_b_n_goy, i_behind_d_13);
-    let row_19 = row_17.add_mul(w.omega_bz, row_18).sub_mul(row_9, row_15);
-    let field_o = row_19 + n_rates_i_goz;
+    let mass_ow = q.cos_gamma_i * i_behind_w_13 - q.sin_gamma_i * p.mass_ww;
+    let row_13 = i_behind_d_11 - mass_ii;
+    let row_14 = omega_b_n_gox * i_behind_d_23 - omega_b_n_goy * i_behind_d_13;
+    let row_15 = i_behind_d_12 * (row_6 - omega_b_n_goy * omega_b_n_goy);
+    let field_o = row_15 + w.omega_bz * row_14 - row_7 * row_13 + n_rates_i_goz;
 
     // Coriolis and centrifugal terms of the left side, which the rates of the joint of the outer
     // gimbal and of those outboard of it require, eq. (D8), expressed in the axes of the outer
     // gimbal: force, N, and moment, N m, about Gᵒ moved by (D3).
-    let coriolis_24 = v.gamma_o_dot * (w.omega_bz + omega_go_n_goz);
-    let f_rates_o_gox = f_rates_i_gox.sub_mul(mr_behind_v_gox, coriolis_24);
-    let f_rates_o_goy = f_rates_i_goy.sub_mul(mr_behind_w_giy, coriolis_24);
-    let coriolis_25 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_26 = mass_oo + row_15;
-    let coriolis_27 = alpha_go_gox * coriolis_26;
-    let coriolis_28 = coriolis_27.sub_mul(neg_alpha_go_goy, coriolis_25);
-    let coriolis_29 = coriolis_28.sub_mul(i_behind_d_23, coriolis_24);
-    let n_rates_o_gox = coriolis_29 + n_rates_i_gox;
-    let coriolis_30 = i_behind_d_13 * coriolis_24;
-    let coriolis_31 = coriolis_30.add_mul(alpha_go_gox, coriolis_25);
-    let coriolis_32 = coriolis_31.sub_mul(neg_alpha_go_goy, mass_oo - row_15);
-    let n_rates_o_goy = coriolis_32 + n_rates_w_giy;
+    let coriolis_20 = v.gamma_o_dot * (w.omega_bz + omega_go_n_goz);
+    let f_rates_o_gox = f_rates_i_gox - mr_behind_v_gox * coriolis_20;
+    let f_rates_o_goy = f_rates_i_goy - mr_behind_w_giy * coriolis_20;
+    let coriolis_21 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_22 = mass_oo + row_13;
+    let coriolis_23 = alpha_go_gox * coriolis_22 - neg_alpha_go_goy * coriolis_21;
+    let n_rates_o_gox = coriolis_23 - i_behind_d_23 * coriolis_20 + n_rates_i_gox;
+    let coriolis_24 = i_behind_d_13 * coriolis_20 + alpha_go_gox * coriolis_21;
+    let coriolis_25 = coriolis_24 - neg_alpha_go_goy * (mass_oo - row_13);
+    let n_rates_o_goy = coriolis_25 + n_rates_w_giy;
 
     // M_vi and M_wi, eqs. (17), (75), (D7), expressed in B: force, kg m, and moment, kg m²,
     // about B, per unit joint acceleration.
-    let col_0 = q.cos_gamma_o * mr_behind_w_giy;
-    let mr_moving_by = col_0.add_mul(q.sin_gamma_o, mr_behind_v_gox);
+    let col_0 = q.sin_gamma_o * mr_behind_v_gox;
+    let mr_moving_by = q.cos_gamma_o * mr_behind_w_giy + col_0;
     let f_o_bx = -mr_moving_by;
-    let col_1 = q.cos_gamma_o * mr_behind_v_gox;
-    let f_o_by = col_1.sub_mul(q.sin_gamma_o, mr_behind_w_giy);
-    let col_2 = q.cos_gamma_o * i_behind_d_13;
-    let n_o_bx = col_2.sub_mul(q.sin_gamma_o, i_behind_d_23);
-    let col_3 = q.sin_gamma_o * i_behind_d_13;
-    let n_o_by = col_3.add_mul(q.cos_gamma_o, i_behind_d_23);
-    let n_o_bz = mass_oo.add_mul(p.r_go_b_bx, f_o_by);
+    let f_o_by = q.cos_gamma_o * mr_behind_v_gox - q.sin_gamma_o * mr_behind_w_giy;
+    let n_o_bx = q.cos_gamma_o * i_behind_d_13 - q.sin_gamma_o * i_behind_d_23;
+    let n_o_by = q.sin_gamma_o * i_behind_d_13 + q.cos_gamma_o * i_behind_d_23;
+    let n_o_bz = mass_oo + p.r_go_b_bx * f_o_by;
     let f_i_bx = q.cos_gamma_o * mr_moving_bz;
     let f_i_by = q.sin_gamma_o * mr_moving_bz;
     let f_i_bz = -mr_behind_v_gox;
-    let n_i_bx = (q.cos_gamma_o * i_behind_v_12).sub_mul(q.sin_gamma_o, mass_ii);
-    let col_4 = (q.sin_gamma_o * i_behind_v_12).add_mul(q.cos_gamma_o, mass_ii);
-    let n_i_by = col_4.sub_mul(p.r_go_b_bx, f_i_bz);
-    let n_i_bz = mass_oi.add_mul(p.r_go_b_bx, f_i_by);
-    let col_5 = q.sin_gamma_i * mr_behind_w_giy;
-    let f_w_bx = (q.cos_gamma_o * col_5).add_mul(q.sin_gamma_o, mr_behind_w_giz);
-    let f_w_by = (q.sin_gamma_o * col_5).sub_mul(q.cos_gamma_o, mr_behind_w_giz);
+    let n_i_bx = q.cos_gamma_o * i_behind_v_12 - q.sin_gamma_o * mass_ii;
+    let col_1 = q.sin_gamma_o * i_behind_v_12 + q.cos_gamma_o * mass_ii;
+    let n_i_by = col_1 - p.r_go_b_bx * f_i_bz;
+    let n_i_bz = mass_oi + p.r_go_b_bx * f_i_by;
+    let col_2 = q.sin_gamma_i * mr_behind_w_giy;
+    let f_w_bx = q.cos_gamma_o * col_2 + q.sin_gamma_o * mr_behind_w_giz;
+    let f_w_by = q.sin_gamma_o * col_2 - q.cos_gamma_o * mr_behind_w_giz;
     let f_w_bz = q.cos_gamma_i * mr_behind_w_giy;
-    let col_6 = (q.cos_gamma_i * p.mass_ww).add_mul(q.sin_gamma_i, i_behind_w_13);
-    let n_w_bx = (q.cos_gamma_o * col_6).add_mul(q.sin_gamma_o, row_0);
-    let col_7 = (q.sin_gamma_o * col_6).sub_mul(q.cos_gamma_o, row_0);
-    let n_w_by = col_7.sub_mul(p.r_go_b_bx, f_w_bz);
-    let n_w_bz = mass_ow.add_mul(p.r_go_b_bx, f_w_by);
+    let col_3 = q.cos_gamma_i * p.mass_ww + q.sin_gamma_i * i_behind_w_13;
+    let n_w_bx = q.cos_gamma_o * col_3 + q.sin_gamma_o * row_0;
+    let n_w_by = q.sin_gamma_o * col_3 - q.cos_gamma_o * row_0 - p.r_go_b_bx * f_w_bz;
+    let n_w_bz = mass_ow + p.r_go_b_bx * f_w_by;
 
     // D without its constant share of the hub, eqs. (9), (76), (D6), expressed in B: first
     // moment, kg m, and inertia, kg m², about B.
     let half = q.sin_gamma_o.like(0.5);
-    let moment_0 = row_15 * half;
-    let moment_1 = (q.cos_gamma_o * moment_0).sub_mul(q.sin_gamma_o, i_behind_d_12);
+    let moment_0 = row_13 * half;
+    let moment_1 = q.cos_gamma_o * moment_0 - q.sin_gamma_o * i_behind_d_12;
     let moment_2 = q.cos_gamma_o * moment_1;
     let moment_3 = moment_2 + moment_2;
     let i_moving_11 = mass_ii + moment_3;
-    let moment_4 = (q.sin_gamma_o * moment_0).add_mul(q.cos_gamma_o, i_behind_d_12);
-    let moment_5 = (q.cos_gamma_o * moment_4).add_mul(q.sin_gamma_o, moment_1);
-    let i_moving_12 = moment_5.sub_mul(p.r_go_b_bx, mr_moving_by);
-    let i_moving_13 = n_o_bx.sub_mul(p.r_go_b_bx, mr_moving_bz);
+    let moment_4 = q.sin_gamma_o * moment_0 + q.cos_gamma_o * i_behind_d_12;
+    let moment_5 = q.cos_gamma_o * moment_4 + q.sin_gamma_o * moment_1;
+    let i_moving_12 = moment_5 - p.r_go_b_bx * mr_moving_by;
+    let i_moving_13 = n_o_bx - p.r_go_b_bx * mr_moving_bz;
     let moment_6 = q.sin_gamma_o * moment_4;
     let moment_7 = moment_6 + moment_6;
     let moment_8 = p.k_1 * f_o_by;
     let i_moving_22 = mass_ii + moment_8 + moment_7;
-    let i_moving_33 = coriolis_26 - moment_3 - moment_7 + moment_8;
+    let i_moving_33 = coriolis_22 - moment_3 - moment_7 + moment_8;
 
     // Coriolis and centrifugal terms of the left side, which the joints' rates require, eqs.
     // (16), (75), (D8), expressed in B: force, N, and moment, N m, about B.
-    let bias_0 = q.cos_gamma_o * f_rates_o_gox;
-    let f_rates_bx = bias_0.sub_mul(q.sin_gamma_o, f_rates_o_goy);
-    let bias_1 = q.sin_gamma_o * f_rates_o_gox;
-    let f_rates_by = bias_1.add_mul(q.cos_gamma_o, f_rates_o_goy);
-    let bias_2 = neg_alpha_go_goy * mr_behind_v_gox;
-    let bias_3 = bias_2.add_mul(alpha_go_gox, mr_behind_w_giy);
-    let f_rates_bz = bias_3 + bias_3 + f_rates_i_goz;
-    let bias_4 = q.cos_gamma_o * n_rates_o_gox;
-    let n_rates_bx = bias_4.sub_mul(q.sin_gamma_o, n_rates_o_goy);
-    let bias_5 = q.sin_gamma_o * n_rates_o_gox;
-    let bias_6 = bias_5.add_mul(q.cos_gamma_o, n_rates_o_goy);
-    let n_rates_by = bias_6.sub_mul(p.r_go_b_bx, f_rates_bz);
-    let n_rates_bz = n_rates_i_goz.add_mul(p.r_go_b_bx, f_rates_by);
+    let f_rates_bx = q.cos_gamma_o * f_rates_o_gox - q.sin_gamma_o * f_rates_o_goy;
+    let f_rates_by = q.sin_gamma_o * f_rates_o_gox + q.cos_gamma_o * f_rates_o_goy;
+    let bias_0 = neg_alpha_go_goy * mr_behind_v_gox;
+    let bias_1 = bias_0 + alpha_go_gox * mr_behind_w_giy;
+    let f_rates_bz = bias_1 + bias_1 + f_rates_i_goz;
+    let n_rates_bx = q.cos_gamma_o * n_rates_o_gox - q.sin_gamma_o * n_rates_o_goy;
+    let bias_2 = q.sin_gamma_o * n_rates_o_gox + q.cos_gamma_o * n_rates_o_goy;
+    let n_rates_by = bias_2 - p.r_go_b_bx * f_rates_bz;
+    let n_rates_bz = n_rates_i_goz + p.r_go_b_bx * f_rates_by;
 
     // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), expressed in
     // B, m/s².
     let reach_0 = w.omega_bz * p.r_go_b_bx;
     let reach_1 = w.omega_by * p.r_go_b_bx;
-    let neg_r_first_rest_bx = (w.omega_by * reach_1).add_mul(w.omega_bz, reach_0);
+    let neg_r_first_rest_bx = w.omega_by * reach_1 + w.omega_bz * reach_0;
     let r_first_rest_by = w.omega_bx * reach_1;
     let r_first_rest_bz = w.omega_bx * reach_0;
 
     // Bias of each joint row, with that acceleration of the first joint's origin, eq. (D9), N m.
-    let bias_7 = (f_o_by * r_first_rest_by).sub_mul(f_o_bx, neg_r_first_rest_bx);
-    let u_rest_o = bias_7 + field_o;
-    let bias_8 = (f_i_by * r_first_rest_by).sub_mul(f_i_bx, neg_r_first_rest_bx);
-    let u_rest_i = bias_8.add_mul(f_i_bz, r_first_rest_bz) + field_i;
-    let bias_9 = (f_w_by * r_first_rest_by).sub_mul(f_w_bx, neg_r_first_rest_bx);
-    let u_rest_w = bias_9.add_mul(f_w_bz, r_first_rest_bz) + field_w;
+    let u_rest_o = f_o_by * r_first_rest_by - f_o_bx * neg_r_first_rest_bx + field_o;
+    let bias_3 = f_i_by * r_first_rest_by - f_i_bx * neg_r_first_rest_bx;
+    let u_rest_i = bias_3 + f_i_bz * r_first_rest_bz + field_i;
+    let bias_4 = f_w_by * r_first_rest_by - f_w_bx * neg_r_first_rest_bx;
+    let u_rest_w = bias_4 + f_w_bz * r_first_rest_bz + field_w;
 
     // Right side of each joint row, eqs. (80), (101), (119): motor torque less bias, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -677,26 +653,26 @@ pub fn eliminate<T: Real>(
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_o = mass_ow * recip_w;
     let gain_w_i = mass_iw * recip_w;
-    let free_w = m.given_w.add_mul(tau_w, recip_w);
+    let free_w = m.given_w + tau_w * recip_w;
 
     // Joint w eliminated from the rows of the inboard joints, eq. (D11).
-    let f_o_bx_w = f_o_bx.sub_mul(f_w_bx, gain_w_o);
-    let f_o_by_w = f_o_by.sub_mul(f_w_by, gain_w_o);
+    let f_o_bx_w = f_o_bx - f_w_bx * gain_w_o;
+    let f_o_by_w = f_o_by - f_w_by * gain_w_o;
     let f_o_bz_w = -(f_w_bz * gain_w_o);
-    let n_o_bx_w = n_o_bx.sub_mul(n_w_bx, gain_w_o);
-    let n_o_by_w = n_o_by.sub_mul(n_w_by, gain_w_o);
-    let n_o_bz_w = n_o_bz.sub_mul(n_w_bz, gain_w_o);
-    let mass_oo_w = mass_oo.sub_mul(mass_ow, gain_w_o);
-    let tau_o_w = tau_o.sub_mul(mass_ow, free_w);
-    let f_i_bx_w = f_i_bx.sub_mul(f_w_bx, gain_w_i);
-    let f_i_by_w = f_i_by.sub_mul(f_w_by, gain_w_i);
-    let f_i_bz_w = f_i_bz.sub_mul(f_w_bz, gain_w_i);
-    let n_i_bx_w = n_i_bx.sub_mul(n_w_bx, gain_w_i);
-    let n_i_by_w = n_i_by.sub_mul(n_w_by, gain_w_i);
-    let n_i_bz_w = n_i_bz.sub_mul(n_w_bz, gain_w_i);
-    let mass_oi_w = mass_oi.sub_mul(mass_ow, gain_w_i);
-    let mass_ii_w = mass_ii.sub_mul(mass_iw, gain_w_i);
-    let tau_i_w = tau_i.sub_mul(mass_iw, free_w);
+    let n_o_bx_w = n_o_bx - n_w_bx * gain_w_o;
+    let n_o_by_w = n_o_by - n_w_by * gain_w_o;
+    let n_o_bz_w = n_o_bz - n_w_bz * gain_w_o;
+    let mass_oo_w = mass_oo - mass_ow * gain_w_o;
+    let tau_o_w = tau_o - mass_ow * free_w;
+    let f_i_bx_w = f_i_bx - f_w_bx * gain_w_i;
+    let f_i_by_w = f_i_by - f_w_by * gain_w_i;
+    let f_i_bz_w = f_i_bz - f_w_bz * gain_w_i;
+    let n_i_bx_w = n_i_bx - n_w_bx * gain_w_i;
+    let n_i_by_w = n_i_by - n_w_by * gain_w_i;
+    let n_i_bz_w = n_i_bz - n_w_bz * gain_w_i;
+    let mass_oi_w = mass_oi - mass_ow * gain_w_i;
+    let mass_ii_w = mass_ii - mass_iw * gain_w_i;
+    let tau_i_w = tau_i - mass_iw * free_w;
 
     // Joint i, eq. (D10): its pivot, kg m², and gains.
     let divisor_i = m.held_i + mass_ii_w;
@@ -708,17 +684,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by_w * recip_i;
     let gain_i_w3 = n_i_bz_w * recip_i;
     let gain_i_o = mass_oi_w * recip_i;
-    let free_i = m.given_i.add_mul(tau_i_w, recip_i);
+    let free_i = m.given_i + tau_i_w * recip_i;
 
     // Joint i eliminated from the rows of the inboard joints, eq. (D11).
-    let f_o_bx_wi = f_o_bx_w.sub_mul(f_i_bx_w, gain_i_o);
-    let f_o_by_wi = f_o_by_w.sub_mul(f_i_by_w, gain_i_o);
-    let f_o_bz_wi = f_o_bz_w.sub_mul(f_i_bz_w, gain_i_o);
-    let n_o_bx_wi = n_o_bx_w.sub_mul(n_i_bx_w, gain_i_o);
-    let n_o_by_wi = n_o_by_w.sub_mul(n_i_by_w, gain_i_o);
-    let n_o_bz_wi = n_o_bz_w.sub_mul(n_i_bz_w, gain_i_o);
-    let mass_oo_wi = mass_oo_w.sub_mul(mass_oi_w, gain_i_o);
-    let tau_o_wi = tau_o_w.sub_mul(mass_oi_w, free_i);
+    let f_o_bx_wi = f_o_bx_w - f_i_bx_w * gain_i_o;
+    let f_o_by_wi = f_o_by_w - f_i_by_w * gain_i_o;
+    let f_o_bz_wi = f_o_bz_w - f_i_bz_w * gain_i_o;
+    let n_o_bx_wi = n_o_bx_w - n_i_bx_w * gain_i_o;
+    let n_o_by_wi = n_o_by_w - n_i_by_w * gain_i_o;
+    let n_o_bz_wi = n_o_bz_w - n_i_bz_w * gain_i_o;
+    let mass_oo_wi = mass_oo_w - mass_oi_w * gain_i_o;
+    let tau_o_wi = tau_o_w - mass_oi_w * free_i;
 
     // Joint o, eq. (D10): its pivot, kg m², and gains.
     let divisor_o = m.held_o + mass_oo_wi;
@@ -729,69 +705,42 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_wi * recip_o;
     let gain_o_w2 = n_o_by_wi * recip_o;
     let gain_o_w3 = n_o_bz_wi * recip_o;
-    let free_o = m.given_o.add_mul(tau_o_wi, recip_o);
+    let free_o = m.given_o + tau_o_wi * recip_o;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
-    let hub_0 = (f_w_bx * gain_w_v1).add_mul(f_i_bx_w, gain_i_v1);
-    let m_vv_11 = hub_0.add_mul(f_o_bx_wi, gain_o_v1);
-    let hub_1 = (f_w_by * gain_w_v1).add_mul(f_i_by_w, gain_i_v1);
-    let m_vv_12 = hub_1.add_mul(f_o_by_wi, gain_o_v1);
-    let hub_2 = (f_w_bz * gain_w_v1).add_mul(f_i_bz_w, gain_i_v1);
-    let m_vv_13 = hub_2.add_mul(f_o_bz_wi, gain_o_v1);
-    let hub_3 = (f_w_by * gain_w_v2).add_mul(f_i_by_w, gain_i_v2);
-    let m_vv_22 = hub_3.add_mul(f_o_by_wi, gain_o_v2);
-    let hub_4 = (f_w_bz * gain_w_v2).add_mul(f_i_bz_w, gain_i_v2);
-    let m_vv_23 = hub_4.add_mul(f_o_bz_wi, gain_o_v2);
-    let hub_5 = (f_w_bz * gain_w_v3).add_mul(f_i_bz_w, gain_i_v3);
-    let m_vv_33 = hub_5.add_mul(f_o_bz_wi, gain_o_v3);
+    let m_vv_11 = f_w_bx * gain_w_v1 + f_i_bx_w * gain_i_v1 + f_o_bx_wi * gain_o_v1;
+    let m_vv_12 = f_w_by * gain_w_v1 + f_i_by_w * gain_i_v1 + f_o_by_wi * gain_o_v1;
+    let m_vv_13 = f_w_bz * gain_w_v1 + f_i_bz_w * gain_i_v1 + f_o_bz_wi * gain_o_v1;
+    let m_vv_22 = f_w_by * gain_w_v2 + f_i_by_w * gain_i_v2 + f_o_by_wi * gain_o_v2;
+    let m_vv_23 = f_w_bz * gain_w_v2 + f_i_bz_w * gain_i_v2 + f_o_bz_wi * gain_o_v2;
+    let m_vv_33 = f_w_bz * gain_w_v3 + f_i_bz_w * gain_i_v3 + f_o_bz_wi * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
-    let hub_6 = (n_w_bx * gain_w_v1).add_mul(n_i_bx_w, gain_i_v1);
-    let m_vw_11 = hub_6.add_mul(n_o_bx_wi, gain_o_v1);
-    let hub_7 = (n_w_by * gain_w_v1).add_mul(n_i_by_w, gain_i_v1);
-    let m_vw_12 = hub_7.add_mul(n_o_by_wi, gain_o_v1);
-    let hub_8 = (n_w_bz * gain_w_v1).add_mul(n_i_bz_w, gain_i_v1);
-    let m_vw_13 = hub_8.add_mul(n_o_bz_wi, gain_o_v1);
-    let hub_9 = (n_w_bx * gain_w_v2).add_mul(n_i_bx_w, gain_i_v2);
-    let m_vw_21 = hub_9.add_mul(n_o_bx_wi, gain_o_v2);
-    let hub_10 = (n_w_by * gain_w_v2).add_mul(n_i_by_w, gain_i_v2);
-    let m_vw_22 = hub_10.add_mul(n_o_by_wi, gain_o_v2);
-    let hub_11 = (n_w_bz * gain_w_v2).add_mul(n_i_bz_w, gain_i_v2);
-    let m_vw_23 = hub_11.add_mul(n_o_bz_wi, gain_o_v2);
-    let hub_12 = (n_w_bx * gain_w_v3).add_mul(n_i_bx_w, gain_i_v3);
-    let m_vw_31 = hub_12.add_mul(n_o_bx_wi, gain_o_v3);
-    let hub_13 = (n_w_by * gain_w_v3).add_mul(n_i_by_w, gain_i_v3);
-    let m_vw_32 = hub_13.add_mul(n_o_by_wi, gain_o_v3);
-    let hub_14 = (n_w_bz * gain_w_v3).add_mul(n_i_bz_w, gain_i_v3);
-    let m_vw_33 = hub_14.add_mul(n_o_bz_wi, gain_o_v3);
+    let m_vw_11 = n_w_bx * gain_w_v1 + n_i_bx_w * gain_i_v1 + n_o_bx_wi * gain_o_v1;
+    let m_vw_12 = n_w_by * gain_w_v1 + n_i_by_w * gain_i_v1 + n_o_by_wi * gain_o_v1;
+    let m_vw_13 = n_w_bz * gain_w_v1 + n_i_bz_w * gain_i_v1 + n_o_bz_wi * gain_o_v1;
+    let m_vw_21 = n_w_bx * gain_w_v2 + n_i_bx_w * gain_i_v2 + n_o_bx_wi * gain_o_v2;
+    let m_vw_22 = n_w_by * gain_w_v2 + n_i_by_w * gain_i_v2 + n_o_by_wi * gain_o_v2;
+    let m_vw_23 = n_w_bz * gain_w_v2 + n_i_bz_w * gain_i_v2 + n_o_bz_wi * gain_o_v2;
+    let m_vw_31 = n_w_bx * gain_w_v3 + n_i_bx_w * gain_i_v3 + n_o_bx_wi * gain_o_v3;
+    let m_vw_32 = n_w_by * gain_w_v3 + n_i_by_w * gain_i_v3 + n_o_by_wi * gain_o_v3;
+    let m_vw_33 = n_w_bz * gain_w_v3 + n_i_bz_w * gain_i_v3 + n_o_bz_wi * gain_o_v3;
 
     // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
-    let hub_15 = (n_w_bx * gain_w_w1).add_mul(n_i_bx_w, gain_i_w1);
-    let m_ww_11 = hub_15.add_mul(n_o_bx_wi, gain_o_w1);
-    let hub_16 = (n_w_by * gain_w_w1).add_mul(n_i_by_w, gain_i_w1);
-    let m_ww_12 = hub_16.add_mul(n_o_by_wi, gain_o_w1);
-    let hub_17 = (n_w_bz * gain_w_w1).add_mul(n_i_bz_w, gain_i_w1);
-    let m_ww_13 = hub_17.add_mul(n_o_bz_wi, gain_o_w1);
-    let hub_18 = (n_w_by * gain_w_w2).add_mul(n_i_by_w, gain_i_w2);
-    let m_ww_22 = hub_18.add_mul(n_o_by_wi, gain_o_w2);
-    let hub_19 = (n_w_bz * gain_w_w2).add_mul(n_i_bz_w, gain_i_w2);
-    let m_ww_23 = hub_19.add_mul(n_o_bz_wi, gain_o_w2);
-    let hub_20 = (n_w_bz * gain_w_w3).add_mul(n_i_bz_w, gain_i_w3);
-    let m_ww_33 = hub_20.add_mul(n_o_bz_wi, gain_o_w3);
+    let m_ww_11 = n_w_bx * gain_w_w1 + n_i_bx_w * gain_i_w1 + n_o_bx_wi * gain_o_w1;
+    let m_ww_12 = n_w_by * gain_w_w1 + n_i_by_w * gain_i_w1 + n_o_by_wi * gain_o_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1 + n_i_bz_w * gain_i_w1 + n_o_bz_wi * gain_o_w1;
+    let m_ww_22 = n_w_by * gain_w_w2 + n_i_by_w * gain_i_w2 + n_o_by_wi * gain_o_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2 + n_i_bz_w * gain_i_w2 + n_o_bz_wi * gain_o_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3 + n_i_bz_w * gain_i_w3 + n_o_bz_wi * gain_o_w3;
 
     // Subtracted from the hub's right side, eq. (D12): force, N, and moment, N m, about B.
-    let hub_21 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_i_bx_w, free_i);
-    let h_v_1 = hub_21.add_mul(f_o_bx_wi, free_o);
-    let hub_22 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_i_by_w, free_i);
-    let h_v_2 = hub_22.add_mul(f_o_by_wi, free_o);
-    let hub_23 = f_rates_bz.add_mul(f_w_bz, free_w).add_mul(f_i_bz_w, free_i);
-    let h_v_3 = hub_23.add_mul(f_o_bz_wi, free_o);
-    let hub_24 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_i_bx_w, free_i);
-    let h_w_1 = hub_24.add_mul(n_o_bx_wi, free_o);
-    let hub_25 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_i_by_w, free_i);
-    let h_w_2 = hub_25.add_mul(n_o_by_wi, free_o);
-    let hub_26 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_i_bz_w, free_i);
-    let h_w_3 = hub_26.add_mul(n_o_bz_wi, free_o);
+    let h_v_1 = f_rates_bx + f_w_bx * free_w + f_i_bx_w * free_i + f_o_bx_wi * free_o;
+    let h_v_2 = f_rates_by + f_w_by * free_w + f_i_by_w * free_i + f_o_by_wi * free_o;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w + f_i_bz_w * free_i + f_o_bz_wi * free_o;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_i_bx_w * free_i + n_o_bx_wi * free_o;
+    let h_w_2 = n_rates_by + n_w_by * free_w + n_i_by_w * free_i + n_o_by_wi * free_o;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_i_bz_w * free_i + n_o_bz_wi * free_o;
 
     Eliminated {
         share: HubShare {
@@ -876,27 +825,26 @@ pub fn eliminate<T: Real>(
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row, outboard, eq. (D13): the free acceleration less the gains.
-    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
-    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
-    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
-    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
-    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
-    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
-    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
-    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
-    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
-    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
-    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
-    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
-    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
-    let row_11 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
-    let row_12 = row_11.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
-    let row_13 = row_12.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
-    let row_14 = row_13.sub_mul(a.omega_dot_bx, e.gain_w_w1);
-    let row_15 = row_14.sub_mul(a.omega_dot_by, e.gain_w_w2);
-    let row_16 = row_15.sub_mul(a.omega_dot_bz, e.gain_w_w3);
-    let row_17 = row_16.sub_mul(gamma_o_ddot, e.gain_w_o);
-    let spin_dot = row_17.sub_mul(gamma_i_ddot, e.gain_w_i);
+    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
+    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
+    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
+    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
+    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
+    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
+    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
+    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
+    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
+    let row_11 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_12 = row_11 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_13 = row_12 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_14 = row_13 - a.omega_dot_bx * e.gain_w_w1;
+    let row_15 = row_14 - a.omega_dot_by * e.gain_w_w2;
+    let row_16 = row_15 - a.omega_dot_bz * e.gain_w_w3 - gamma_o_ddot * e.gain_w_o;
+    let spin_dot = row_16 - gamma_i_ddot * e.gain_w_i;
 
     JointAccelerations { gamma_o_ddot, gamma_i_ddot, spin_dot }
 }
