@@ -23,9 +23,6 @@ impl<D: WithNumbers> Spacecraft<D> {
     /// locked and a hub that is fixed have derivatives by their rates, too: those of a joint or hub
     /// that keeps its rate.
     ///
-    /// A [fused](Self::fused) spacecraft has the fused accelerations, and derivatives that are not
-    /// fused.
-    ///
     /// ```
     /// # use nalgebra::{Matrix3, Vector3};
     /// use precess_dynamics::{Axis, Hub, Inputs, Outputs, ReactionWheel, Spacecraft, State, Variable};

@@ -1,10 +1,7 @@
-//! [`Arithmetic`]: how an evaluation is rounded, and by which instructions; the kernel `eliminate`
-//! for one device by each.
+//! [`Arithmetic`]: by which instructions an evaluation is computed; the kernel `eliminate` for one
+//! device by each.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::equations::assembly::Assembly;
 #[cfg(feature = "lanes")]
@@ -22,33 +19,24 @@ use crate::model::mode::Drive;
 use crate::numbers::each::Value;
 use crate::numbers::real::Real;
 
-/// How products and sums of an evaluation are rounded, and by which instructions.
+/// By which instructions an evaluation is computed: always with the same bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Arithmetic {
-    /// One by one, by instructions that every CPU of the target has: the same bits everywhere.
+    /// By instructions that every CPU of the target has.
     Portable,
-    /// One by one, by instructions of this CPU: the same bits, in less time.
+    /// By instructions of this CPU, in less time.
     #[cfg(feature = "lanes")]
-    Unfused(Cpu),
-    /// A product and a sum once in the devices' equations, by instructions of this CPU.
-    #[cfg(feature = "lanes")]
-    Fused(Cpu),
+    Dispatched(Cpu),
 }
 
 impl Arithmetic {
-    /// Unfused, by the instructions of this CPU where they are known.
-    pub(crate) fn unfused() -> Self {
+    /// By the instructions of this CPU where they are known.
+    pub(crate) fn detected() -> Self {
         #[cfg(feature = "lanes")]
         if let Some(cpu) = Cpu::detected() {
-            return Self::Unfused(cpu);
+            return Self::Dispatched(cpu);
         }
         Self::Portable
-    }
-
-    /// Fused if this CPU has the instruction; without it, fused products would be slow.
-    #[cfg(feature = "lanes")]
-    pub(crate) fn fused() -> Self {
-        Cpu::detected().map_or(Self::Portable, Self::Fused)
     }
 
     /// Eliminates the joints of a device.
@@ -59,9 +47,7 @@ impl Arithmetic {
     ) -> Result<(), SolveError<K::Scalar>> {
         match self {
             #[cfg(feature = "lanes")]
-            Self::Unfused(cpu) if K::JOINTS.len() >= LONG => dispatched::<K, false>(cpu, of),
-            #[cfg(feature = "lanes")]
-            Self::Fused(cpu) => dispatched::<K, true>(cpu, of),
+            Self::Dispatched(cpu) if K::JOINTS.len() >= LONG => dispatched(cpu, of),
             _ => {
                 let DeviceElimination { device, index, joints, given, .. } = of;
                 let DeviceElimination { environment, assembly, gains, .. } = of;
@@ -80,14 +66,14 @@ const LONG: usize = 2;
 /// for the sums that the one before it has just written.
 #[cfg(feature = "lanes")]
 #[inline(always)]
-fn dispatched<K: Kind, const FUSED: bool>(
+fn dispatched<K: Kind>(
     cpu: Cpu,
     of: DeviceElimination<'_, K>,
 ) -> Result<(), SolveError<K::Scalar>> {
     let mut share = None;
     let DeviceElimination { assembly, .. } = of;
     let of = DeviceElimination { assembly: &mut *assembly, ..of };
-    cpu.dispatch(Dispatched::<K, FUSED> { of, share: &mut share })?;
+    cpu.dispatch(Dispatched { of, share: &mut share })?;
     if let Some(share) = &share {
         assembly.add(share);
     }

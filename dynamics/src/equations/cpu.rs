@@ -1,8 +1,7 @@
 //! [`Cpu`]: instructions for single numbers that not every CPU of the target has.
 //!
-//! On x86-64 three operands instead of two, and the fused product. Not the widest registers: among
-//! single numbers the compiler finds vectors to fill them with, and gathering those takes longer
-//! than it saves.
+//! On x86-64 three operands instead of two. Not the widest registers: among single numbers the
+//! compiler finds vectors to fill them with, and gathering those takes longer than it saves.
 
 use pulp::WithSimd;
 

@@ -4,10 +4,7 @@
 //! frame, the axes of the device's first joint at zero: what comes from the hub is rotated into it
 //! by `mount^T`, results out of it by `mount`.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Central, gradient};

@@ -1,9 +1,6 @@
 //! [`DeviceElimination`]: the joints of one device eliminated from the equations of the hub.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::equations::arithmetic::{EliminationInputs, Pivots};
 use crate::equations::assembly::{Assembly, expressed_in_b};
@@ -34,8 +31,8 @@ pub(crate) struct DeviceElimination<'a, K: Kind> {
 }
 
 impl<K: Kind> DeviceElimination<'_, K> {
-    /// Eliminates the joints. `eliminate` is the kernel, fused or unfused: it writes the gains, and
-    /// adds the share of the hub's equations to the hub's system or keeps it for its caller.
+    /// Eliminates the joints. `eliminate` is the kernel: it writes the gains, and adds the
+    /// share of the hub's equations to the hub's system or keeps it for its caller.
     #[inline(always)]
     pub(crate) fn run(
         self,

@@ -16,8 +16,6 @@ pub(crate) mod eliminate;
 pub(crate) mod error;
 #[cfg(test)]
 mod error_checks;
-#[cfg(feature = "lanes")]
-pub(crate) mod fused;
 pub(crate) mod gravity;
 pub(crate) mod hub;
 pub(crate) mod joint_inputs;

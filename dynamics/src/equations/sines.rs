@@ -22,7 +22,7 @@ impl Sines {
     /// None of one joint alone, which is quicker by itself, and where an angle is beyond those
     /// that lanes support.
     #[inline(always)]
-    pub(crate) fn of<K: Kernels, T: Value, S: Simd, const FUSED: bool>(
+    pub(crate) fn of<K: Kernels, T: Value, S: Simd>(
         simd: S,
         joints: &K::Joints<T>,
         number: impl Fn(T) -> f64,
@@ -38,7 +38,7 @@ impl Sines {
         if !supported || count < 2 {
             return None;
         }
-        let zero = Lane::<S, FUSED>::splat(simd, 0.0);
+        let zero = Lane::<S>::splat(simd, 0.0);
         let mut found = Self { sines: Block::ZERO, cosines: Block::ZERO };
         for start in (0..joints.states().count()).step_by(S::F64_LANES) {
             let mut block = Block::ZERO;

@@ -117,7 +117,7 @@ impl<D: Devices> Spacecraft<D> {
         let environment = Environment { omega: zeros(), central: None, impulse: true, reduction };
         let given = JointInputs { motors, modes: &inputs.modes, bodies: None };
         let mut assembly = Assembly::new(&self.body, zeros(), zeros());
-        let by = Arithmetic::unfused();
+        let by = Arithmetic::detected();
         self.eliminate_devices(by, state, given, &environment, &mut assembly, scratch)?;
         Ok(assembly)
     }

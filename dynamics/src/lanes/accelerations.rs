@@ -34,11 +34,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if const { D::FUSES } && self.crafts.is_fused() {
-            self.evaluate(Lane::<S, true>::splat(simd, 0.0));
-        } else {
-            self.evaluate(Lane::<S, false>::splat(simd, 0.0));
-        }
+        self.evaluate(Lane::splat(simd, 0.0));
     }
 }
 

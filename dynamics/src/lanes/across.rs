@@ -40,13 +40,11 @@ use crate::validation::parameter_error::ParameterError;
 
 /// A hub with `N` devices of one kind, evaluated as many at a time as there are lanes.
 ///
-/// Worth it from four devices on. Results have the bits that [`Spacecraft`] gives; those of
-/// [`AcrossDevices::fused`] have not.
+/// Worth it from four devices on. Results have the bits that [`Spacecraft`] gives.
 #[derive(Clone, Debug)]
 pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     craft: Spacecraft<[K; N]>,
     lanes: Arch,
-    fused: bool,
     groups: Vec<Group<K>>,
     /// What the devices have of their own.
     own: OwnLoads,
@@ -72,16 +70,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         let craft = Spacecraft::new(hub, devices)?;
         let lanes = lanes_for(N);
         let groups = craft.devices.chunks(width(lanes)).filter_map(Group::new).collect();
-        Ok(Self { own: OwnLoads::of(&craft), craft, lanes, fused: false, groups })
-    }
-
-    /// The same with products and sums of the devices' equations rounded once, and with what the
-    /// devices exert on the hub added lane by lane: accelerations and steps have other bits, and
-    /// take less time. Without a CPU that has the instruction, results stay as they are.
-    #[must_use]
-    pub fn fused(mut self) -> Self {
-        self.fused = !matches!(self.lanes, Arch::Scalar);
-        self
+        Ok(Self { own: OwnLoads::of(&craft), craft, lanes, groups })
     }
 
     /// The spacecraft, for everything else that is asked of it.
@@ -137,12 +126,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         found: &mut Accelerations<[K; N]>,
         stiffness: Option<&mut Stiffness<f64>>,
     ) -> Option<()> {
-        let evaluation = Evaluation { across: self, state, inputs, found, stiffness };
-        if self.fused {
-            dispatch::<_, N>(self.lanes, InLanes::<_, true>(evaluation))
-        } else {
-            dispatch::<_, N>(self.lanes, InLanes::<_, false>(evaluation))
-        }
+        dispatch::<_, N>(self.lanes, Evaluation { across: self, state, inputs, found, stiffness })
     }
 }
 
@@ -164,26 +148,19 @@ struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
     stiffness: Option<&'a mut Stiffness<f64>>,
 }
 
-/// An evaluation in lanes that are fused or not.
-struct InLanes<E, const FUSED: bool>(E);
-
-impl<K, A, const N: usize, const FUSED: bool> WithSimd for InLanes<Evaluation<'_, K, A, N>, FUSED>
-where
-    K: Kind<Scalar = f64>,
-    A: Attitude<f64>,
-{
+impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
     type Output = Option<()>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        self.0.evaluate::<_, FUSED>(Lane::<S, FUSED>::splat(simd, 0.0))
+        self.evaluate(Lane::splat(simd, 0.0))
     }
 }
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
-    /// What the devices exert on the hub is added device by device, or `BY_LANE`.
+    /// What the devices exert on the hub is added device by device.
     #[inline(always)]
-    fn evaluate<T: Number, const BY_LANE: bool>(self, zero: T) -> Option<()> {
+    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
         let Self { across, state, inputs, found: all, stiffness: demanded } = self;
         let AcrossDevices { craft, groups, .. } = across;
         check_fixed(state, inputs).ok()?;
@@ -192,7 +169,7 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         let omega = map(environment.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.
         let (mut of_first, mut gains) = (None, Vec::with_capacity(groups.len().saturating_sub(1)));
-        let (mut holds, mut shares) = (zero.same(zero), None);
+        let mut holds = zero.same(zero);
         let OwnLoads { dry, lumped } = across.own;
         let with_loads = dry || lumped || inputs.bodies.is_some() || environment.central.is_some();
         let mut start = 0;
@@ -249,29 +226,15 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
                     |number| number.or(real, none),
                 );
             }
-            if BY_LANE {
-                shares = Some(match &shares {
-                    Some(sum) => share.zip(sum, |number, sum| sum + number),
-                    None => share,
-                });
-            } else {
-                assembly.add_by(
-                    &share,
-                    #[inline(always)]
-                    |sum, number| number.added_to(sum),
-                );
-            }
+            assembly.add_by(
+                &share,
+                #[inline(always)]
+                |sum, number| number.added_to(sum),
+            );
             match &of_first {
                 None => of_first = Some(Aligned(*K::gains(&eliminated))),
                 Some(_) => gains.push(Aligned(*K::gains(&eliminated))),
             }
-        }
-        if let Some(shares) = &shares {
-            assembly.add_by(
-                shares,
-                #[inline(always)]
-                |sum, number| sum + number.sum(),
-            );
         }
         let hub = craft.hub_accelerations(inputs, &environment, &mut assembly, at_b).ok()?;
         let all_gains = of_first.iter().chain(&gains);

@@ -21,14 +21,13 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 
 /// A spacecraft that is evaluated at many states at a time.
 ///
-/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit, unless
-/// the lanes fuse ([`Self::fused`]). A state falls back to the scalar path where it has what is
-/// [unsupported in lanes](crate::lanes), and where anything fails.
+/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit. A state
+/// falls back to the scalar path where it has what is [unsupported in lanes](crate::lanes), and where
+/// anything fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
     craft: Spacecraft<D>,
     own: OwnLoads,
-    fused: bool,
     #[cfg(feature = "threads")]
     on_threads: bool,
 }
@@ -44,17 +43,9 @@ impl<D: LanedSet> Batch<D> {
         Ok(Self {
             own: OwnLoads::of(&craft),
             craft,
-            fused: false,
             #[cfg(feature = "threads")]
             on_threads: false,
         })
-    }
-
-    /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
-    /// some CPUs. A set with a vector stays unfused.
-    #[must_use]
-    pub fn fused(self) -> Self {
-        Self { fused: true, ..self }
     }
 
     /// The same on the threads of rayon's pool: that in which a call is made, by
@@ -135,11 +126,6 @@ impl<D: LanedSet> Batch<D> {
 
 impl<D: LanedSet> Crafts<D> for Batch<D> {
     const EACH: bool = false;
-
-    #[inline(always)]
-    fn is_fused(&self) -> bool {
-        self.fused
-    }
 
     #[cfg(feature = "threads")]
     fn are_on_threads(&self) -> bool {

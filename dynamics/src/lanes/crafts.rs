@@ -14,8 +14,6 @@ pub(super) trait Crafts<D: LanedSet>: Sync {
     /// Whether each state has its own.
     const EACH: bool;
 
-    /// Whether product and sum are rounded once.
-    fn is_fused(&self) -> bool;
     /// Whether the states are split over threads.
     #[cfg(feature = "threads")]
     fn are_on_threads(&self) -> bool;

@@ -1,7 +1,7 @@
 //! One evaluation in lanes: what [`Spacecraft::accelerations`] does, several states at a time.
 //!
-//! The same kernels and the same arithmetic in the same order: lanes that do not fuse have the bits
-//! of single numbers. Nothing stops where a lane fails; which lanes hold is returned at the end.
+//! The same kernels and the same arithmetic in the same order: lanes have the bits of single
+//! numbers. Nothing stops where a lane fails; which lanes hold is returned at the end.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 

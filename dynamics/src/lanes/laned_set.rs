@@ -17,9 +17,6 @@ use crate::sets::per_device::{self as data, PerDevice};
 pub trait LanedSet:
     Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
 {
-    /// Whether lanes may fuse: those of a set with a vector do not, which halves its code.
-    const FUSES: bool;
-
     /// Whether data are of as many members as the devices.
     fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool;
     /// Whether two sets have as many members.
@@ -27,8 +24,6 @@ pub trait LanedSet:
 }
 
 impl<K: Kind<Scalar = f64>> LanedSet for K {
-    const FUSES: bool = true;
-
     #[inline(always)]
     fn fits<F: PerDevice<f64>>(_: &Self::Prepared, _: &Self::Per<F>) -> bool {
         true
@@ -41,8 +36,6 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
 }
 
 impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
-    const FUSES: bool = D::FUSES;
-
     #[inline(always)]
     fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool {
         devices.iter().zip(data).all(|(device, data)| D::fits::<F>(device, data))
@@ -55,8 +48,6 @@ impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
 }
 
 impl<D: LanedSet> LanedSet for std::vec::Vec<D> {
-    const FUSES: bool = false;
-
     fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool {
         let members = || devices.iter().zip(data);
         devices.len() == data.len() && members().all(|(device, data)| D::fits::<F>(device, data))
@@ -71,8 +62,6 @@ impl<D: LanedSet> LanedSet for std::vec::Vec<D> {
 macro_rules! tuples {
     ($($($member:ident $place:tt)*;)*) => {$(
         impl<$($member: LanedSet),*> LanedSet for ($($member,)*) {
-            const FUSES: bool = $($member::FUSES &&)* true;
-
             #[inline(always)]
             fn fits<Y: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<Y>) -> bool {
                 $($member::fits::<Y>(&devices.$place, &data.$place) &&)* true

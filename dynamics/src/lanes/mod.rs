@@ -1,19 +1,15 @@
 //! Several numbers at a time, in the registers of the CPU at hand. Needs the feature `lanes`.
 //!
-//! | to evaluate | use | result |
-//! |---|---|---|
-//! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) | |
-//! | the same, product and sum rounded once | [`Spacecraft::fused`] | to rounding |
-//! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to the bit |
-//! | the same, product and sum rounded once | [`AcrossDevices::fused`] | to rounding |
-//! | many states of one spacecraft, or their runs | [`Batch`] | to the bit |
-//! | the same, product and sum rounded once | [`Batch::fused`] | to rounding |
-//! | many spacecraft of one shape, each at its state | [`ParameterBatch`] | to the bit |
-//! | the same, product and sum rounded once | [`ParameterBatch::fused`] | to rounding |
-//! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] | as the run |
-//! | a batch on several threads, with the feature `threads` | `on_threads` | as on one |
+//! | to evaluate | use |
+//! |---|---|
+//! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) |
+//! | one state after another, four or more devices of one kind | [`AcrossDevices`] |
+//! | many states of one spacecraft, or their runs | [`Batch`] |
+//! | many spacecraft of one shape, each at its state | [`ParameterBatch`] |
+//! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] |
+//! | a batch on several threads, with the feature `threads` | `on_threads` |
 //!
-//! [`Spacecraft::fused`]: crate::Spacecraft::fused
+//! All have the same bits.
 //!
 //! Registers are chosen at run time, AVX-512 with the feature `avx512`, AVX2 with FMA, or NEON: a portable
 //! build reaches them. On another CPU batches take the scalar path. State, inputs, accelerations and

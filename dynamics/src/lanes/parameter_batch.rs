@@ -13,7 +13,6 @@ use super::crafts::Crafts;
 use super::laned_set::LanedSet;
 use super::observers::{Observers, none};
 use super::width::widest_width;
-use crate::equations::arithmetic::Arithmetic;
 use crate::equations::error::SolveError;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -25,45 +24,31 @@ use crate::solve::state::State;
 /// together where all of their vectors have the lengths of those of the first spacecraft of the batch;
 /// others fall back to the scalar path.
 ///
-/// A state has the result, or the error, that its [`Spacecraft`] gives it by itself, to the bit,
-/// unless the lanes fuse ([`Self::fused`]). A state falls back to the scalar path where it or its
-/// spacecraft has what is [unsupported in lanes](crate::lanes), and where anything fails.
+/// A state has the result, or the error, that its [`Spacecraft`] gives it by itself, to the bit. A
+/// state falls back to the scalar path where it or its spacecraft has what is
+/// [unsupported in lanes](crate::lanes), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct ParameterBatch<D: LanedSet> {
     crafts: Vec<Spacecraft<D>>,
     /// As many spacecraft as there are lanes, side by side; none where their lists differ in length.
     groups: Arc<[Option<CraftBlocks<D>>]>,
-    fused: bool,
     #[cfg(feature = "threads")]
     on_threads: bool,
 }
 
 impl<D: LanedSet> ParameterBatch<D> {
-    /// The batch of these spacecraft, in their order. Each was checked by [`Spacecraft::new`]. One
-    /// that is [`Spacecraft::fused`] is taken as unfused.
+    /// The batch of these spacecraft, in their order. Each was checked by [`Spacecraft::new`].
     #[must_use]
     pub fn new(spacecraft: Vec<Spacecraft<D>>) -> Self {
-        let mut crafts = spacecraft;
-        for craft in &mut crafts {
-            craft.arithmetic = Arithmetic::unfused();
-        }
         // The registers that every evaluation chooses.
-        let groups = crafts.chunks(widest_width());
-        let groups = groups.map(|group| CraftBlocks::new(group, crafts.first()?)).collect();
+        let groups = spacecraft.chunks(widest_width());
+        let groups = groups.map(|group| CraftBlocks::new(group, spacecraft.first()?)).collect();
         Self {
-            crafts,
+            crafts: spacecraft,
             groups,
-            fused: false,
             #[cfg(feature = "threads")]
             on_threads: false,
         }
-    }
-
-    /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
-    /// some CPUs. A set with a vector stays unfused.
-    #[must_use]
-    pub fn fused(self) -> Self {
-        Self { fused: true, ..self }
     }
 
     /// The same on the threads of rayon's pool: that in which a call is made, by
@@ -76,7 +61,7 @@ impl<D: LanedSet> ParameterBatch<D> {
         Self { on_threads: true, ..self }
     }
 
-    /// The spacecraft, unfused, for everything that is asked of one of them.
+    /// The spacecraft, for everything that is asked of one of them.
     #[must_use]
     pub fn spacecraft(&self) -> &[Spacecraft<D>] {
         &self.crafts
@@ -145,11 +130,6 @@ impl<D: LanedSet> ParameterBatch<D> {
 
 impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     const EACH: bool = true;
-
-    #[inline(always)]
-    fn is_fused(&self) -> bool {
-        self.fused
-    }
 
     #[cfg(feature = "threads")]
     fn are_on_threads(&self) -> bool {

@@ -51,11 +51,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if const { D::FUSES } && self.crafts.is_fused() {
-            self.run(Lane::<S, true>::splat(simd, 0.0));
-        } else {
-            self.run(Lane::<S, false>::splat(simd, 0.0));
-        }
+        self.run(Lane::splat(simd, 0.0));
     }
 }
 
@@ -185,8 +181,8 @@ fn step<D: LanedSet, T: Number, const EACH: bool>(
             omega: found.omega_dot,
         };
         let (weight, time) = (zero.like(weight), zero.like(time));
-        sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
-        now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
+        sum = sum.zip(&slope, |sum, slope| sum + weight * slope);
+        now = start.zip(&slope, |start, slope| start + (zero + time * slope));
         each_slot::<D, _>(craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
     }
     if group.is_dry() {
@@ -244,9 +240,9 @@ impl<T: Number> EachSlot<T> for Stage<T> {
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         let Self { zero, weight, time } = *self;
         let slope = K::slope(&slot.joints, &slot.found);
-        slot.sum = K::zip_joints(&slot.sum, &slope, |sum, slope| sum.add_mul(weight, slope));
+        slot.sum = K::zip_joints(&slot.sum, &slope, |sum, slope| sum + weight * slope);
         slot.joints =
-            K::zip_joints(&slot.start, &slope, |start, slope| start + zero.add_mul(time, slope));
+            K::zip_joints(&slot.start, &slope, |start, slope| start + (zero + time * slope));
     }
 }
 

@@ -102,27 +102,6 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
     }
 
     #[inline(never)]
-    fn product_and_sum(&self, a: &Self, b: &Self) -> Self {
-        let (x, y) = (self.value, a.value);
-        let product = self.joined(a, x, |p, q| x * q + p * y);
-        product.joined(b, x.mul_add(y, b.value), |p, q| p + q)
-    }
-
-    #[inline(never)]
-    fn product_and_difference(&self, a: &Self, b: &Self) -> Self {
-        let (x, y) = (self.value, a.value);
-        let product = self.joined(a, x, |p, q| x * q + p * y);
-        product.joined(b, x.mul_sub(y, b.value), |p, q| p - q)
-    }
-
-    #[inline(never)]
-    fn less_product(&self, a: &Self, b: &Self) -> Self {
-        let (x, y) = (a.value, b.value);
-        let product = a.joined(b, x, |p, q| x * q + p * y);
-        self.joined(&product, self.value.sub_mul(x, y), |p, q| p - q)
-    }
-
-    #[inline(never)]
     fn reciprocal(&self) -> Self {
         let value = self.value.recip();
         self.mapped(value, |a| -(a * value * value))
@@ -185,21 +164,6 @@ impl<T: Scalar, const N: usize> Real for Dual<T, N> {
     #[inline]
     fn recip(self) -> Self {
         self.reciprocal()
-    }
-
-    #[inline]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        self.product_and_sum(&a, &b)
-    }
-
-    #[inline]
-    fn sub_mul(self, a: Self, b: Self) -> Self {
-        self.less_product(&a, &b)
-    }
-
-    #[inline]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        self.product_and_difference(&a, &b)
     }
 
     #[inline]
@@ -282,10 +246,8 @@ mod tests {
         assert_is(-x(), -x0, [-1.0, 0.0]);
         assert_is(x() * y(), x0 * y0, [y0, x0]);
         assert_is(x().recip(), 1.0 / x0, [-1.0 / (x0 * x0), 0.0]);
-        assert_is(x().mul_add(y(), y()), x0 * y0 + y0, [y0, x0 + 1.0]);
-        assert_is(x().add_mul(y(), y()), x0 + y0 * y0, [1.0, 2.0 * y0]);
-        assert_is(x().sub_mul(y(), y()), x0 - y0 * y0, [1.0, -2.0 * y0]);
-        assert_is(x().mul_sub(y(), x()), x0 * y0 - x0, [y0 - 1.0, x0]);
+        assert_is(x() * y() + y(), x0 * y0 + y0, [y0, x0 + 1.0]);
+        assert_is(x() - y() * y(), x0 - y0 * y0, [1.0, -2.0 * y0]);
         let (sine, cosine) = Angle::sin_cos(x0);
         assert_is(x().sin_cos().0, sine, [cosine, 0.0]);
         assert_is(x().sin_cos().1, cosine, [-sine, 0.0]);

@@ -13,15 +13,14 @@ use super::laned::{Block, Number, WIDEST, Work};
 use crate::numbers::real::{Angle, Real};
 use crate::numbers::sincos::{QuarterTurns, sin_cos};
 
-/// Lanes of `f64`. Where they are fused, a product and a sum are rounded once; where not, a lane
-/// has the bits that a single `f64` has.
+/// Lanes of `f64`; a lane has the bits that a single `f64` has.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lane<S: Simd, const FUSED: bool> {
+pub(crate) struct Lane<S: Simd> {
     simd: S,
     numbers: S::f64s,
 }
 
-impl<S: Simd, const FUSED: bool> Lane<S, FUSED> {
+impl<S: Simd> Lane<S> {
     /// The same number in every lane.
     #[inline(always)]
     pub(crate) fn splat(simd: S, number: f64) -> Self {
@@ -34,13 +33,13 @@ impl<S: Simd, const FUSED: bool> Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> PartialEq for Lane<S, FUSED> {
+impl<S: Simd> PartialEq for Lane<S> {
     fn eq(&self, other: &Self) -> bool {
         self.store() == other.store()
     }
 }
 
-impl<S: Simd, const FUSED: bool> Add for Lane<S, FUSED> {
+impl<S: Simd> Add for Lane<S> {
     type Output = Self;
 
     #[inline(always)]
@@ -49,7 +48,7 @@ impl<S: Simd, const FUSED: bool> Add for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> Sub for Lane<S, FUSED> {
+impl<S: Simd> Sub for Lane<S> {
     type Output = Self;
 
     #[inline(always)]
@@ -58,7 +57,7 @@ impl<S: Simd, const FUSED: bool> Sub for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> Mul for Lane<S, FUSED> {
+impl<S: Simd> Mul for Lane<S> {
     type Output = Self;
 
     #[inline(always)]
@@ -67,7 +66,7 @@ impl<S: Simd, const FUSED: bool> Mul for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> Neg for Lane<S, FUSED> {
+impl<S: Simd> Neg for Lane<S> {
     type Output = Self;
 
     #[inline(always)]
@@ -76,29 +75,10 @@ impl<S: Simd, const FUSED: bool> Neg for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> Real for Lane<S, FUSED> {
+impl<S: Simd> Real for Lane<S> {
     #[inline(always)]
     fn recip(self) -> Self {
         self.of(self.simd.div_f64s(self.simd.splat_f64s(1.0), self.numbers))
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        if FUSED {
-            self.of(self.simd.mul_add_f64s(self.numbers, a.numbers, b.numbers))
-        } else {
-            self * a + b
-        }
-    }
-
-    #[inline(always)]
-    fn sub_mul(self, a: Self, b: Self) -> Self {
-        if FUSED { (-a).mul_add(b, self) } else { self - a * b }
-    }
-
-    #[inline(always)]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        if FUSED { self.mul_add(a, -b) } else { self * a - b }
     }
 
     #[inline(always)]
@@ -107,7 +87,7 @@ impl<S: Simd, const FUSED: bool> Real for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> QuarterTurns for Lane<S, FUSED> {
+impl<S: Simd> QuarterTurns for Lane<S> {
     #[inline(always)]
     fn turned(count: Self, sine: Self, cosine: Self) -> (Self, Self) {
         let simd = count.simd;
@@ -127,14 +107,14 @@ impl<S: Simd, const FUSED: bool> QuarterTurns for Lane<S, FUSED> {
     }
 }
 
-impl<S: Simd, const FUSED: bool> Angle for Lane<S, FUSED> {
+impl<S: Simd> Angle for Lane<S> {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         sin_cos(self)
     }
 }
 
-impl<S: Simd, const FUSED: bool> Number for Lane<S, FUSED> {
+impl<S: Simd> Number for Lane<S> {
     type Holds = S::m64s;
 
     const WIDTH: usize = S::F64_LANES;
@@ -155,11 +135,6 @@ impl<S: Simd, const FUSED: bool> Number for Lane<S, FUSED> {
             *numbers = self.numbers;
         }
         block
-    }
-
-    #[inline(always)]
-    fn sum(self) -> f64 {
-        self.simd.reduce_sum_f64s(self.numbers)
     }
 
     #[inline(always)]

@@ -53,8 +53,6 @@ pub(crate) trait Number: Angle + 'static {
     fn load(self, block: &Block) -> Self;
     /// The lanes as a block; what is beyond the width is zero.
     fn store(self) -> Block;
-    /// The sum over the lanes, in any order.
-    fn sum(self) -> f64;
     /// A number to which those in the lanes are added, one after another.
     #[inline(always)]
     fn added_to(self, number: f64) -> f64 {

@@ -13,39 +13,14 @@ use core::ops::{Add, Mul, Neg, Sub};
 use crate::numbers::each::Value;
 use crate::numbers::sincos::{LARGEST_ANGLE, sin_cos};
 
-/// What an emitted kernel does with a number.
+/// What an emitted kernel does with a number. Product and sum of `f64` and of `f32` are rounded one
+/// after the other, so the bits are the same on every IEEE-754 target.
 pub trait Real:
     Value + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// `1 / self`.
     #[must_use]
     fn recip(self) -> Self;
-
-    /// `self * a + b`. For `f64` and `f32` the product is rounded before the sum, so the bits are
-    /// the same on every IEEE-754 target, with or without a fused instruction.
-    #[must_use]
-    fn mul_add(self, a: Self, b: Self) -> Self;
-
-    /// `self + a * b`, rounded as [`Self::mul_add`] rounds.
-    #[must_use]
-    #[inline(always)]
-    fn add_mul(self, a: Self, b: Self) -> Self {
-        a.mul_add(b, self)
-    }
-
-    /// `self - a * b`, rounded as [`Self::mul_add`] rounds.
-    #[must_use]
-    #[inline(always)]
-    fn sub_mul(self, a: Self, b: Self) -> Self {
-        (-a).mul_add(b, self)
-    }
-
-    /// `self * a - b`, rounded as [`Self::mul_add`] rounds.
-    #[must_use]
-    #[inline(always)]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        self.mul_add(a, -b)
-    }
 
     /// The constant `value` as a number of the same kind as `self`.
     #[must_use]
@@ -93,8 +68,8 @@ pub trait Scalar: Angle + PartialOrd {
     #[must_use]
     fn is_finite(self) -> bool;
 
-    /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by
-    /// fused `f64`s.
+    /// Whether it converts to `f64` and back exactly, so that its sines may be computed in lanes of
+    /// `f64`.
     const IS_F64: bool = false;
 
     /// Whether the number is zero and remains zero: of a [`Dual`](crate::Dual) number, whether its
@@ -121,11 +96,6 @@ impl Real for f64 {
     #[inline]
     fn recip(self) -> Self {
         1.0 / self
-    }
-
-    #[inline]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        self * a + b
     }
 
     #[inline]
@@ -171,11 +141,6 @@ impl Real for f32 {
     #[inline]
     fn recip(self) -> Self {
         1.0 / self
-    }
-
-    #[inline]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        self * a + b
     }
 
     #[inline]
@@ -265,15 +230,7 @@ pub(crate) fn reciprocal_in_two<T: Scalar>(magnitude: T) -> (T, T) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Real, Scalar, reciprocal_in_two};
-
-    #[test]
-    fn mul_add_rounds_the_product_first() {
-        // (1 + e)(1 - e) = 1 - e^2 rounds to 1; a fused operation would leave -e^2.
-        let e = f64::EPSILON;
-        assert_eq!(Real::mul_add(1.0 + e, 1.0 - e, -1.0), (1.0 + e) * (1.0 - e) - 1.0);
-        assert_eq!(Real::mul_add(1.0_f32 + f32::EPSILON, 1.0 - f32::EPSILON, -1.0), 0.0);
-    }
+    use super::{Scalar, reciprocal_in_two};
 
     #[test]
     fn epsilon_is_the_step_above_one() {

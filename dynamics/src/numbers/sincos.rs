@@ -1,11 +1,11 @@
-//! Sine and cosine together, without a branch: one text for `f64`, a fused `f64` and lanes.
+//! Sine and cosine together, without a branch: one text for `f64` and lanes.
 //!
 //! The angle is taken less its nearest whole number `k` of quarter turns (after Cody and Waite,
 //! with pi / 2 in four parts), sine and cosine of what is left come from two polynomials, and `k`
 //! modulo 4 swaps them and sets their signs. Worst error of 1.2e8 angles up to [`LARGEST_ANGLE`]:
 //! 0.83 of the last place, 0.50 next to multiples of pi / 2; the suite `sines` compares it with 31
 //! digits. Sine is odd to the bit, `-0.0` included, and cosine even. Only `+ - *` and what
-//! [`QuarterTurns`] adds: a number that does not fuse has the same bits on every IEEE-754 target.
+//! [`QuarterTurns`] adds: the same bits on every IEEE-754 target.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -83,7 +83,7 @@ const COSINE: [f64; 6] = [
 #[expect(clippy::inline_always, reason = "lanes reach their instructions only where inlined")]
 pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
     let shift = angle.like(SHIFT);
-    let count = angle.mul_add(angle.like(FRAC_2_PI), shift);
+    let count = angle * angle.like(FRAC_2_PI) + shift;
     let (rest, excess) = reduced(angle, count - shift);
     let (sine, cosine) = of_small(rest, excess);
     T::turned(count, sine, cosine)
@@ -113,11 +113,11 @@ pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
 #[expect(clippy::inline_always, reason = "lanes reach their instructions only where inlined")]
 fn reduced<T: Real>(angle: T, k: T) -> (T, T) {
     let [first, second, third, fourth] = HALF_PI;
-    let before = (-k).mul_add(angle.like(first), angle);
-    let before = (-k).mul_add(angle.like(second), before);
+    let before = angle - k * angle.like(first);
+    let before = before - k * angle.like(second);
     let step = -k * angle.like(third);
     let rest = before + step;
-    (rest, k.mul_add(angle.like(fourth), (rest - before) - step))
+    (rest, k * angle.like(fourth) + ((rest - before) - step))
 }
 
 /// Sine and cosine of `x - excess`, for `|x|` up to pi / 4 and an excess that is lost in it.
@@ -134,8 +134,8 @@ fn of_small<T: Real>(x: T, excess: T) -> (T, T) {
     let x4 = x2 * x2;
     let half = x2 * x.like(0.5);
     let parabola = one - half;
-    let sine = x - (x * x2).mul_add(polynomial(x2, x4, SINE), excess * parabola);
-    let small = x4.mul_add(polynomial(x2, x4, COSINE), x * excess);
+    let sine = x - (x * x2 * polynomial(x2, x4, SINE) + excess * parabola);
+    let small = x4 * polynomial(x2, x4, COSINE) + x * excess;
     (sine, parabola + (((one - parabola) - half) + small))
 }
 
@@ -144,8 +144,8 @@ fn of_small<T: Real>(x: T, excess: T) -> (T, T) {
 #[expect(clippy::inline_always, reason = "lanes reach their instructions only where inlined")]
 fn polynomial<T: Real>(x: T, squared: T, coefficients: [f64; 6]) -> T {
     let [c0, c1, c2, c3, c4, c5] = coefficients;
-    let low = x.mul_add(x.like(c1), x.like(c0));
-    let middle = x.mul_add(x.like(c3), x.like(c2));
-    let high = x.mul_add(x.like(c5), x.like(c4));
-    squared.mul_add(squared.mul_add(high, middle), low)
+    let low = x * x.like(c1) + x.like(c0);
+    let middle = x * x.like(c3) + x.like(c2);
+    let high = x * x.like(c5) + x.like(c4);
+    squared * (squared * high + middle) + low
 }

@@ -1,10 +1,7 @@
-//! What the reduction's proof says of pi / 2 in parts, and the core at a number that fuses.
+//! What the reduction's proof says of pi / 2 in parts, and the core at numbers of any sign.
 //!
 //! The suite `sines` measures the accuracy, against a wider number.
 
-use core::ops::{Add, Mul, Neg, Sub};
-
-use crate::numbers::real::Real;
 use crate::numbers::sincos::{HALF_PI, LARGEST_ANGLE, QuarterTurns, sin_cos};
 
 /// Pi / 2 in units of `2^-124`, cut there; the next 16 binary digits are [`NEXT`].
@@ -12,77 +9,12 @@ const DIGITS: u128 = 0x1921_fb54_442d_1846_9898_cc51_701b_839a;
 
 const NEXT: u64 = 0x2520;
 
-/// Either kind is within 0.83 units of the last place of the sine, so they are less than two apart.
-const APART: u64 = 1;
-
-/// An `f64` whose `mul_add` rounds once.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Fused(f64);
-
-impl Add for Fused {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
-
-impl Sub for Fused {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-}
-
-impl Mul for Fused {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-}
-
-impl Neg for Fused {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-impl Real for Fused {
-    fn recip(self) -> Self {
-        Self(self.0.recip())
-    }
-
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        Self(libm::fma(self.0, a.0, b.0))
-    }
-
-    fn like(self, value: f64) -> Self {
-        Self(value)
-    }
-}
-
-impl QuarterTurns for Fused {
-    fn turned(count: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        let (sine, cosine) = f64::turned(count.0, sine.0, cosine.0);
-        (Self(sine), Self(cosine))
-    }
-}
-
 /// Angles a hundredth apart around zero, others over the whole range, zeros and the smallest
 /// number.
 fn angles() -> impl Iterator<Item = f64> {
     let near = (-2000..=2000).map(|step| f64::from(step) / 100.0);
     let far = (-2000..=2000).map(|step| f64::from(step) / 2000.0 * LARGEST_ANGLE);
     near.chain(far).chain([-0.0, 5e-324, -5e-324, 45.553_093_477_052, 14_461_176.670_278_38])
-}
-
-/// How many numbers the other is further on, of equal sign.
-fn apart(a: f64, b: f64) -> u64 {
-    a.to_bits().abs_diff(b.to_bits())
 }
 
 #[test]
@@ -128,19 +60,11 @@ fn quarter_turns_are_counted_modulo_four_either_way() {
 }
 
 #[test]
-fn fused_sines_are_next_to_the_others() {
+fn sine_is_odd_and_cosine_even_to_the_bit() {
     for angle in angles() {
-        let ((sine, cosine), fused) = (sin_cos(angle), sin_cos(Fused(angle)));
-        assert!(apart(sine, fused.0.0) <= APART && apart(cosine, fused.1.0) <= APART, "{angle}");
-    }
-}
-
-#[test]
-fn fused_sine_is_odd_and_cosine_even_to_the_bit() {
-    for angle in angles() {
-        let (there, back) = (sin_cos(Fused(angle)), sin_cos(Fused(-angle)));
-        assert_eq!((-back.0.0).to_bits(), there.0.0.to_bits(), "{angle}");
-        assert_eq!(back.1.0.to_bits(), there.1.0.to_bits(), "{angle}");
+        let (there, back) = (sin_cos(angle), sin_cos(-angle));
+        assert_eq!((-back.0).to_bits(), there.0.to_bits(), "{angle}");
+        assert_eq!(back.1.to_bits(), there.1.to_bits(), "{angle}");
     }
 }
 

@@ -1,10 +1,7 @@
 //! [`Bundle`]: references to some data of a set, taken apart member by member; [`Part`]: where a
 //! member stands in its set.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::equations::joint_inputs::JointInputs;
 use crate::model::mode::Mode;

@@ -1,9 +1,6 @@
 //! A single device as a set.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::equations::device::Device;
 use crate::model::kind::{JointInfo, Kind};

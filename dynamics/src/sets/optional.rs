@@ -2,10 +2,7 @@
 //!
 //! What is absent has no joints, counts as no device and costs nothing but its place.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::sets::bundle::{Bundle, Part};

@@ -3,10 +3,7 @@
 //! Devices meet only in the hub's six equations: each is eliminated into them, they are solved, and
 //! each device's own accelerations follow. The number of devices is a loop bound and nothing else.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::arithmetic::Arithmetic;
@@ -259,7 +256,7 @@ impl<D: Devices> Spacecraft<D> {
             }
             let given = inputs.of_joints();
             self.eliminate_devices(
-                Arithmetic::unfused(),
+                Arithmetic::detected(),
                 state,
                 given,
                 &environment,

@@ -1,10 +1,7 @@
 //! What an evaluation does with each device: it eliminates the joints, and finds their
 //! accelerations once the hub's are known.
 
-#![expect(
-    clippy::inline_always,
-    reason = "fused numbers reach their instruction only where inlined"
-)]
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use core::convert::Infallible;
 

@@ -50,7 +50,7 @@ impl<D: Devices> Spacecraft<D> {
         let hub = HubConstants::new(hub);
         let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
         let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());
-        Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::unfused() }
+        Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::detected() }
     }
 
     /// The same spacecraft with each of its numbers converted, such as
@@ -75,17 +75,6 @@ impl<D: Devices> Spacecraft<D> {
             hub_excess: number(self.hub_excess),
             arithmetic: self.arithmetic,
         }
-    }
-
-    /// The same with products and sums of the devices' equations rounded once, where the CPU does
-    /// that: accelerations and steps have other bits. Whether they take less time depends on CPU and set.
-    ///
-    /// The instructions are detected at run time, in this call. Numbers other than `f64` stay as
-    /// they are; so do loads, energies and momenta.
-    #[cfg(feature = "lanes")]
-    #[must_use]
-    pub fn fused(self) -> Self {
-        Self { arithmetic: Arithmetic::fused(), ..self }
     }
 
     /// Unusual parameters that are accepted; see [`Warning`].

@@ -4,8 +4,8 @@
 //! A crate of its own: it holds the kernels of every kind in lanes of every width, which take minutes
 //! to compile and rarely change. The flexible VSCMG has none: see `in_lanes`.
 //!
-//! Lanes do not fuse, so every number has the bits of `Spacecraft` with a `Vec<BuiltIn>`: the order of
-//! sums over devices is the same.
+//! Every number has the bits of `Spacecraft` with a `Vec<BuiltIn>`: the order of sums over devices is
+//! the same.
 
 mod laned;
 mod side_by_side;

@@ -34,9 +34,6 @@ pub fn result_or_error(case: &Case) -> Verdict {
                 if let Ok(placed) = placed {
                     let dt = <$number as Scalar>::from_f64(case.dt);
                     checked = all_finite(&call_results(&placed, dt), shape)?;
-                    let Placed { craft, state, inputs } = placed;
-                    let fused = Placed { craft: craft.fused(), state, inputs };
-                    all_finite(&call_results(&fused, dt), &format!("{shape}, fused"))?;
                 }
             })
         };
@@ -44,8 +41,8 @@ pub fn result_or_error(case: &Case) -> Verdict {
     every_shape!(f64);
     every_shape!(f32);
     all_finite(&across(case).unwrap_or_default(), "devices side by side")?;
-    for (fused, each) in [(false, true), (true, false)] {
-        let found = [batched(case, fused, each), batched_variants(case, fused, each)];
+    for each in [true, false] {
+        let found = [batched(case, each), batched_variants(case, each)];
         for found in found.iter().flatten() {
             let all: Vec<_> =
                 found.accelerations.iter().map(|found| ("batch", found.clone())).collect();
@@ -199,15 +196,12 @@ pub fn first_bad_is_named(case: &Case) -> Verdict {
     in_every_shape!(case, f64, |shape, placed| {
         if let Ok(placed) = placed {
             check(&call_results(&placed, case.dt), shape)?;
-            let Placed { craft, state, inputs } = placed;
-            let fused = Placed { craft: craft.fused(), state, inputs };
-            check(&call_results(&fused, case.dt), &format!("{shape}, fused"))?;
         }
     });
     check(&across(case).unwrap_or_default(), "devices side by side")?;
     let first_state = Case { more: Vec::new(), ..case.clone() };
-    for fused in [false, true] {
-        if let Some(found) = batched(&first_state, fused, fused) {
+    for each in [false, true] {
+        if let Some(found) = batched(&first_state, each) {
             for result in &found.accelerations {
                 named(result, first, "accelerations of a batch")?;
             }

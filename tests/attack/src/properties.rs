@@ -112,16 +112,13 @@ fn in_batches() -> BoxedStrategy<Case> {
     prop_oneof![
         Profile { sets, more: 18, lumped: false, ..Profile::REAL }.cases(),
         Profile { sets, more: 18, not_finite: 0.003, ..wild(0.01) }.cases(),
+        Profile { sets: LANES, ..Profile::REAL }.cases(),
     ]
     .boxed()
 }
 
 fn energies() -> BoxedStrategy<Case> {
     prop_oneof![energy::cancelling(), real(), wild(0.1).cases()].boxed()
-}
-
-fn in_lanes() -> BoxedStrategy<Case> {
-    Profile { sets: LANES, ..Profile::REAL }.cases()
 }
 
 /// Every property.
@@ -157,14 +154,6 @@ pub const PROPERTIES: &[Property] = &[
         function: "same::batch_is_spacecraft",
         draw: in_batches,
         check: same::batch_is_spacecraft,
-    },
-    Property {
-        name: "lanes-and-fused-agree",
-        statement: "devices side by side, fused numbers and fused batches solve the same equations",
-        cases: 300,
-        function: "same::lanes_and_fused_agree",
-        draw: in_lanes,
-        check: same::lanes_and_fused_agree,
     },
     Property {
         name: "singular-is-refused",

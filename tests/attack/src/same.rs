@@ -1,11 +1,9 @@
-//! The same bits for every shape of the set and in a batch; the same to rounding where numbers are
-//! fused.
+//! The same bits for every shape of the set, in a batch and side by side.
 
-use precess_dynamics::{Scalar, SolveError};
+use precess_dynamics::Scalar;
 
 use super::call_results::{CallResult, call_results, of_accelerations, of_state};
-use super::case::{Case, List, Placed};
-use super::residual::{numbers, solves};
+use super::case::{Case, Placed};
 use super::shapes::{Batched, across, batched, in_every_shape};
 use super::variants::{batched_variants, first_inputs, variant};
 use super::{Checked, Verdict};
@@ -121,7 +119,7 @@ pub fn batch_is_spacecraft(case: &Case) -> Verdict {
     let mut checked = across_is_spacecraft(case)?;
     for (each, varied) in [(false, false), (true, false), (false, true), (true, true)] {
         let of_lanes = if varied { batched_variants } else { batched };
-        let found = of_lanes(case, false, each);
+        let found = of_lanes(case, each);
         let (Some(found), Some(one_state)) = (found, single(case, each, varied)) else {
             continue;
         };
@@ -147,59 +145,4 @@ pub fn batch_is_spacecraft(case: &Case) -> Verdict {
         }
     }
     Ok(checked)
-}
-
-/// Whether two outcomes are of the same kind, or one is singular by a pivot near its bound.
-fn same_outcome(found: &CallResult, single: &CallResult) -> bool {
-    let near = |result: &CallResult| match result {
-        Err(SolveError::Singular { pivot, bound, .. }) => {
-            // Other rounding may lead just above the bound.
-            pivot.abs() > bound / 4.0 || *pivot < 0.0
-        }
-        _ => false,
-    };
-    match (found, single) {
-        (Ok(_), Ok(_)) => true,
-        (Err(a), Err(b)) if std::mem::discriminant(a) == std::mem::discriminant(b) => true,
-        _ => near(found) || near(single),
-    }
-}
-
-/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give
-/// accelerations that solve the same equations, or the same kind of error.
-///
-/// # Errors
-/// Where it does not hold.
-pub fn lanes_and_fused_agree(case: &Case) -> Verdict {
-    let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
-    let single = list.craft.accelerations(&list.state, &list.inputs).map(|f| numbers(&f));
-    let mut others: Vec<(String, CallResult)> = Vec::new();
-    in_every_shape!(case, f64, |shape, placed| {
-        if let Ok(Placed { craft, state, inputs }) = placed {
-            let found = craft.fused().accelerations(&state, &inputs);
-            others.push((format!("{shape}, fused"), found.map(|found| numbers(&found))));
-        }
-    });
-    for (name, result) in across(case).unwrap_or_default() {
-        if name.starts_with("accelerations") {
-            others.push((name.to_owned(), result));
-        }
-    }
-    let one_state = Case { more: Vec::new(), ..case.clone() };
-    if let Some(found) = batched(&one_state, true, false) {
-        others.extend(found.accelerations.into_iter().map(|found| ("fused batch".into(), found)));
-    }
-    for (name, found) in others {
-        if !same_outcome(&found, &single) {
-            return Err(format!("{name}: {found:?}, not {single:?}"));
-        }
-        if let Ok(found) = &found {
-            agrees(case, &list, found, &name)?;
-        }
-    }
-    Ok(Checked::Holds)
-}
-
-fn agrees(case: &Case, list: &Placed<List>, found: &[f64], name: &str) -> Verdict {
-    solves(case, list, found, name)
 }

@@ -144,19 +144,12 @@ impl<K: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64>> AcrossKind for 
 fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
     let across = AcrossDevices::new(&case.hub, &devices).ok()?;
-    let fused = across.clone().fused();
     let Placed { state, inputs, .. } = case.placed(&devices).ok()?;
-    let accelerations = |across: &AcrossDevices<K, ABREAST>| {
-        across.accelerations(&state, &inputs).map(|found| of_accelerations(&found))
-    };
-    let step = |across: &AcrossDevices<K, ABREAST>| {
-        across.step(&state, &inputs, case.dt).map(|next| of_state(&next))
-    };
+    let found = across.accelerations(&state, &inputs);
+    let next = across.step(&state, &inputs, case.dt);
     Some(vec![
-        ("accelerations across", accelerations(&across)),
-        ("accelerations across, fused", accelerations(&fused)),
-        ("step across", step(&across)),
-        ("step across, fused", step(&fused)),
+        ("accelerations across", found.map(|found| of_accelerations(&found))),
+        ("step across", next.map(|next| of_state(&next))),
     ])
 }
 
@@ -174,10 +167,10 @@ pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
 /// What a batch makes of all states of a case, with the inputs of the first or each with its own;
 /// none for lists of which no batch is compiled.
 #[must_use]
-pub fn batched(case: &Case, fused: bool, each: bool) -> Option<Batched> {
-    batch_of::<[Dgvscmg; 1]>(case, fused, each)
-        .or_else(|| batch_of::<[BalancedVscmg; 1]>(case, fused, each))
-        .or_else(|| batch_of::<Three>(case, fused, each))
+pub fn batched(case: &Case, each: bool) -> Option<Batched> {
+    batch_of::<[Dgvscmg; 1]>(case, each)
+        .or_else(|| batch_of::<[BalancedVscmg; 1]>(case, each))
+        .or_else(|| batch_of::<Three>(case, each))
 }
 
 /// What a batch makes of each state of a case.
@@ -189,10 +182,9 @@ pub struct Batched {
     pub runs: Vec<(Vec<f64>, Result<(), SolveError>)>,
 }
 
-fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> Option<Batched> {
+fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, each: bool) -> Option<Batched> {
     let devices: D = exactly(&case.devices)?;
     let batch = Batch::new(&case.hub, &devices).ok()?;
-    let batch = if fused { batch.fused() } else { batch };
     let craft = Spacecraft::new(&case.hub, &devices).ok()?;
     let all = case.all();
     let mut states: Vec<State<D>> =

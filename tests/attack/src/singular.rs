@@ -141,17 +141,13 @@ pub fn singular_is_refused(case: &Case) -> Verdict {
         refused(&step.map(|_| Vec::new()), &format!("step of {shape}"))?;
         let stop = craft.stop(&state, &inputs);
         refused(&stop.map(|_| Vec::new()), &format!("stop of {shape}"))?;
-        let fused = craft.fused().accelerations(&state, &inputs).map(|f| numbers(&f));
-        refused(&fused, &format!("{shape}, fused,"))?;
     });
     for (call, result) in across(case).unwrap_or_default() {
         refused(&result, call)?;
     }
-    for fused in [false, true] {
-        if let Some(found) = batched(case, fused, false) {
-            refused(&found.accelerations[0], "batch")?;
-            refused(&found.runs[0].1.map(|()| Vec::new()), "run of a batch")?;
-        }
+    if let Some(found) = batched(case, false) {
+        refused(&found.accelerations[0], "batch")?;
+        refused(&found.runs[0].1.map(|()| Vec::new()), "run of a batch")?;
     }
     Ok(Checked::Holds)
 }

@@ -91,7 +91,6 @@ pub fn errors_are_typed(case: &Case) -> Verdict {
         (error, _) => Err(format!("{call}: {error:?}, not {all:?}")),
     };
     right(craft.accelerations(state, inputs).err(), "accelerations")?;
-    right(craft.clone().fused().accelerations(state, inputs).err(), "accelerations, fused")?;
     right(craft.step(state, inputs, 0.0).err(), "step")?;
     right(craft.step_with_work(state, inputs, 0.0).err(), "step with work")?;
     for (call, result) in across(case).unwrap_or_default() {

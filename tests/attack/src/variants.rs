@@ -84,13 +84,13 @@ fn other(device: &BuiltIn, which: usize) -> BuiltIn {
 /// What a batch makes of the variants of a case, with the inputs of the first state or each with its
 /// own; none for lists of which no batch is compiled.
 #[must_use]
-pub fn batched_variants(case: &Case, fused: bool, each: bool) -> Option<Batched> {
-    batch_of::<[Dgvscmg; 1]>(case, fused, each)
-        .or_else(|| batch_of::<Three>(case, fused, each))
-        .or_else(|| batch_of::<Wheels>(case, fused, each))
+pub fn batched_variants(case: &Case, each: bool) -> Option<Batched> {
+    batch_of::<[Dgvscmg; 1]>(case, each)
+        .or_else(|| batch_of::<Three>(case, each))
+        .or_else(|| batch_of::<Wheels>(case, each))
 }
 
-fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> Option<Batched> {
+fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, each: bool) -> Option<Batched> {
     let count = case.all().len();
     let (mut crafts, mut states, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
     for state in 0..count {
@@ -105,7 +105,6 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
         crafts.push(craft);
     }
     let batch = ParameterBatch::new(crafts);
-    let batch = if fused { batch.fused() } else { batch };
     let (mut found, mut ends) = (Vec::new(), Vec::new());
     let called = if each {
         batch

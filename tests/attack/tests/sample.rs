@@ -37,7 +37,6 @@ sample! {
     first_bad_input_is_named: "first-bad-input-is-named", 1500;
     shapes_are_bit_identical: "shapes-are-bit-identical", 200;
     batch_is_spacecraft: "batch-is-spacecraft", 150;
-    lanes_and_fused_agree: "lanes-and-fused-agree", 300;
     singular_is_refused: "singular-is-refused", 2000;
     inverse_dynamics_residual: "inverse-dynamics-residual", 1000;
     wrapping_changes_nothing: "wrapping-changes-nothing", 500;

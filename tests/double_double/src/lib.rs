@@ -142,11 +142,6 @@ impl Real for DoubleDouble {
         remainder.times(t).plus(t)
     }
 
-    #[cfg_attr(debug_assertions, inline(never))]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        self * a + b
-    }
-
     fn like(self, value: f64) -> Self {
         Self::from_f64(value)
     }

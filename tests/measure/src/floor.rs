@@ -42,18 +42,14 @@ pub(crate) fn turns(name: &str) -> Result<(), Rejected> {
     each_line(|| median_of_turn(|| Ok(per_operation(*rounds))))
 }
 
-/// The row that bounds fused lanes: of the widest registers at hand.
+/// The row that bounds lanes: of the widest registers at hand.
 #[cfg(feature = "lanes")]
 pub(crate) fn widest() -> &'static str {
-    rows().iter().rev().map(|row| row.name).find(|name| name.contains("fused")).unwrap_or(ONE)
+    rows().last().map_or(ONE, |row| row.name)
 }
 
-/// The row of single numbers, unfused.
+/// The row of single numbers.
 pub(crate) const ONE: &str = "f64";
-
-/// The row of single numbers, fused.
-#[cfg(feature = "lanes")]
-pub(crate) const ONE_FUSED: &str = "fused f64";
 
 /// What is timed of one kind of instructions.
 struct Row {
@@ -64,7 +60,7 @@ struct Row {
 
 /// What this CPU has, wider registers later.
 fn rows() -> Vec<Row> {
-    let mut rows = vec![Row { name: ONE, rounds: || Rounds::<false>.with_simd(pulp::Scalar) }];
+    let mut rows = vec![Row { name: ONE, rounds: || Rounds.with_simd(pulp::Scalar) }];
     #[cfg(target_arch = "x86_64")]
     {
         use pulp::x86::{V3, V4};
@@ -76,13 +72,10 @@ fn rows() -> Vec<Row> {
             V4::try_new().map_or(0, |v4| Simd::vectorize(v4, work))
         }
         if V3::try_new().is_some() {
-            rows.push(Row { name: "fused f64", rounds: || v3(OneLane(Rounds::<true>)) });
-            rows.push(Row { name: "4 lanes", rounds: || v3(Rounds::<false>) });
-            rows.push(Row { name: "4 lanes, fused", rounds: || v3(Rounds::<true>) });
+            rows.push(Row { name: "4 lanes", rounds: || v3(Rounds) });
         }
         if V4::try_new().is_some() {
-            rows.push(Row { name: "8 lanes", rounds: || v4(Rounds::<false>) });
-            rows.push(Row { name: "8 lanes, fused", rounds: || v4(Rounds::<true>) });
+            rows.push(Row { name: "8 lanes", rounds: || v4(Rounds) });
         }
     }
     rows
@@ -100,11 +93,11 @@ fn per_operation_of(lanes: usize, time: Duration) -> f64 {
     1e9 * time.as_secs_f64() / (f64::from(OPERATIONS) * f64::from(ROUNDS) * lanes as f64)
 }
 
-/// The chains, products and sums fused or not; returns the number of lanes.
+/// The chains; returns the number of lanes.
 #[derive(Clone, Copy)]
-struct Rounds<const FUSED: bool>;
+struct Rounds;
 
-impl<const FUSED: bool> WithSimd for Rounds<FUSED> {
+impl WithSimd for Rounds {
     type Output = usize;
 
     #[expect(
@@ -123,11 +116,7 @@ impl<const FUSED: bool> WithSimd for Rounds<FUSED> {
         for _ in 0..ROUNDS {
             for _ in 0..PAIRS {
                 for x in &mut chains {
-                    *x = if FUSED {
-                        simd.mul_add_f64s(*x, factor, term)
-                    } else {
-                        simd.add_f64s(simd.mul_f64s(*x, factor), term)
-                    };
+                    *x = simd.add_f64s(simd.mul_f64s(*x, factor), term);
                 }
             }
             for x in &mut chains {
@@ -136,24 +125,6 @@ impl<const FUSED: bool> WithSimd for Rounds<FUSED> {
         }
         black_box(chains.map(|x| simd.reduce_sum_f64s(x)));
         S::F64_LANES
-    }
-}
-
-/// The same with one number in a register, compiled for a wider unit: that is where fused
-/// instructions are.
-#[derive(Clone, Copy)]
-struct OneLane<R>(R);
-
-impl<R: WithSimd> WithSimd for OneLane<R> {
-    type Output = R::Output;
-
-    #[expect(
-        clippy::inline_always,
-        reason = "the caller is compiled for the unit, and this with it"
-    )]
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> R::Output {
-        self.0.with_simd(pulp::Scalar)
     }
 }
 

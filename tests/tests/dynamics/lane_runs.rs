@@ -152,23 +152,19 @@ fn in_pools(call: impl Fn() -> String + Sync) -> Vec<String> {
 fn any_number_of_threads_has_the_bits_of_one() {
     for count in [0, 1, 19, 300, 2500] {
         let (states, inputs) = (states(count), mixed_inputs(count));
-        for fused in [false, true] {
-            let batch = Batch::new(&hub(), &mixed()).unwrap();
-            let batch = if fused { batch.fused() } else { batch };
-            let each = ParameterBatch::new(crafts(count));
-            let each = if fused { each.fused() } else { each };
-            let evaluated = |batch: &Batch<Mixed>, each: &ParameterBatch<Mixed>| {
-                let mut found = [Vec::new(), Vec::new(), Vec::new()];
-                batch.accelerations(&states, &inputs, &mut found[0]).unwrap();
-                batch.accelerations(&states, &super::lanes::inputs(1), &mut found[1]).unwrap();
-                each.accelerations(&states, &inputs, &mut found[2]).unwrap();
-                printed(&found)
-            };
-            let one = evaluated(&batch, &each);
-            let (batch, each) = (batch.on_threads(), each.on_threads());
-            for found in in_pools(|| evaluated(&batch, &each)) {
-                assert!(found == one, "{count} states, fused {fused}");
-            }
+        let batch = Batch::new(&hub(), &mixed()).unwrap();
+        let each = ParameterBatch::new(crafts(count));
+        let evaluated = |batch: &Batch<Mixed>, each: &ParameterBatch<Mixed>| {
+            let mut found = [Vec::new(), Vec::new(), Vec::new()];
+            batch.accelerations(&states, &inputs, &mut found[0]).unwrap();
+            batch.accelerations(&states, &super::lanes::inputs(1), &mut found[1]).unwrap();
+            each.accelerations(&states, &inputs, &mut found[2]).unwrap();
+            printed(&found)
+        };
+        let one = evaluated(&batch, &each);
+        let (batch, each) = (batch.on_threads(), each.on_threads());
+        for found in in_pools(|| evaluated(&batch, &each)) {
+            assert!(found == one, "{count} states");
         }
     }
 }

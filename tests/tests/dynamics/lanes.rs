@@ -1,5 +1,4 @@
-//! The services in lanes against single evaluations, to the bit where they are unfused, and against
-//! double-double.
+//! The services in lanes against single evaluations, to the bit.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Each as _;
@@ -8,33 +7,23 @@ use precess_dynamics::{
     Accelerations, Dgvscmg, Gravity, Hub, HubMode, Inputs, Mode, Passive, ReactionWheel, Sgcmg,
     SloshMass, SolveError, Spacecraft, State,
 };
-use precess_tests::blocks::{Figures, errors, worst};
-use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, SPACECRAFT};
+use precess_tests::bounds::SPACECRAFT;
 use precess_tests::case::{Case, Set};
-use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::measured::{self, Measured, dgvscmg};
 use precess_tests::random::{Sample, Visitor, visit};
 
 /// The accelerations of a case in a batch of one.
-fn batched<const N: usize>(case: &Case<N>, fused: bool) -> Accelerations<Set<N>> {
+fn batched<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
     let batch = Batch::new(&case.hub, &case.devices).unwrap();
-    let batch = if fused { batch.fused() } else { batch };
     let mut found = Vec::new();
     batch.accelerations(&[case.state], &case.inputs, &mut found).unwrap();
     found.remove(0).unwrap()
 }
 
 /// The accelerations of a case with its devices side by side.
-fn across<const N: usize>(case: &Case<N>, fused: bool) -> Accelerations<Set<N>> {
+fn across<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
     let across = AcrossDevices::new(&case.hub, &case.devices).unwrap();
-    let across = if fused { across.fused() } else { across };
     across.accelerations(&case.state, &case.inputs).unwrap()
-}
-
-/// The accelerations of a case, products and sums rounded once.
-fn fused<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
-    let craft = Spacecraft::new(&case.hub, &case.devices).unwrap().fused();
-    craft.accelerations(&case.state, &case.inputs).unwrap()
 }
 
 #[test]
@@ -44,44 +33,11 @@ fn lanes_have_the_bits_of_single_evaluations() {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
             let case = sample.case::<f64>();
             let solved = case.solved(sample);
-            assert_eq!(batched(&case, false), solved, "batch: {sample}");
-            assert_eq!(across(&case, false), solved, "devices side by side: {sample}");
+            assert_eq!(batched(&case), solved, "batch: {sample}");
+            assert_eq!(across(&case), solved, "devices side by side: {sample}");
         }
     }
     visit(SPACECRAFT, &mut Bits);
-}
-
-#[test]
-fn services_agree_with_higher_precision() {
-    #[derive(Default)]
-    struct Services {
-        one: Figures,
-        batch: Figures,
-        across: Figures,
-    }
-    impl Visitor for Services {
-        fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
-            let (case, reference) = (sample.case::<f64>(), sample.case::<Wide>().reference());
-            let found = [
-                ("one state, fused", fused(&case), &mut self.one),
-                ("fused batch", batched(&case, true), &mut self.batch),
-                ("across devices, fused", across(&case, true), &mut self.across),
-            ];
-            for (service, found, figures) in found {
-                let (error, what) = worst(errors(&found, &reference));
-                figures.add(error);
-                assert!(error <= ACCELERATIONS_WORST, "{service}: {error:e} in {what} ({sample})");
-            }
-        }
-    }
-    let mut services = Services::default();
-    visit(SPACECRAFT, &mut services);
-    let Services { one, batch, across } = services;
-    for (service, figures) in [("one state", one), ("fused batch", batch), ("across", across)] {
-        let (worst, median) = (figures.worst(), figures.median());
-        println!("{service}: worst {worst:.2e}, median {median:.2e} of the block");
-        assert!(median <= ACCELERATIONS_MEDIAN, "{service}: median {median:e}");
-    }
 }
 
 pub(super) type Mixed = ([ReactionWheel; 2], Sgcmg, SloshMass);
@@ -226,31 +182,6 @@ fn singular_device_is_named_across_lanes() {
     let expected = craft.accelerations(&state, &Inputs::none());
     assert!(expected.is_err());
     assert_eq!(across.accelerations(&state, &Inputs::none()), expected);
-    assert_eq!(across.fused().accelerations(&state, &Inputs::none()), expected);
-}
-
-#[test]
-fn fused_spacecraft_answers_all_questions_of_a_plain_one() {
-    let unfused = Spacecraft::new(&hub(), &mixed()).unwrap();
-    let fused = unfused.fused();
-    let (mut state, inputs) = (states(3)[2], inputs(2));
-    let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs().max(1.0);
-    let [found, single] =
-        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
-    assert_ne!(found, single, "not a bit of a difference: nothing was fused");
-    assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
-    let [there, expected] =
-        [fused, unfused].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
-    assert!(near((there.omega - expected.omega).norm(), 0.0));
-    assert_eq!(fused.energy(&state), unfused.energy(&state));
-    // Beyond where fused sines are right, and what is rejected.
-    state.devices.0[0].theta = 1e9;
-    let [found, single] =
-        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
-    assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
-    state.omega.x = f64::NAN;
-    let [found, single] = [fused, unfused].map(|craft| craft.accelerations(&state, &inputs));
-    assert_eq!(format!("{found:?}"), format!("{single:?}"));
 }
 
 #[test]
@@ -266,9 +197,6 @@ fn steps_across_devices_follow_single_steps() {
     let there = across.step(&state, &inputs, 1e-3).unwrap();
     let single = craft.step(&state, &inputs, 1e-3).unwrap();
     assert_eq!(there, single);
-    let there = across.fused().step(&state, &inputs, 1e-3).unwrap();
-    // Sums in another order: some bits of velocities of order 0.1 rad/s.
-    assert!((there.omega - single.omega).norm() <= 1e-15);
 }
 
 /// A thread keeps the slots of a batch between calls: with springs and friction, wrenches, given accelerations, and a state

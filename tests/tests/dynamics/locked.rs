@@ -1,5 +1,5 @@
 //! A locked joint keeps the bits of its coordinate, those of -0.0 too, in every step and run: by
-//! itself, with work, fused, listed, in single precision, across devices, in batches, on a flexible structure.
+//! itself, with work, listed, in single precision, across devices, in batches, on a flexible structure.
 
 use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "lanes")]
@@ -63,25 +63,15 @@ fn steps_of_one_spacecraft_keep_locked_coordinates() {
     fn steps<T: Scalar>(path: &str) {
         let craft = Spacecraft::new(&hub::<T>(), &devices()).unwrap();
         let (inputs, dt) = (inputs(), T::from_f64(DT));
-        let crafts = [
-            (path, craft),
-            #[cfg(feature = "lanes")]
-            ("fused", craft.fused()),
-        ];
-        for (path, craft) in crafts {
-            let (mut now, mut with_work) = (state(), state());
-            for _ in 0..STEPS {
-                now = craft.step(&now, &inputs, dt).unwrap();
-                with_work = craft.step_with_work(&with_work, &inputs, dt).unwrap().state;
-            }
-            kept(path, &now.devices);
-            kept(path, &with_work.devices);
-            assert!(
-                now.devices.iter().all(|joints| joints.theta > T::ZERO),
-                "{path}: a wheel rests"
-            );
-            kept(path, &craft.stop(&state(), &inputs).unwrap().state.devices);
+        let (mut now, mut with_work) = (state(), state());
+        for _ in 0..STEPS {
+            now = craft.step(&now, &inputs, dt).unwrap();
+            with_work = craft.step_with_work(&with_work, &inputs, dt).unwrap().state;
         }
+        kept(path, &now.devices);
+        kept(path, &with_work.devices);
+        assert!(now.devices.iter().all(|joints| joints.theta > T::ZERO), "{path}: a wheel rests");
+        kept(path, &craft.stop(&state(), &inputs).unwrap().state.devices);
     }
     steps::<f64>("step");
     steps::<f32>("step in single precision");
@@ -107,31 +97,23 @@ fn lanes_keep_locked_coordinates_and_have_the_bits_of_steps() {
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut alone = state();
     let across = AcrossDevices::new(&hub(), &devices).unwrap();
-    let mut side_by_side = [(across.clone(), state()), (across.fused(), state())];
+    let mut side_by_side = state();
     for _ in 0..STEPS {
         alone = craft.step(&alone, &inputs, DT).unwrap();
-        for (across, now) in &mut side_by_side {
-            *now = across.step(now, &inputs, DT).unwrap();
-        }
+        side_by_side = across.step(&side_by_side, &inputs, DT).unwrap();
     }
-    for (_, now) in &side_by_side {
-        kept("step across devices", &now.devices);
-    }
-    assert_eq!(printed(&side_by_side[0].1), printed(&alone));
+    kept("step across devices", &side_by_side.devices);
+    assert_eq!(printed(&side_by_side), printed(&alone));
 
     let batch = Batch::new(&hub(), &devices).unwrap();
     let each = ParameterBatch::new(vec![craft; 9]);
-    for fused in [false, true] {
-        let (batch, each) = (batch.clone(), each.clone());
-        let (batch, each) = if fused { (batch.fused(), each.fused()) } else { (batch, each) };
-        let (mut states, mut ends) = (vec![state(); 9], Vec::new());
-        batch.run(&mut states, &inputs, DT, STEPS, &mut ends).unwrap();
-        let mut others = vec![state(); 9];
-        each.run(&mut others, &inputs, DT, STEPS, &mut ends).unwrap();
-        for now in states.iter().chain(&others) {
-            kept("run of a batch", &now.devices);
-            assert!(fused || printed(now) == printed(&alone), "other bits than steps");
-        }
+    let (mut states, mut ends) = (vec![state(); 9], Vec::new());
+    batch.run(&mut states, &inputs, DT, STEPS, &mut ends).unwrap();
+    let mut others = vec![state(); 9];
+    each.run(&mut others, &inputs, DT, STEPS, &mut ends).unwrap();
+    for now in states.iter().chain(&others) {
+        kept("run of a batch", &now.devices);
+        assert_eq!(printed(now), printed(&alone), "other bits than steps");
     }
 }
 

@@ -1,13 +1,11 @@
-//! Spacecraft whose parameters differ, side by side in lanes, against each by itself: to the bit
-//! where they are unfused, errors included.
+//! Spacecraft whose parameters differ, side by side in lanes, against each by itself: to the bit,
+//! errors included.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::lanes::{BatchAccelerations, ParameterBatch};
 use precess_dynamics::{
-    Accelerations, Devices, Each as _, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel,
-    SolveError, Spacecraft, State,
+    Each as _, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, SolveError, Spacecraft, State,
 };
-use precess_tests::bounds::ACCELERATIONS_WORST;
 
 use super::lanes::{self, Mixed, hub, mixed, states};
 
@@ -231,38 +229,6 @@ fn each_spacecraft_has_its_own_error() {
             Ok::<_, SolveError<f64>>(())
         });
         assert_eq!(printed(&(run[k], &ends[k])), printed(&(state, &end)), "run {k}");
-    }
-}
-
-/// The largest difference of any acceleration, over the largest acceleration.
-pub(super) fn difference<D: Devices<Scalar = f64>>(
-    a: &Accelerations<D>,
-    b: &Accelerations<D>,
-) -> f64 {
-    let numbers = |of: &Accelerations<D>| -> Vec<f64> {
-        let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
-        hub.chain(of.devices.values()).collect()
-    };
-    let (a, b) = (numbers(a), numbers(b));
-    let largest = b.iter().fold(0.0, |largest: f64, number| largest.max(number.abs()));
-    let pairs = a.iter().zip(&b);
-    pairs.fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs())) / largest
-}
-
-#[test]
-fn fused_lanes_agree_to_rounding() {
-    let (crafts, states, inputs) = (crafts(9), states(9), inputs(2));
-    let mut found = [Vec::new(), Vec::new()];
-    let unfused = ParameterBatch::new(crafts);
-    let fused = unfused.clone().fused();
-    for (batch, found) in [unfused, fused].iter().zip(&mut found) {
-        batch.accelerations(&states, &inputs, found).unwrap();
-    }
-    let [unfused, fused] = found;
-    assert_ne!(printed(&fused), printed(&unfused), "not a bit of a difference: not in lanes");
-    for (fused, unfused) in fused.iter().zip(&unfused) {
-        let worst = difference(fused.as_ref().unwrap(), unfused.as_ref().unwrap());
-        assert!(worst <= ACCELERATIONS_WORST, "{worst:e}");
     }
 }
 

@@ -24,10 +24,6 @@ impl<const N: usize> Across<N> {
         let inputs = stored.forces(Inputs::none_for(craft.spacecraft()));
         Ok(Self { craft, state, inputs })
     }
-
-    pub(super) fn fused(self) -> Self {
-        Self { craft: self.craft.fused(), ..self }
-    }
 }
 
 impl<const N: usize> Service for Across<N> {

@@ -27,12 +27,12 @@ pub(super) enum Crafts<D: LanedSet> {
 impl<D: LanedSet> Crafts<D> {
     /// One spacecraft.
     pub(super) fn same(hub: &Hub, devices: &D) -> Result<Self, Rejected> {
-        Ok(Self::Same(Batch::new(hub, devices)?.fused()))
+        Ok(Self::Same(Batch::new(hub, devices)?))
     }
 
     /// The same on several threads.
     pub(super) fn on_threads(hub: &Hub, devices: &D) -> Result<Self, Rejected> {
-        Ok(Self::Same(Batch::new(hub, devices)?.fused().on_threads()))
+        Ok(Self::Same(Batch::new(hub, devices)?.on_threads()))
     }
 
     /// So many spacecraft whose hubs have different masses.
@@ -42,7 +42,7 @@ impl<D: LanedSet> Crafts<D> {
             Spacecraft::new(&Hub { m_b, ..*hub }, devices)
         };
         let crafts: Result<Vec<_>, _> = (0..states).map(craft).collect();
-        Ok(Self::Own(ParameterBatch::new(crafts?).fused()))
+        Ok(Self::Own(ParameterBatch::new(crafts?)))
     }
 
     /// The spacecraft of the file.

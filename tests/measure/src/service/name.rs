@@ -14,18 +14,12 @@ pub(crate) enum Name {
     /// One state, one evaluation after another, by instructions chosen at run time
     #[cfg(feature = "lanes")]
     Dispatched,
-    /// The same, product and sum rounded once
-    #[cfg(feature = "lanes")]
-    Fused,
     /// One state, the devices in a list of any kinds
     #[cfg(feature = "lanes")]
     List,
-    /// One state, its devices side by side in lanes, with the bits of one after another
+    /// One state, its devices side by side in lanes
     #[cfg(feature = "lanes")]
     Abreast,
-    /// One state, its devices side by side in lanes, product and sum rounded once
-    #[cfg(feature = "lanes")]
-    Across,
     /// Many states of one spacecraft in lanes
     #[cfg(feature = "lanes")]
     Batch,
@@ -38,7 +32,7 @@ pub(crate) enum Name {
     /// Steps of one state
     #[cfg(feature = "lanes")]
     Step,
-    /// Steps of one state, the devices in lanes that do not fuse: the same bits
+    /// Steps of one state, its devices side by side in lanes
     #[cfg(feature = "lanes")]
     StepLanes,
     /// Steps of one state, the devices in a list of any kinds
@@ -104,16 +98,13 @@ impl Name {
 
     #[cfg(feature = "lanes")]
     fn with_lanes(self) -> Option<(&'static str, &'static str, Option<&'static str>, usize)> {
-        let (one, fused, widest) =
-            (Some(floor::ONE), Some(floor::ONE_FUSED), Some(floor::widest()));
+        let (one, widest) = (Some(floor::ONE), Some(floor::widest()));
         // One thread is the service without threads.
         let threads = Some(rayon::current_num_threads()).filter(|threads| *threads > 1);
         Some(match self {
             Self::Dispatched => ("one state, dispatched", "evaluation", one, 1),
-            Self::Fused => ("one state, fused", "evaluation", fused, 1),
             Self::List => ("one state, list of any kinds", "evaluation", one, 1),
-            Self::Abreast => ("devices in lanes", "evaluation", None, 1),
-            Self::Across => ("devices in lanes, fused", "evaluation", widest, 1),
+            Self::Abreast => ("devices in lanes", "evaluation", widest, 1),
             Self::Batch => ("batch", "batch", widest, 1),
             Self::Parameters => ("batch, parameters per lane", "batch", widest, 1),
             Self::Threads => ("batch", "batch", None, threads?),

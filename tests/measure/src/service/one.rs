@@ -22,19 +22,10 @@ pub(crate) struct One<D: Devices> {
 
 impl<D: Devices<Scalar = f64>> One<D> {
     pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
-        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?))
-    }
-
-    /// The same, products and sums rounded once.
-    #[cfg(feature = "lanes")]
-    pub(super) fn open_fused(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
-        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?.fused()))
-    }
-
-    fn of(stored: &Stored, craft: Spacecraft<D>) -> Self {
+        let craft = Spacecraft::new(&stored.hub(), devices)?;
         let state = stored.motion(State::at_rest_for(&craft));
         let inputs = stored.forces(Inputs::none_for(&craft));
-        Self { craft, state, inputs }
+        Ok(Self { craft, state, inputs })
     }
 }
 

@@ -109,7 +109,6 @@ fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N])
     let many = |crafts, states| Ok(Box::new(Many::open(stored, crafts, states)?) as Box<_>);
     match name {
         Name::Abreast => Ok(Box::new(Across::open(stored, devices)?)),
-        Name::Across => Ok(Box::new(Across::open(stored, devices)?.fused())),
         Name::Batch => many(Crafts::same(&hub, devices)?, IN_CACHE),
         Name::Parameters => many(Crafts::own(&hub, devices, IN_CACHE)?, IN_CACHE),
         Name::Threads => many(Crafts::on_threads(&hub, devices)?, ON_THREADS),
@@ -123,8 +122,6 @@ fn of<D: Devices<Scalar = f64> + 'static>(name: Name, stored: &Stored, devices: 
         Name::Portable => Ok(Box::new(One::open(stored, devices)?)),
         #[cfg(feature = "lanes")]
         Name::Dispatched => Ok(Box::new(One::open(stored, devices)?)),
-        #[cfg(feature = "lanes")]
-        Name::Fused => Ok(Box::new(One::open_fused(stored, devices)?)),
         _ => Err(format!("{name:?} takes no {} devices", stored.devices.len()).into()),
     }
 }

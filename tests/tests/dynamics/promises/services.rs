@@ -36,7 +36,7 @@ where
     all
 }
 
-/// The result of each service in lanes, and of the fused one, by its name.
+/// The result of each service in lanes, by its name.
 #[cfg(feature = "lanes")]
 fn in_lanes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
 where
@@ -44,19 +44,12 @@ where
 {
     let Alone { hub, device, state, inputs } = case;
     let across = AcrossDevices::new(hub, &[*device]).expect("valid parameters");
-    let craft = Spacecraft::new(hub, &[*device]).expect("valid parameters").fused();
-    let found = craft.accelerations(state, inputs);
-    let mut all = vec![("fused", found.map(|found| found.omega_dot.into()))];
-    for (name, across) in [("across", across.clone()), ("fused across", across.fused())] {
-        let found = across.accelerations(state, inputs);
-        all.push((name, found.map(|found| found.omega_dot.into())));
-    }
+    let found = across.accelerations(state, inputs);
+    let mut all = vec![("across", found.map(|found| found.omega_dot.into()))];
     let batch = Batch::new(hub, &[*device]).expect("valid parameters");
-    for (name, batch) in [("batch", batch.clone()), ("fused batch", batch.fused())] {
-        let mut out = Vec::new();
-        batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
-        all.extend(out.into_iter().map(|found| (name, found.map(|found| found.omega_dot.into()))));
-    }
+    let mut out = Vec::new();
+    batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
+    all.extend(out.into_iter().map(|found| ("batch", found.map(|found| found.omega_dot.into()))));
     all
 }
 

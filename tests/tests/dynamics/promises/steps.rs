@@ -130,22 +130,17 @@ fn every_service_rejects_the_same_step() {
     }
 }
 
-/// The services in lanes, and the fused one, give that error, too.
+/// The services in lanes give that error, too.
 #[cfg(feature = "lanes")]
 fn rejected_in_lanes(device: ReactionWheel, reversing: State<One>, dt: f64, expected: SolveError) {
     let inputs = Inputs::<One>::none();
-    let craft = Spacecraft::new(&hub(2.0), &[device]).expect("valid parameters");
-    assert_eq!(craft.fused().step(&reversing, &inputs, dt).unwrap_err(), expected);
     let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
     assert_eq!(across.step(&reversing, &inputs, dt).unwrap_err(), expected);
-    assert_eq!(across.fused().step(&reversing, &inputs, dt).unwrap_err(), expected);
     let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
-    for batch in [batch.clone(), batch.fused()] {
-        let (mut states, mut out) = ([reversing; 9], Vec::new());
-        batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
-        assert!(out.iter().all(|done| *done == Err(expected)), "{out:?}");
-        assert_eq!(states, [reversing; 9]);
-    }
+    let (mut states, mut out) = ([reversing; 9], Vec::new());
+    batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
+    assert!(out.iter().all(|done| *done == Err(expected)), "{out:?}");
+    assert_eq!(states, [reversing; 9]);
 }
 
 fn listed<D: precess_dynamics::Devices<Scalar = f64>>(
