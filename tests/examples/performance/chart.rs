@@ -27,7 +27,7 @@ const SERVICES: [RGBColor; 6] = [
     RGBColor(0xe6, 0x9f, 0x00),
 ];
 /// The services that are drawn: more would not be told apart.
-const DRAWN: [&str; 6] = ["portable", "dispatched", "fused", "across", "batch", "parameters"];
+const DRAWN: [&str; 5] = ["portable", "dispatched", "abreast", "batch", "parameters"];
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 
 /// Everything is drawn in tenths of a unit, because plotters rounds to whole ones.
