@@ -15,7 +15,7 @@ use super::programs::{Program, optimisation};
 use super::suites::{DOCUMENTATION, libraries};
 use crate::measured;
 use crate::members::Members;
-use crate::program as command;
+use crate::program::{self as command, DISTRIBUTE};
 
 /// What is run: a name, a program, its arguments, its folder.
 pub(crate) struct Job {
@@ -60,6 +60,10 @@ impl Job {
         let mut arguments: Vec<_> = ["test", "--doc", "--no-fail-fast"].map(str::to_owned).to_vec();
         let libraries = libraries().filter(|package| Members::of(package, all) == members);
         arguments.extend(libraries.flat_map(|package| ["--package", package]).map(str::to_owned));
+        if all && members == Members::Plain {
+            // Its features of `zip` are those that the desktop tool was compiled with for the tests.
+            arguments.extend(["--package", DISTRIBUTE.package].map(str::to_owned));
+        }
         arguments.extend(members.features().iter().map(|word| (*word).to_owned()));
         arguments.extend(optimisation(all).map(str::to_owned));
         Self { name, program: PathBuf::from(program()), arguments, folder: root(), is_test: false }
