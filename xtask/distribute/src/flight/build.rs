@@ -26,14 +26,14 @@ pub(super) fn firmware() -> PathBuf {
     root().join("flight/firmware")
 }
 
-/// Builds programs for this machine; returns their folder.
+/// Builds programs for this machine, not optimised: bits depend on no optimisation. Returns their folder.
 pub(super) fn for_host(programs: &[&str]) -> Result<PathBuf, String> {
     let folder = target()?.join("flight/host");
-    let images = folder.join("release");
+    let images = folder.join("debug");
     stale(programs.iter().map(|program| images.join(program)))?;
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let mut command = clean(&cargo);
-    command.args(["build", "--release"]).args(bins(programs));
+    command.arg("build").args(bins(programs));
     built(&mut command, &folder)?;
     Ok(images)
 }
