@@ -31,8 +31,8 @@ enum Command {
     )]
     Dist(dist::Options),
     /// Build the wheel of the Python package, install it in an environment of its own, run its tests
-    #[command(after_help = "Example: cargo xtask python")]
-    Python,
+    #[command(after_help = "Examples: cargo xtask python\n          cargo xtask python --quick")]
+    Python(python::Options),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +43,6 @@ fn main() -> ExitCode {
     xtask::ended(match Arguments::parse().command {
         Command::Flight(options) => flight::flight(&options),
         Command::Dist(options) => dist::dist(&options),
-        Command::Python => python::python(),
+        Command::Python(options) => python::python(&options),
     })
 }

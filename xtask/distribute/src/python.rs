@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
+use clap::Args;
+
 use crate::wheel;
 use xtask::run::{TOOL, output, root, run, target, tool};
 use xtask::say;
@@ -19,8 +21,16 @@ const INSTALL: &str = "apt-get install python3-venv python3-pip";
 const IMPORT_MS: f64 = 50.0;
 const WHEEL_MB: f64 = 6.0;
 
+/// Options of `python`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Build as for development: less optimised and not compressed, so without the wheel's size
+    #[arg(long)]
+    quick: bool,
+}
+
 /// Builds, installs, tests.
-pub(crate) fn python() -> Result<(), String> {
+pub(crate) fn python(options: &Options) -> Result<(), String> {
     let start = Instant::now();
     let folder = target()?.join("python");
     let Some(python) = environment(&folder.join("environment"))? else { return Ok(()) };
@@ -30,20 +40,27 @@ pub(crate) fn python() -> Result<(), String> {
             .map_err(|error| format!("cannot remove {}: {error}", wheels.display()))?;
     }
     let mut build = Command::new(python.with_file_name("maturin"));
-    build.args(["build", "--release", "--locked", "--manifest-path", "python/Cargo.toml"]);
-    build.args(wheel::STORED).arg("--out");
+    build.args(["build", "--locked", "--manifest-path", "python/Cargo.toml"]);
+    build.args(wheel::STORED).arg("--out").arg(&wheels);
+    if options.quick {
+        build.env("CARGO_INCREMENTAL", "0");
+    } else {
+        build.arg("--release");
+    }
     // Beside the targets of other workspaces.
-    run(build.arg(&wheels).env("CARGO_TARGET_DIR", folder.join("build")))?;
+    run(build.env("CARGO_TARGET_DIR", folder.join("build")))?;
     let wheel = wheel::of_folder(&wheels)?;
-    wheel::compress(&wheel)?;
+    if !options.quick {
+        wheel::compress(&wheel)?;
+        let size =
+            std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?;
+        say!(
+            "wheel: {:.2} MB, goal {WHEEL_MB} MB",
+            f64::from(u32::try_from(size.len()).unwrap_or(u32::MAX)) / 1e6
+        );
+    }
     let built = start.elapsed().as_secs_f64();
-    let size =
-        std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?;
     run(pip(&python).args(["--force-reinstall", "--no-deps"]).arg(&wheel))?;
-    say!(
-        "wheel: {:.2} MB, goal {WHEEL_MB} MB",
-        f64::from(u32::try_from(size.len()).unwrap_or(u32::MAX)) / 1e6
-    );
     say!("import: {} ms beyond NumPy's, goal {IMPORT_MS} ms", imported(&python)?);
     let mut tests = Command::new(&python);
     tests.args(["-B", "-m", "pytest", "-q", "python/tests"]).env(TOOL, tool()?);

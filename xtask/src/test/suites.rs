@@ -228,7 +228,7 @@ pub(crate) const SUITES: &[Suite] = &[
     command(&["engines"], When::All, &[ENGINES]),
     command(&["reports"], When::All, &[&["sim/report", "sim/src/report"]]),
     command(
-        &["python"],
+        &["python", "--quick"],
         When::All,
         &[SOLVER, LANES, DESKTOP, &["sim/lanes", "python", "xtask/distribute"]],
     ),
