@@ -1,17 +1,20 @@
-"""How the fixtures are written: JSON that a person can read."""
+"""How the fixtures are written: JSON with a line for each spacecraft or sample, so that a change shows whose it is."""
 
 import json
 
 
-def lines(value, indent=""):
-    """JSON in which whatever fits a line of 140 columns, an inertia say, stands on one."""
-    short = json.dumps(value, ensure_ascii=False, allow_nan=False)
-    if len(indent) + len(short) <= 139 or not isinstance(value, (dict, list)):
-        return short
-    deeper = indent + " "
-    if isinstance(value, dict):
-        inner = [f"{json.dumps(key)}: {lines(x, deeper)}" for key, x in value.items()]
-    else:
-        inner = [lines(x, deeper) for x in value]
-    opening, closing = "{}" if isinstance(value, dict) else "[]"
-    return f"{opening}\n{deeper}" + f",\n{deeper}".join(inner) + f"\n{indent}{closing}"
+def lines(document):
+    """JSON of an object, each member on a line, and of a list each element."""
+    members = [f" {compact(key)}: {elements(value)}" for key, value in document.items()]
+    return "{\n" + ",\n".join(members) + "\n}"
+
+
+def elements(value):
+    """JSON of a list of objects or lists, each on a line; of anything else on one."""
+    if not isinstance(value, list) or not any(isinstance(x, (dict, list)) for x in value):
+        return compact(value)
+    return "[\n  " + ",\n  ".join(map(compact, value)) + "\n ]"
+
+
+def compact(value):
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
