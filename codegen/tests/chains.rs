@@ -147,15 +147,17 @@ fn a_wrong_stage_of_a_long_elimination_is_caught() {
     let stages = text.lines().map(str::trim).filter_map(|line| {
         let (name, value) = line.strip_prefix("let ")?.split_once(" = ")?;
         let stage = done.contains(&name.rsplit_once('_')?.1);
-        let (before, taken) = value.split_once(" - ")?;
-        stage.then_some((line, name, before, taken))
+        let difference: syn::ExprBinary = syn::parse_str(value.strip_suffix(';')?).ok()?;
+        let (before, taken) = (difference.left, difference.right);
+        let is_stage = stage && matches!(difference.op, syn::BinOp::Sub(_));
+        is_stage.then(|| (line, name, quote::quote!(#before), quote::quote!(#taken)))
     });
     let stages: Vec<_> = stages.collect();
     assert!(stages.len() > 50, "{} stages", stages.len());
     for (number, (line, name, before, taken)) in stages.into_iter().step_by(5).enumerate() {
         let wrong = match number % 3 {
             0 => format!("{before};"),
-            1 => format!("{before} + {taken}"),
+            1 => format!("{before} + {taken};"),
             _ => format!("{before} - {before} * {before};"),
         };
         let text = text.replace(line, &format!("let {name} = {wrong}"));

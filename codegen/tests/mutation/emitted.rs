@@ -235,9 +235,9 @@ fn a_wrong_constant_returned_value_or_pivot_is_caught() {
             "            h_v_1,\n            h_v_2,",
             "            h_v_1: h_v_2,\n            h_v_2: h_v_1,",
         ),
-        ("let m_vw_12 = hub_7.", "let m_vw_12 = (-hub_7)."),
+        ("let m_vw_12 = n_w_by * gain_w_v1", "let m_vw_12 = (-n_w_by) * gain_w_v1"),
         ("mount_12: p.mount_12,", "mount_12: p.mount_21,"),
-        ("(a.r_b_n_ddot_bx, e.gain_o_v1)", "(a.omega_dot_bx, e.gain_o_v1)"),
+        ("a.r_b_n_ddot_bx * e.gain_o_v1", "a.omega_dot_bx * e.gain_o_v1"),
     ] {
         assert!(!with(right, wrong).unwrap().is_empty(), "{wrong}");
     }
