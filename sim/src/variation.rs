@@ -122,14 +122,15 @@ pub(crate) fn normal_score(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(probability)
 }
 
+/// A key and its unit, for tables and pictures: `device.rw.wheel.rate [rpm]`; the key where it has none.
+pub(crate) fn label(key: &str, unit: &str) -> String {
+    if unit.is_empty() { key.to_owned() } else { format!("{key} [{unit}]") }
+}
+
 impl Variation {
     /// Key and unit: `device.rw.imbalance.static [g cm]`.
     #[must_use]
     pub fn label(&self) -> String {
-        if self.unit.is_empty() {
-            self.key.clone()
-        } else {
-            format!("{} [{}]", self.key, self.unit)
-        }
+        label(&self.key, &self.unit)
     }
 }

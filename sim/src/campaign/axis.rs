@@ -4,6 +4,7 @@ use super::{CampaignError, SAMPLES_MAX};
 use crate::file::is_key;
 use crate::spectra::float;
 use crate::units::{Dimension, parse_quantity};
+use crate::variation::label;
 
 /// A key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,11 +110,7 @@ impl Axis {
     /// Key and unit, for tables and pictures: `device.rw.wheel.rate [rpm]`.
     #[must_use]
     pub fn label(&self) -> String {
-        if self.unit.is_empty() {
-            self.key.clone()
-        } else {
-            format!("{} [{}]", self.key, self.unit)
-        }
+        label(&self.key, &self.unit)
     }
 }
 
