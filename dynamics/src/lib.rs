@@ -72,6 +72,7 @@ pub mod lanes;
 mod model;
 mod numbers;
 mod results;
+mod rigid;
 mod sets;
 mod solve;
 mod validation;
@@ -90,19 +91,16 @@ pub use derivatives::variable::{Axis, Variable, VariableName};
 pub use equations::device_loads::{DeviceLoads, JointPower};
 pub use equations::error::{Quantity, SolveError};
 pub use equations::gravity::Gravity;
-pub use flexible::inputs::FlexibleInputs;
-pub use flexible::ledger::FlexibleLedger;
-pub use flexible::loads::FlexibleLoads;
+pub use flexible::inputs::ModalInputs;
+pub use flexible::ledger::ModalLedger;
+pub use flexible::loads::ModalLoads;
 pub use flexible::modes::{ContainedBody, ModalMount, ModalPoint, Modes};
 pub use flexible::modes_error::{ModalQuantity, ModesError, ResidualFault};
 pub use flexible::point::{PointAcceleration, PointMotion};
-pub use flexible::spacecraft::FlexibleSpacecraft;
-pub use flexible::state::{FlexibleAccelerations, FlexibleState};
-pub use flexible::step::FlexibleStepped;
-pub use flexible::stop::FlexibleStopped;
+pub use flexible::state::{ModalAccelerations, ModalState};
 #[cfg(feature = "alloc")]
 pub use flexible::storage::ListedModes;
-pub use flexible::storage::{FixedModes, ModalStorage};
+pub use flexible::storage::{FixedModes, Flexible, ModalStorage};
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
@@ -129,6 +127,7 @@ pub use sets::isolated::Isolated;
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;
 pub use solve::state::{Accelerations, State};
+pub use solve::structure::{Rigid, Structure, StructureData};
 pub use validation::imbalance::{Imbalance, WheelImbalance};
 pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};
@@ -142,7 +141,6 @@ pub mod platform {
 pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
-    pub use crate::flexible::on_mount::OnMount;
     pub use crate::isolation::carrier::Carrier;
     pub use crate::sets::bundle::{Bundle, Given, Maybe, Part, Shared, Unique};
     pub use crate::sets::devices::{List, Visit};
@@ -151,6 +149,7 @@ pub mod set {
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
     pub use crate::sets::held::{Held, HeldMut};
     pub use crate::sets::isolated::PreparedIsolated;
+    pub use crate::sets::per_device::OnMount;
     pub use crate::sets::per_device::{
         Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,
     };

@@ -304,7 +304,7 @@ pub(crate) fn numbers(y: &PyReadonlyArray1<'_, f64>) -> Vec<f64> {
 pub(crate) fn flat(found: &CraftAccelerations) -> Vec<f64> {
     let rigid = &found.rigid;
     let hub = rigid.r_b_n_ddot.iter().chain(rigid.omega_dot.iter()).copied();
-    hub.chain(rigid.devices.values()).chain(found.eta_ddot.iter().copied()).collect()
+    hub.chain(rigid.devices.values()).chain(found.modal.eta_ddot.iter().copied()).collect()
 }
 
 /// A matrix, rows first.

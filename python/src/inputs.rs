@@ -180,7 +180,7 @@ impl NativeInputs {
     /// Modal forces of a structure, N/sqrt(kg).
     #[getter]
     fn modal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let modal = self.get()?.modal.clone();
+        let modal = self.get()?.modal.forces.clone();
         Ok(modal.into_pyarray(py))
     }
 
@@ -188,8 +188,8 @@ impl NativeInputs {
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn set_modal(&self, modal: Vec<f64>) -> PyResult<()> {
         let mut inputs = self.get()?;
-        count(inputs.modal.len(), modal.len())?;
-        inputs.modal.copy_from_slice(&modal);
+        count(inputs.modal.forces.len(), modal.len())?;
+        inputs.modal.forces.copy_from_slice(&modal);
         Ok(())
     }
 }

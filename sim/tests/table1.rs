@@ -43,10 +43,10 @@ fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<Set<1>>, inputs: &Inputs<S
         passive,
         model,
     } = device;
-    let State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints] } = state;
+    let State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints], .. } = state;
     let Quaternion { q0, q1, q2, q3 } = *attitude;
     let Joints { gamma_o, gamma_i, theta, gamma_o_dot, gamma_i_dot, spin } = *joints;
-    let Inputs { force, torque_b, motors: [motor], modes, hub, gravity, bodies } = inputs;
+    let Inputs { force, torque_b, motors: [motor], modes, hub, gravity, bodies, .. } = inputs;
     let MotorTorques { u_o, u_i, u_w } = *motor;
     // What the table knows nothing of.
     assert_eq!((*passive, *model), (PerJoint::all(Passive::none()), ImbalanceModel::Coupled));

@@ -136,6 +136,7 @@ pub fn reference<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerat
         r_b_n_ddot: found.r_b_n_ddot,
         omega_dot: found.omega_dot,
         devices: core::array::from_fn(|device| found.devices[device]),
+        modal: (),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    FlexibleInputs, FlexibleSpacecraft, FlexibleState, ListedModes, ModalMount, ModalPoint,
-    ModalStorage as _, Modes, ReactionWheel, Scalar,
+    Flexible, Inputs, ListedModes, ModalMount, ModalPoint, ModalStorage as _, Modes, Quaternion,
+    ReactionWheel, Scalar, Spacecraft, State,
 };
 
 use crate::measured::{Measured, hub};
@@ -19,11 +19,11 @@ const PLACES: [[f64; 3]; WHEELS] =
 #[derive(Debug)]
 pub struct Bending<T: Scalar = f64> {
     /// The spacecraft.
-    pub craft: FlexibleSpacecraft<[ReactionWheel<T>; WHEELS], ListedModes>,
+    pub craft: Spacecraft<[ReactionWheel<T>; WHEELS], Flexible<ListedModes>>,
     /// Its state.
-    pub state: FlexibleState<[ReactionWheel<T>; WHEELS], ListedModes>,
+    pub state: State<[ReactionWheel<T>; WHEELS], Quaternion<T>, Flexible<ListedModes>>,
     /// What acts on it.
-    pub inputs: FlexibleInputs<[ReactionWheel<T>; WHEELS], ListedModes>,
+    pub inputs: Inputs<[ReactionWheel<T>; WHEELS], Flexible<ListedModes>>,
 }
 
 impl<T: Scalar> Bending<T> {
@@ -42,13 +42,13 @@ impl<T: Scalar> Bending<T> {
         });
         let rigid = Measured::new(&wheels);
         let modes = structure(modes, &wheels.each_ref().map(|wheel| wheel.r_w_b));
-        let craft = FlexibleSpacecraft::new(&hub(), &modes, &wheels, &[0, 1, 2, 3])
+        let craft = Spacecraft::flexible(&hub(), &modes, &wheels, &[0, 1, 2, 3])
             .unwrap_or_else(|error| panic!("{error}"));
-        let mut state = FlexibleState::at_rest(&craft);
-        state.rigid = rigid.state;
-        swing(&mut state.eta);
-        let mut inputs = FlexibleInputs::none_for(&craft);
-        inputs.rigid = rigid.inputs;
+        let mut state = State::at_rest_for(&craft);
+        state = rigid.state.with_modal(state.modal);
+        swing(&mut state.modal.eta);
+        let mut inputs = Inputs::none_for(&craft);
+        inputs = rigid.inputs.with_modal(inputs.modal);
         Self { craft, state, inputs }
     }
 }

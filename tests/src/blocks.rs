@@ -96,6 +96,7 @@ mod tests {
             r_b_n_ddot: Vector3::new(1.0, -4.0, 2.0),
             omega_dot: Vector3::new(0.0, 0.0, 0.0),
             devices: [JointAccelerations { gamma_o_ddot: 1.0, gamma_i_ddot: 2.0, spin_dot: 3.0 }],
+            modal: (),
         }
     }
 

@@ -123,6 +123,7 @@ pub(crate) fn from_list<const N: usize, T: Scalar>(list: &[T]) -> Accelerations<
         r_b_n_ddot: Vector3::new(list[0], list[1], list[2]),
         omega_dot: Vector3::new(list[3], list[4], list[5]),
         devices: joints,
+        modal: (),
     }
 }
 

@@ -75,6 +75,7 @@ impl<const N: usize> Sample<N> {
             attitude: Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 },
             omega: random.vector(turning),
             devices: core::array::from_fn(|_| random_joints(random)),
+            modal: (),
         };
         let force = random.signed(100.0);
         let torque = random.signed(10.0);

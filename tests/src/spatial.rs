@@ -59,6 +59,7 @@ pub fn accelerations<const N: usize, T: Scalar>(
         r_b_n_ddot: Vector3::from(r_b_n_ddot),
         omega_dot: Vector3::from(omega_dot),
         devices,
+        modal: (),
     })
 }
 

@@ -58,7 +58,7 @@ pub fn pair() -> Case<2> {
     Case {
         hub: one.hub,
         devices: [device, Dgvscmg { r_go_b: Vector3::new(-0.3, 0.0, 0.0), ..device }],
-        state: State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints; 2] },
+        state: State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints; 2], modal: () },
         inputs: Inputs {
             force: one.inputs.force,
             torque_b: one.inputs.torque_b,

@@ -136,6 +136,7 @@ impl Sample {
             attitude: Mrp(self.mrp.into()),
             omega: self.omega.into(),
             devices: core::array::from_fn(|k| Joints { theta: self.theta[k], spin: self.spin[k] }),
+            modal: (),
         }
     }
 

@@ -181,6 +181,7 @@ impl<D: WithNumbers> Spacecraft<D> {
                 r_b_n_ddot: along(&accelerations.r_b_n_ddot),
                 omega_dot: along(&accelerations.omega_dot),
                 devices: filled(D::new_data(&self.devices, &data::Accelerations), joints),
+                modal: (),
             },
             r_b_n_ddot_n: along(r_b_n_ddot_n),
             momentum: momentum.as_ref().map(|of| EnergyAndMomentum {

@@ -70,6 +70,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
                 attitude: Turned::of(&state.attitude),
                 omega: state.omega.map(number),
                 devices: joints,
+                modal: (),
             },
             inputs: Inputs {
                 force: inputs.force.map(number),
@@ -90,6 +91,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
                     Gravity::Central { mu } => Gravity::Central { mu: number(*mu) },
                 },
                 bodies,
+                modal: (),
             },
         }
     }

@@ -78,27 +78,27 @@ pub enum Quantity {
     Power,
     /// The work of a step: `Stepped::work`.
     Work,
-    /// `FlexibleState::eta`.
+    /// `ModalState::eta`.
     ModalCoordinate {
         /// Its mode.
         mode: usize,
     },
-    /// `FlexibleState::eta_dot`.
+    /// `ModalState::eta_dot`.
     ModalRate {
         /// Its mode.
         mode: usize,
     },
-    /// `FlexibleInputs::modal`.
+    /// `ModalInputs::forces`.
     ModalForce {
         /// Its mode.
         mode: usize,
     },
-    /// `FlexibleInputs::mounts`.
+    /// `ModalInputs::mounts`.
     MountWrench {
         /// The mount.
         mount: usize,
     },
-    /// `FlexibleAccelerations::eta_ddot`.
+    /// `ModalAccelerations::eta_ddot`.
     ModalAcceleration,
 }
 

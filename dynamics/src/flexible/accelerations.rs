@@ -2,36 +2,35 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::Assembly;
-use crate::equations::error::{Quantity, SolveError};
+use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::{Scale, Solution, System};
 use crate::flexible::basis::Basis;
-use crate::flexible::block::{Six, combined, joined, parted};
+use crate::flexible::block::{Six, combined, finite, joined, parted};
 use crate::flexible::condense::{Condensed, SmallMass};
 use crate::flexible::devices::{
     Eliminated, MountBackSubstitution, MountElimination, MountStage, Substituted,
 };
 use crate::flexible::gravity::on_body;
-use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::spacecraft::{FlexibleSpacecraft, MountConstants, magnitudes};
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::spacecraft::{MountConstants, magnitudes};
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
-use crate::numbers::real::{Scalar, two, zero};
+use crate::numbers::real::{Scalar, two};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, scale, sub, zeros};
 use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
-use crate::solve::accelerations::{
-    EvaluationStart, check_fixed, evaluation_start, inputs_are_finite, overflow,
-};
+use crate::solve::accelerations::{EvaluationStart, check_fixed, evaluation_start, overflow};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// All second derivatives of the state, (F9): six numbers, one per joint and one per mode.
     ///
     /// # Errors
@@ -41,9 +40,9 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// a mode without mass, [`SolveError::ModalCount`].
     pub fn accelerations<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> Result<FlexibleAccelerations<D, S>, SolveError<D::Scalar>> {
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+    ) -> Result<Accelerations<D, Flexible<M>>, SolveError<D::Scalar>> {
         if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
@@ -57,15 +56,15 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`Self::accelerations`] without diagnosis.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        found: &mut FlexibleAccelerations<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        found: &mut Accelerations<D, Flexible<M>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        check_fixed(&state.rigid, &inputs.rigid)?;
-        let EvaluationStart { environment, at_b } = evaluation_start(&state.rigid, &inputs.rigid);
+        check_fixed(state, inputs)?;
+        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs);
         let omega = environment.omega;
         let mut stages = self.stages(state, inputs, &environment);
-        let mut gains = D::new_data(&self.rigid.devices, &data::Gains);
+        let mut gains = D::new_data(&self.devices, &data::Gains);
         self.eliminate(state, inputs, stages.as_mut(), &mut gains)?;
 
         let forces = self.modal_forces(state, inputs);
@@ -76,10 +75,10 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             structure.h_v = add(structure.h_v, components(&force));
             structure.h_w = add(structure.h_w, components(&moment));
         }
-        let given = given_hub(&inputs.rigid.hub, at_b);
+        let given = given_hub(&inputs.hub, at_b);
         let hub = self.substitute(stages.as_ref(), &structure, &forces, given, &gains, found)?;
-        let finite = found.rigid.devices.values().all(Scalar::is_finite);
-        found.rigid.finish(&inputs.rigid, &hub, at_b, finite)
+        let finite = found.devices.values().all(Scalar::is_finite);
+        found.finish(inputs, &hub, at_b, finite)
     }
 
     /// Hub and modes together, (F12), then the joints; writes accelerations of modes and joints,
@@ -88,22 +87,22 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         &self,
         stages: &[MountStage<D::Scalar>],
         structure: &System<D::Scalar>,
-        forces: &S::Modes<D::Scalar>,
+        forces: &M::Modes<D::Scalar>,
         given: Option<Solution<D::Scalar>>,
         gains: &D::Per<data::Gains>,
-        found: &mut FlexibleAccelerations<D, S>,
+        found: &mut Accelerations<D, Flexible<M>>,
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
-        let projected = self.basis.projected(forces);
-        let mut condensed = Condensed::new(structure, &self.basis, &projected);
-        let scale = self.add_mounts_to(&mut condensed, stages, &self.basis);
+        let projected = self.structure.basis.projected(forces);
+        let mut condensed = Condensed::new(structure, &self.structure.basis, &projected);
+        let scale = self.add_mounts_to(&mut condensed, stages, &self.structure.basis);
         let (hub, p) = condensed.solve(given, &scale).map_err(|small| match small {
             SmallMass::Modal(small) => {
                 SolveError::ModalMass { pivot: small.pivot, bound: small.bound }
             }
             SmallMass::Hub(small) => small.of(None, None),
         })?;
-        found.eta_ddot = self.basis.completed(forces, &p, &projected);
-        if !(hub.is_finite() && finite(found.eta_ddot.as_ref())) {
+        found.modal.eta_ddot = self.structure.basis.completed(forces, &p, &projected);
+        if !(hub.is_finite() && finite(found.modal.eta_ddot.as_ref())) {
             return Err(overflow());
         }
         self.substitute_joints(stages, &hub, gains, found);
@@ -114,12 +113,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// pivots are checked against.
     pub(crate) fn add_mounts_to(
         &self,
-        condensed: &mut Condensed<S, D::Scalar>,
+        condensed: &mut Condensed<M, D::Scalar>,
         stages: &[MountStage<D::Scalar>],
-        basis: &Basis<S, D::Scalar>,
+        basis: &Basis<M, D::Scalar>,
     ) -> Scale<D::Scalar> {
         let mut scale = self.structure_scale();
-        let mounts = stages.iter().zip(self.mounts.as_ref());
+        let mounts = stages.iter().zip(self.structure.mounts.as_ref());
         for ((stage, constants), coupling) in mounts.zip(basis.mounts.as_ref()) {
             let MountStage { motion, assembly, .. } = stage;
             let (mass, moments) = assembly.scale(&constants.body);
@@ -137,35 +136,29 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         stages: &[MountStage<D::Scalar>],
         hub: &Solution<D::Scalar>,
         gains: &D::Per<data::Gains>,
-        found: &mut FlexibleAccelerations<D, S>,
+        found: &mut Accelerations<D, Flexible<M>>,
     ) {
-        let mut moving = stages.iter().zip(self.mounts.as_ref());
-        let accelerations = S::per_mount(&self.mounts, |_| {
+        let mut moving = stages.iter().zip(self.structure.mounts.as_ref());
+        let accelerations = M::per_mount(&self.structure.mounts, |_| {
             let still = || Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
             moving.next().map_or_else(still, |(stage, constants)| {
-                accelerated(&stage.motion, hub, constants, found.eta_ddot.as_ref())
+                accelerated(&stage.motion, hub, constants, found.modal.eta_ddot.as_ref())
             })
         });
         let mut substitution = MountBackSubstitution(accelerations.as_ref());
-        let data = (gains, &mut found.rigid.devices, &self.on_mount);
-        let Ok(()) = D::visit::<Substituted, _>(&self.rigid.devices, data, &mut substitution);
-    }
-
-    /// Accelerations to be filled in.
-    pub(crate) fn no_accelerations(&self) -> FlexibleAccelerations<D, S> {
-        let eta_ddot = S::modes(self.modes(), &zero());
-        FlexibleAccelerations { rigid: self.rigid.no_accelerations(), eta_ddot }
+        let data = (gains, &mut found.devices, &self.structure.on_mount);
+        let Ok(()) = D::visit::<Substituted, _>(&self.devices, data, &mut substitution);
     }
 
     /// Motion of each mount, and its equations before any device is evaluated.
     pub(crate) fn stages<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         of_b: &Environment<D::Scalar>,
-    ) -> S::Mounts<MountStage<D::Scalar>> {
-        let mut wrenches = inputs.mounts.as_ref().iter();
-        S::per_mount(&self.mounts, |mount| {
+    ) -> M::Mounts<MountStage<D::Scalar>> {
+        let mut wrenches = inputs.modal.mounts.as_ref().iter();
+        M::per_mount(&self.structure.mounts, |mount| {
             let (motion, environment) = mount.surroundings(state, of_b);
             let wrench = wrenches.next().copied().unwrap_or_else(Wrench::none);
             let wrench = mount.about_origin(&wrench);
@@ -184,28 +177,28 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// Eliminates every device into the equations of its mount.
     pub(crate) fn eliminate<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         stages: &mut [MountStage<D::Scalar>],
         gains: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let (joints, given) = (&state.rigid.devices, inputs.rigid.of_joints());
-        check_counts::<D>(&self.rigid.devices, joints, Some(given), None)?;
-        let arithmetic = self.rigid.arithmetic;
+        let (joints, given) = (&state.devices, inputs.of_joints());
+        check_counts::<D>(&self.devices, joints, Some(given), None)?;
+        let arithmetic = self.arithmetic;
         let mut elimination = MountElimination { mounts: stages, device: 0, arithmetic };
-        let data = (joints, given, gains, &self.on_mount);
-        D::visit::<Eliminated, _>(&self.rigid.devices, data, &mut elimination)
+        let data = (joints, given, gains, &self.structure.on_mount);
+        D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }
 
     /// Modal forces: from outside, of stiffness and of damping.
     pub(crate) fn modal_forces<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> S::Modes<D::Scalar> {
-        let mut forces = inputs.modal.clone();
-        let motion = state.eta.as_ref().iter().zip(state.eta_dot.as_ref());
-        let passive = self.passive.as_ref().iter().zip(motion);
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+    ) -> M::Modes<D::Scalar> {
+        let mut forces = inputs.modal.forces.clone();
+        let motion = state.modal.eta.as_ref().iter().zip(state.modal.eta_dot.as_ref());
+        let passive = self.structure.passive.as_ref().iter().zip(motion);
         for (force, ([stiffness, damping], (eta, rate))) in forces.as_mut().iter_mut().zip(passive)
         {
             *force = *force - *stiffness * *eta - *damping * *rate;
@@ -214,22 +207,23 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     }
 
     /// The structure as a rigid body whose first moment its deformation changes, (F3).
-    pub(crate) fn deformed<A>(&self, state: &FlexibleState<D, S, A>) -> HubConstants<D::Scalar> {
-        let (shift, _) = parted(&combined(self.momenta.as_ref(), state.eta.as_ref()));
-        let hub = self.rigid.hub;
+    pub(crate) fn deformed<A>(&self, state: &State<D, A, Flexible<M>>) -> HubConstants<D::Scalar> {
+        let (shift, _) =
+            parted(&combined(self.structure.momenta.as_ref(), state.modal.eta.as_ref()));
+        let hub = self.hub;
         HubConstants { first_moment: add(hub.first_moment, shift), ..hub }
     }
 
     /// Rows of the structure's own hub equations, (F4).
     pub(crate) fn structure<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         omega: Vec3<D::Scalar>,
     ) -> System<D::Scalar> {
-        let rates = combined(self.momenta.as_ref(), state.eta_dot.as_ref());
+        let rates = combined(self.structure.momenta.as_ref(), state.modal.eta_dot.as_ref());
         let (linear, angular) = parted(&rates);
-        let (force, moment) = (components(&inputs.rigid.force), components(&inputs.rigid.torque_b));
+        let (force, moment) = (components(&inputs.force), components(&inputs.torque_b));
         let own = self.deformed(state).system(omega, force, moment);
         let coriolis = scale(two(), cross(omega, linear));
         System { h_v: sub(own.h_v, coriolis), h_w: sub(own.h_w, cross(omega, angular)), ..own }
@@ -237,103 +231,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
 
     /// What the pivots of the hub are checked against, of the structure.
     fn structure_scale(&self) -> Scale<D::Scalar> {
-        let hub = &self.rigid.hub;
+        let hub = &self.hub;
         (hub.m_b, scale(two(), hub.i_b_b.diagonal()))
-    }
-
-    /// Whether state and inputs are finite, and of the right number of modes.
-    pub(crate) fn are_finite<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> bool {
-        inputs_are_finite(&state.rigid, &inputs.rigid)
-            && [&state.eta, &state.eta_dot, &inputs.modal]
-                .into_iter()
-                .all(|numbers| numbers.as_ref().len() == self.modes() && finite(numbers.as_ref()))
-            && inputs.mounts.as_ref().len() == self.mounts()
-            && inputs.mounts.as_ref().iter().all(Wrench::is_finite)
-    }
-
-    /// What to report for a failed evaluation: an input that is not finite explains everything
-    /// else.
-    #[cold]
-    pub(crate) fn diagnosis<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        failure: SolveError<D::Scalar>,
-    ) -> SolveError<D::Scalar> {
-        if let Err(rejected) = self.reject(state, inputs) {
-            return rejected;
-        }
-        self.cause(state, inputs, failure)
-    }
-
-    /// What to report for a failed evaluation of finite inputs.
-    #[cold]
-    pub(crate) fn cause<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        failure: SolveError<D::Scalar>,
-    ) -> SolveError<D::Scalar> {
-        match failure {
-            SolveError::UnstableModes { .. } => failure,
-            SolveError::ModalMass { pivot, bound } if pivot.is_finite() && bound.is_finite() => {
-                failure
-            }
-            SolveError::ModalMass { .. } => {
-                SolveError::Overflow { what: Quantity::ModalAcceleration }
-            }
-            failure => self.rigid.cause(&state.rigid, &inputs.rigid, failure),
-        }
-    }
-
-    /// Rejects the first input that is not finite, or lists of another length.
-    pub(crate) fn reject<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        self.rigid.reject(&state.rigid, &inputs.rigid)?;
-        self.reject_modal(state)?;
-        self.reject_numbers(inputs.modal.as_ref(), |mode| Quantity::ModalForce { mode })?;
-        let (expected, found) = (self.mounts(), inputs.mounts.as_ref().len());
-        if expected != found {
-            return Err(SolveError::ModalCount { expected, found });
-        }
-        for (mount, wrench) in inputs.mounts.as_ref().iter().enumerate() {
-            let numbers = [components(&wrench.force), components(&wrench.moment)];
-            if let Some(value) = numbers.into_iter().flatten().find(|value| !value.is_finite()) {
-                return Err(SolveError::NotFinite { what: Quantity::MountWrench { mount }, value });
-            }
-        }
-        Ok(())
-    }
-
-    /// Rejects modal coordinates and rates that are not finite, or of another number of modes.
-    pub(crate) fn reject_modal<A>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        self.reject_numbers(state.eta.as_ref(), |mode| Quantity::ModalCoordinate { mode })?;
-        self.reject_numbers(state.eta_dot.as_ref(), |mode| Quantity::ModalRate { mode })
-    }
-
-    pub(crate) fn reject_numbers(
-        &self,
-        numbers: &[D::Scalar],
-        what: impl Fn(usize) -> Quantity,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        let (expected, found) = (self.modes(), numbers.len());
-        if expected != found {
-            return Err(SolveError::ModalCount { expected, found });
-        }
-        match numbers.iter().copied().enumerate().find(|(_, value)| !value.is_finite()) {
-            Some((mode, value)) => Err(SolveError::NotFinite { what: what(mode), value }),
-            None => Ok(()),
-        }
     }
 }
 
@@ -344,11 +243,6 @@ fn second_moment<T: Scalar>(stages: &[MountStage<T>]) -> Symmetric<T> {
         let body = assembly.body();
         sum.plus(motion.second_moment(body.m_b, body.first_moment, &assembly.second_moment))
     })
-}
-
-/// Whether all numbers are finite.
-pub(crate) fn finite<T: Scalar>(numbers: &[T]) -> bool {
-    numbers.iter().all(|number| number.is_finite())
 }
 
 /// The acceleration of a hub that is held, in the frame that falls with the field at B.
@@ -364,10 +258,10 @@ fn given_hub<T: Scalar>(hub: &HubMode<T>, at_b: Vec3<T>) -> Option<Solution<T>> 
 }
 
 /// The acceleration of the frame K of a mount, expressed in K, (F8).
-pub(crate) fn accelerated<S: ModalStorage, T: Scalar>(
+pub(crate) fn accelerated<M: ModalStorage, T: Scalar>(
     motion: &MountMotion<T>,
     hub: &Solution<T>,
-    constants: &MountConstants<S, T>,
+    constants: &MountConstants<M, T>,
     eta_ddot: &[T],
 ) -> Solution<T> {
     let shape: Six<T> = combined(constants.shapes.as_ref(), eta_ddot);

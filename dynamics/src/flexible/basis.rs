@@ -15,25 +15,25 @@ const DEPENDENT_EPSILONS: f64 = 64.0;
 
 /// Orthonormal directions, and the coupling of mounts and momentum integrals with them.
 #[derive(Clone, Debug)]
-pub(crate) struct Basis<S: ModalStorage, T: Scalar> {
+pub(crate) struct Basis<M: ModalStorage, T: Scalar> {
     /// The number of directions.
     pub(crate) count: usize,
     /// How many of them, at the end, are residual coordinates, without a modal mass.
     pub(crate) residual: usize,
     /// The rows of Q; none if it is the identity.
-    directions: Option<S::Modes<S::Modes<T>>>,
+    directions: Option<M::Modes<M::Modes<T>>>,
     /// `L_k` by its columns, mount by mount.
-    pub(crate) mounts: S::Mounts<S::Modes<Six<T>>>,
+    pub(crate) mounts: M::Mounts<M::Modes<Six<T>>>,
     /// `L_0` by its columns.
-    pub(crate) momenta: S::Modes<Six<T>>,
+    pub(crate) momenta: M::Modes<Six<T>>,
 }
 
-impl<S: ModalStorage, T: Scalar> Basis<S, T> {
+impl<M: ModalStorage, T: Scalar> Basis<M, T> {
     /// The basis for shapes of mounts and momentum integrals, each by its columns, the last ones of
     /// residual coordinates.
     pub(crate) fn new(
-        mounts: &S::Mounts<S::Modes<Six<T>>>,
-        momenta: &S::Modes<Six<T>>,
+        mounts: &M::Mounts<M::Modes<Six<T>>>,
+        momenta: &M::Modes<Six<T>>,
         residual: usize,
     ) -> Self {
         let modes = momenta.as_ref().len();
@@ -41,13 +41,13 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
         if modes <= rows {
             return Self::of_modes(mounts, momenta, residual);
         }
-        let none = S::modes(modes, &[zero(); 6]);
+        let none = M::modes(modes, &[zero(); 6]);
         let most = rows.saturating_add(residual);
         let mut basis = Self {
             count: 0,
             residual,
-            directions: Some(S::modes(most, &S::modes(modes, &zero()))),
-            mounts: S::mounts(mounts.as_ref().len(), &none),
+            directions: Some(M::modes(most, &M::modes(modes, &zero()))),
+            mounts: M::mounts(mounts.as_ref().len(), &none),
             momenta: none,
         };
         for (index, columns) in mounts.as_ref().iter().enumerate() {
@@ -70,8 +70,8 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
 
     /// Every mode as a direction.
     pub(crate) fn of_modes(
-        mounts: &S::Mounts<S::Modes<Six<T>>>,
-        momenta: &S::Modes<Six<T>>,
+        mounts: &M::Mounts<M::Modes<Six<T>>>,
+        momenta: &M::Modes<Six<T>>,
         residual: usize,
     ) -> Self {
         let (mounts, momenta) = (mounts.clone(), momenta.clone());
@@ -84,7 +84,7 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
     }
 
     /// Adds a residual coordinate as a direction; it carries no momentum.
-    fn add_residual(&mut self, mounts: &S::Mounts<S::Modes<Six<T>>>, mode: usize) {
+    fn add_residual(&mut self, mounts: &M::Mounts<M::Modes<Six<T>>>, mode: usize) {
         let direction = self.directions.as_mut().and_then(|all| all.as_mut().get_mut(self.count));
         let Some(own) = direction.and_then(|direction| direction.as_mut().get_mut(mode)) else {
             return;
@@ -100,15 +100,15 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
     }
 
     /// The coordinates of a row in the directions, to which its remainder is added.
-    fn orthonormalised(&mut self, columns: &S::Modes<Six<T>>, row: usize) -> S::Modes<T> {
+    fn orthonormalised(&mut self, columns: &M::Modes<Six<T>>, row: usize) -> M::Modes<T> {
         let modes = columns.as_ref().len();
-        let mut rest = S::modes(modes, &zero());
+        let mut rest = M::modes(modes, &zero());
         let massive = modes.saturating_sub(self.residual);
         let columns = columns.as_ref().iter().take(massive);
         for (to, column) in rest.as_mut().iter_mut().zip(columns) {
             *to = column.get(row).copied().unwrap_or_else(zero);
         }
-        let mut coordinates = S::modes(modes, &zero());
+        let mut coordinates = M::modes(modes, &zero());
         let whole = norm(rest.as_ref());
         let Some(directions) = &mut self.directions else { return coordinates };
         // Twice: the remainder of a row that nearly depends on others is orthogonal, too.
@@ -138,9 +138,9 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
     }
 
     /// `Q f`.
-    pub(crate) fn projected(&self, f: &S::Modes<T>) -> S::Modes<T> {
+    pub(crate) fn projected(&self, f: &M::Modes<T>) -> M::Modes<T> {
         let Some(directions) = &self.directions else { return f.clone() };
-        let mut projected = S::modes(self.count, &zero());
+        let mut projected = M::modes(self.count, &zero());
         for (to, direction) in projected.as_mut().iter_mut().zip(directions.as_ref()) {
             *to = inner(direction.as_ref(), f.as_ref());
         }
@@ -150,10 +150,10 @@ impl<S: ModalStorage, T: Scalar> Basis<S, T> {
     /// `f + Qᵀ (p - Q f)`: p in the directions, f beside them.
     pub(crate) fn completed(
         &self,
-        f: &S::Modes<T>,
-        p: &S::Modes<T>,
-        projected: &S::Modes<T>,
-    ) -> S::Modes<T> {
+        f: &M::Modes<T>,
+        p: &M::Modes<T>,
+        projected: &M::Modes<T>,
+    ) -> M::Modes<T> {
         let Some(directions) = &self.directions else { return p.clone() };
         let mut sum = f.clone();
         let differences = p.as_ref().iter().zip(projected.as_ref());

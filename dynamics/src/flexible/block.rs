@@ -129,3 +129,8 @@ pub(crate) fn combined<'a, T: Scalar>(
     }
     sum
 }
+
+/// Whether all numbers are finite.
+pub(crate) fn finite<T: Scalar>(numbers: &[T]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
+}

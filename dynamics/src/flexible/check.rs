@@ -15,8 +15,8 @@ use crate::numbers::vec3::components;
 use crate::validation::check::{check_contained, rounding};
 
 /// Checks counts, finite numbers and signs.
-pub(crate) fn check_modes<S: ModalStorage, T: Scalar>(
-    modes: &Modes<S, T>,
+pub(crate) fn check_modes<M: ModalStorage, T: Scalar>(
+    modes: &Modes<M, T>,
 ) -> Result<(), ModesError<T>> {
     let expected = modes.frequencies.as_ref().len();
     for (what, values) in [

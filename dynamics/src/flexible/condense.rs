@@ -19,25 +19,25 @@ use crate::numbers::symmetric::Symmetric;
 
 /// The equations of hub and modal directions.
 #[derive(Clone, Debug)]
-pub(crate) struct Condensed<S: ModalStorage, T: Scalar> {
+pub(crate) struct Condensed<M: ModalStorage, T: Scalar> {
     /// `M_uu` and `h_u`.
     hub: Block<T>,
     force: Six<T>,
     /// The triangle of `M_pp` up to the diagonal, by rows.
-    square: S::Square<T>,
+    square: M::Square<T>,
     /// `M_pu` and `h_p`, row by row.
-    right: S::Modes<Right<T>>,
+    right: M::Modes<Right<T>>,
     /// The acceleration of a mount for each direction, while it is added.
-    moved: S::Modes<Six<T>>,
+    moved: M::Modes<Six<T>>,
     /// What each pivot of `M_pp` is checked against: the mass of its direction before any joint was
     /// eliminated.
-    scales: S::Modes<T>,
+    scales: M::Modes<T>,
     /// The number of directions.
     count: usize,
 }
 
 /// Accelerations of the hub, and in the directions.
-pub(crate) type Solved<S, T> = (Solution<T>, <S as ModalStorage>::Modes<T>);
+pub(crate) type Solved<M, T> = (Solution<T>, <M as ModalStorage>::Modes<T>);
 
 /// Why the modal part has no solution.
 pub(crate) enum SmallMass<T> {
@@ -47,32 +47,32 @@ pub(crate) enum SmallMass<T> {
     Hub(SmallPivot<T>),
 }
 
-impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
+impl<M: ModalStorage, T: Scalar> Condensed<M, T> {
     /// The structure without what stands on its mounts, for modal forces in the directions.
-    pub(crate) fn new(structure: &System<T>, basis: &Basis<S, T>, forces: &S::Modes<T>) -> Self {
+    pub(crate) fn new(structure: &System<T>, basis: &Basis<M, T>, forces: &M::Modes<T>) -> Self {
         let count = basis.count;
-        let mut square = S::square(count, &zero());
+        let mut square = M::square(count, &zero());
         let massive = count.saturating_sub(basis.residual);
-        let mut scales = S::modes(count, &zero());
-        let rows = S::rows(&mut square, count).zip(scales.as_mut()).enumerate();
+        let mut scales = M::modes(count, &zero());
+        let rows = M::rows(&mut square, count).zip(scales.as_mut()).enumerate();
         for (index, (row, scale)) in rows.take(massive) {
             if let Some(diagonal) = row.get_mut(index) {
                 (*diagonal, *scale) = (one(), one());
             }
         }
-        let mut right = S::modes(count, &[zero(); 7]);
+        let mut right = M::modes(count, &[zero(); 7]);
         let given = basis.momenta.as_ref().iter().zip(forces.as_ref());
         for (right, ([a, b, c, d, e, f], force)) in right.as_mut().iter_mut().zip(given) {
             *right = [*a, *b, *c, *d, *e, *f, *force];
         }
         let (hub, force) = (block(structure), joined(structure.h_v, structure.h_w));
-        let moved = S::modes(count, &[zero(); 6]);
+        let moved = M::modes(count, &[zero(); 6]);
         Self { hub, force, square, right, moved, scales, count }
     }
 
     /// Subtracts one number for each direction from the diagonal of `M_pp`.
     pub(crate) fn reduce(&mut self, numbers: impl Iterator<Item = T>) {
-        let rows = S::rows(&mut self.square, self.count).zip(numbers).enumerate();
+        let rows = M::rows(&mut self.square, self.count).zip(numbers).enumerate();
         for (index, (row, number)) in rows {
             if let Some(diagonal) = row.get_mut(index) {
                 *diagonal = *diagonal - number;
@@ -104,7 +104,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
             let slid = *a * *a + *b * *b + *c * *c;
             *scale = *scale + (standing * slid + x * *d * *d + y * *e * *e + z * *f * *f);
         }
-        let lines = S::rows(&mut self.square, self.count).zip(self.right.as_mut());
+        let lines = M::rows(&mut self.square, self.count).zip(self.right.as_mut());
         for (index, (column, (row, right))) in moved.iter().zip(lines).enumerate() {
             let needed = times(&mass, column);
             let up_to = moved.iter().take(index.saturating_add(1));
@@ -125,7 +125,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
         mut self,
         given: Option<Solution<T>>,
         scale: &Scale<T>,
-    ) -> Result<Solved<S, T>, SmallMass<T>> {
+    ) -> Result<Solved<M, T>, SmallMass<T>> {
         let (scaled, reciprocals) = self.factorised();
         self.check(&reciprocals).map_err(SmallMass::Modal)?;
         let hub = match given {
@@ -136,7 +136,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     }
 
     /// The same without a check of the pivots.
-    pub(crate) fn unchecked(mut self, given: Option<Solution<T>>) -> Solved<S, T> {
+    pub(crate) fn unchecked(mut self, given: Option<Solution<T>>) -> Solved<M, T> {
         let (scaled, reciprocals) = self.factorised();
         let hub = given.unwrap_or_else(|| self.hub_system(&scaled).solved().0);
         self.completed(hub, reciprocals)
@@ -154,17 +154,17 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     }
 
     /// Factorises `M_pp`: `L⁻¹` times the right sides, and the reciprocals of the pivots.
-    fn factorised(&mut self) -> (S::Modes<Right<T>>, S::Modes<T>) {
-        let mut scaled = S::modes(self.count, &[zero(); 7]);
-        let mut reciprocals = S::modes(self.count, &zero());
-        let (flat, length) = S::flat(&mut self.square, self.count);
+    fn factorised(&mut self) -> (M::Modes<Right<T>>, M::Modes<T>) {
+        let mut scaled = M::modes(self.count, &[zero(); 7]);
+        let mut reciprocals = M::modes(self.count, &zero());
+        let (flat, length) = M::flat(&mut self.square, self.count);
         let mut rows = Rows { flat, length, count: self.count };
         factorise(&mut rows, self.right.as_mut(), scaled.as_mut(), reciprocals.as_mut());
         (scaled, reciprocals)
     }
 
     /// The hub's equations, the directions eliminated.
-    fn hub_system(&self, scaled: &S::Modes<Right<T>>) -> System<T> {
+    fn hub_system(&self, scaled: &M::Modes<Right<T>>) -> System<T> {
         let (mut mass, mut force) = (self.hub, self.force);
         let pairs = scaled.as_ref().iter().zip(self.right.as_ref()).take(self.count);
         for ([a, b, c, d, e, f, _], [p, q, r, s, t, u, h]) in pairs {
@@ -178,19 +178,19 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     }
 
     /// The accelerations in the directions, once that of the hub is known; in place of `known`.
-    fn completed(mut self, hub: Solution<T>, mut known: S::Modes<T>) -> Solved<S, T> {
+    fn completed(mut self, hub: Solution<T>, mut known: M::Modes<T>) -> Solved<M, T> {
         let u = joined(hub.r_b_n_ddot, hub.omega_dot);
         for (to, [a, b, c, d, e, f, h]) in known.as_mut().iter_mut().zip(self.right.as_ref()) {
             *to = *h - dot6(&[*a, *b, *c, *d, *e, *f], &u);
         }
-        let (flat, length) = S::flat(&mut self.square, self.count);
+        let (flat, length) = M::flat(&mut self.square, self.count);
         let rows = Rows { flat, length, count: self.count };
         back_substitute(&rows, known.as_mut().get_mut(..self.count).unwrap_or_default());
         (hub, known)
     }
 
     /// Rejects a pivot that is rounding.
-    fn check(&mut self, reciprocals: &S::Modes<T>) -> Result<(), SmallPivot<T>> {
+    fn check(&mut self, reciprocals: &M::Modes<T>) -> Result<(), SmallPivot<T>> {
         let share = T::from_f64(WELL_SCALED);
         let mut pivots = reciprocals.as_ref().iter().zip(self.scales.as_ref()).take(self.count);
         let well_scaled = pivots.all(|(reciprocal, scale)| {
@@ -202,9 +202,9 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     /// Checks each pivot against its scale, grown by the rounding of those before it, as of the hub:
     /// pivot k is `v . M v` with `Lᵀ v = e_k`.
     #[cold]
-    fn check_pivots(&mut self, reciprocals: &S::Modes<T>) -> Result<(), SmallPivot<T>> {
-        let (flat, length) = S::flat(&mut self.square, self.count);
-        let mut direction = S::modes(self.count, &zero());
+    fn check_pivots(&mut self, reciprocals: &M::Modes<T>) -> Result<(), SmallPivot<T>> {
+        let (flat, length) = M::flat(&mut self.square, self.count);
+        let mut direction = M::modes(self.count, &zero());
         for (index, reciprocal) in reciprocals.as_ref().iter().enumerate().take(self.count) {
             let count = index.saturating_add(1);
             let v = direction.as_mut().get_mut(..count).unwrap_or_default();

@@ -12,13 +12,13 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::flexible::modes_error::ModesError;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::on_mount::OnMount;
 use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{ConstantShares, DeviceSet, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
+use crate::sets::per_device::OnMount;
 use crate::solve::elimination::{BackSubstitution, Elimination};
 
 /// A mount during an evaluation.

@@ -7,14 +7,14 @@
 use crate::equations::gravity::{Central, gradient_moment};
 use crate::equations::hub::HubConstants;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::FlexibleState;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, rotate, rotate_transposed};
 use crate::sets::devices::Devices;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
 
 impl<T: Scalar> MountMotion<T> {
     /// What the field at the origin of K has beside that at B, `Rᵀ G r_K`, expressed in K, m/s².
@@ -59,16 +59,16 @@ pub(crate) fn on_body<T: Scalar>(central: &Central<T>, body: &HubConstants<T>) -
     Wrench::of(force, moment)
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// What the gradient exerts on the structure about B, and the third-order force on the whole,
     /// for the second moment of all devices about B; expressed in B.
     pub(crate) fn gradient<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         central: &Central<D::Scalar>,
         devices: &Symmetric<D::Scalar>,
     ) -> Wrench<D::Scalar> {
-        let own = self.rigid.hub.second_moment();
+        let own = self.hub.second_moment();
         let force = central.gradient.times(self.deformed(state).first_moment);
         let whole = central.third_order(&devices.plus(own));
         Wrench::of(add(force, whole), gradient_moment(&central.gradient, &own))

@@ -1,4 +1,4 @@
-//! [`FlexibleLedger`]: the energy ledger of a structure that bends.
+//! [`ModalLedger`], and the energy ledger of a flexible structure.
 //!
 //! As for a rigid hub, `dT/dt` is what the accelerations require of every body, times the
 //! velocities; the powers are each source's own force times the same. The structure's strain
@@ -9,26 +9,23 @@ use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::at_b;
 use crate::equations::load_sums::Along;
 use crate::flexible::block::{dot6, joined};
-use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::loads::{AllLoads, MountLoads, StructureLoads};
 use crate::flexible::momentum::WholeSums;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, half, zero};
 use crate::numbers::vec3::{Vec3, components, dot, rotate, vector};
 use crate::results::ledger::{Ledger, Power};
 use crate::results::momentum::About;
-use crate::sets::devices::Devices;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
-/// The energy ledger of a [`FlexibleSpacecraft`] at one instant.
+/// Energy and powers of the modes: [`Ledger::modal`](crate::Ledger::modal) of a flexible structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlexibleLedger<T = f64> {
-    /// Of structure and devices; strain of the structure is part of `springs`, its damping of
-    /// `friction`, modal forces and wrenches on mounts of `external`.
-    pub whole: Ledger<T>,
+pub struct ModalLedger<T = f64> {
     /// Strain energy of the structure, `½ sum (w eta)²`, J.
     pub strain: T,
     /// Power of the structure's stiffness, W.
@@ -36,6 +33,9 @@ pub struct FlexibleLedger<T = f64> {
     /// Power of the structure's damping, W; not above zero.
     pub damping: T,
 }
+
+/// The ledger of a flexible structure.
+type FlexibleLedger<D, M> = Ledger<<D as DeviceSet>::Scalar, Flexible<M>>;
 
 /// Sums of powers, and of the magnitudes of their terms.
 struct Sums<T> {
@@ -47,7 +47,7 @@ struct Sums<T> {
     hub: Wrench<T>,
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// The energy ledger for a state, its inputs and the accelerations that they give.
     ///
     /// # Errors
@@ -56,10 +56,10 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
     pub fn ledger<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
-    ) -> Result<FlexibleLedger<D::Scalar>, SolveError<D::Scalar>> {
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
+    ) -> Result<FlexibleLedger<D, M>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         self.reject_accelerations(state, accelerations)?;
         self.ledger_of(state, inputs, accelerations)
@@ -68,14 +68,14 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`Self::ledger`] of what is finite, or whose overflow shows in the result.
     pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
-    ) -> Result<FlexibleLedger<D::Scalar>, SolveError<D::Scalar>> {
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
+    ) -> Result<FlexibleLedger<D, M>, SolveError<D::Scalar>> {
         let whole = self.sums(state);
-        let velocity = rotate(&whole.bn, components(&state.rigid.r_b_n_dot));
-        let omega = components(&state.rigid.omega);
-        let field = inputs.rigid.gravity.field(&whole.bn, &state.rigid.r_b_n);
+        let velocity = rotate(&whole.bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let field = inputs.gravity.field(&whole.bn, &state.r_b_n);
         let all = self.all_loads(state, inputs, accelerations, field.as_ref(), |_| Along::Body);
         let mut sums = self.structure_powers(state, inputs, accelerations, &all, velocity);
         self.add_mounts(inputs, &whole, &all, [velocity, omega], &mut sums)?;
@@ -85,7 +85,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         sums.power.gravity = sums.power.gravity + uniform;
         sums.inertial = sums.inertial + uniform;
         sums.magnitude = sums.magnitude + uniform.abs() + uniform.abs();
-        if let HubMode::Prescribed { .. } = inputs.rigid.hub {
+        if let HubMode::Prescribed { .. } = inputs.hub {
             sums.power.hub = sums.hub.power(velocity, omega);
             sums.magnitude = sums.magnitude + sums.power.hub.abs();
         }
@@ -95,7 +95,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         sums.magnitude = sums.magnitude + stiffness.abs() + damping.abs();
 
         let kinetic_rate = sums.inertial;
-        let r_b = rotate(&whole.bn, components(&state.rigid.r_b_n));
+        let r_b = rotate(&whole.bn, components(&state.r_b_n));
         let [moment, _] = whole.first_moment;
         let gravity = field.as_ref().map_or_else(zero, |field| {
             field.potential(self.mass(), moment, &all.structure.second_moment, r_b)
@@ -109,6 +109,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             residual: kinetic_rate - sums.power.total(),
             magnitude: sums.magnitude,
             momentum: self.momentum_of(state, &whole, About::InertialOrigin)?,
+            modal: ModalLedger { strain, stiffness, damping },
         };
         let rates = [ledger.residual, ledger.magnitude, ledger.kinetic_rate];
         let energies = [ledger.kinetic, ledger.gravity, ledger.springs, ledger.energy()];
@@ -117,23 +118,24 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             let what = if power { Quantity::Energy } else { Quantity::Power };
             return Err(SolveError::Overflow { what });
         }
-        Ok(FlexibleLedger { whole: ledger, strain, stiffness, damping })
+        Ok(ledger)
     }
 
     /// What the structure's own accelerations require, and the powers of the inputs on it.
     fn structure_powers<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
-        all: &AllLoads<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
+        all: &AllLoads<D, M>,
         velocity: Vec3<D::Scalar>,
     ) -> Sums<D::Scalar> {
-        let omega = components(&state.rigid.omega);
-        let (eta_dot, eta_ddot) = (state.eta_dot.as_ref(), accelerations.eta_ddot.as_ref());
+        let omega = components(&state.omega);
+        let (eta_dot, eta_ddot) =
+            (state.modal.eta_dot.as_ref(), accelerations.modal.eta_ddot.as_ref());
         let StructureLoads { rigid, bending, gradient, .. } = &all.structure;
         let needed = rigid.plus(bending);
-        let given = Wrench { force: inputs.rigid.force, moment: inputs.rigid.torque_b };
+        let given = Wrench { force: inputs.force, moment: inputs.torque_b };
 
         let mut power = Power::none();
         power.external = given.power(velocity, omega);
@@ -143,10 +145,10 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         let of_wrenches = wrenches.iter().map(|wrench| magnitude_of(wrench, velocity, omega));
         let mut magnitude = of_wrenches.fold(zero(), |sum, size| sum + size);
         let u = joined(all.hub.r_b_n_ddot, all.hub.omega_dot);
-        let modal = self.momenta.as_ref().iter().zip(eta_ddot).zip(eta_dot);
+        let modal = self.structure.momenta.as_ref().iter().zip(eta_ddot).zip(eta_dot);
         let massive = self.massive();
         for (mode, (((column, acceleration), rate), force)) in
-            modal.zip(inputs.modal.as_ref()).enumerate()
+            modal.zip(inputs.modal.forces.as_ref()).enumerate()
         {
             let coupled = dot6(column, &u) * *rate;
             let own = if mode < massive { *acceleration * *rate } else { zero() };
@@ -167,17 +169,17 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// velocity.
     fn add_mounts(
         &self,
-        inputs: &FlexibleInputs<D, S>,
-        whole: &WholeSums<S, D::Scalar>,
-        all: &AllLoads<D, S>,
+        inputs: &Inputs<D, Flexible<M>>,
+        whole: &WholeSums<M, D::Scalar>,
+        all: &AllLoads<D, M>,
         [velocity, omega]: [Vec3<D::Scalar>; 2],
         sums: &mut Sums<D::Scalar>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let constants = self.mounts.as_ref().iter().zip(inputs.mounts.as_ref());
+        let constants = self.structure.mounts.as_ref().iter().zip(inputs.modal.mounts.as_ref());
         let mounts = all.mounts.as_ref().iter().zip(whole.mounts.as_ref());
         for ((mount, moving), (constants, wrench)) in mounts.zip(constants) {
             let MountLoads { motion, totals, .. } = mount;
-            self.rigid.check_joints(totals)?;
+            self.check_joints(totals)?;
             let (v, w) = (motion.velocity(velocity, omega), motion.omega);
             let wrench = constants.about_origin(wrench);
             let [contained, of_contained] = &mount.contained;
@@ -214,10 +216,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     }
 
     /// Strain energy, power of stiffness, power of damping.
-    fn strain<A>(&self, state: &FlexibleState<D, S, A>) -> (D::Scalar, D::Scalar, D::Scalar) {
-        let motion = state.eta.as_ref().iter().zip(state.eta_dot.as_ref());
+    fn strain<A>(&self, state: &State<D, A, Flexible<M>>) -> (D::Scalar, D::Scalar, D::Scalar) {
+        let motion = state.modal.eta.as_ref().iter().zip(state.modal.eta_dot.as_ref());
         let mut sums = (zero(), zero(), zero());
-        for ([stiffness, damping], (eta, rate)) in self.passive.as_ref().iter().zip(motion) {
+        for ([stiffness, damping], (eta, rate)) in
+            self.structure.passive.as_ref().iter().zip(motion)
+        {
             sums.0 = sums.0 + half::<D::Scalar>() * *stiffness * *eta * *eta;
             sums.1 = sums.1 - *stiffness * *eta * *rate;
             sums.2 = sums.2 - *damping * *rate * *rate;

@@ -1,4 +1,4 @@
-//! [`FlexibleLoads`]: the loads of the devices on a structure that bends, and what frame B and modes
+//! [`ModalLoads`], and the loads of the devices on a structure that bends, and what frame B and modes
 //! need beside the inputs, for known accelerations: inverse dynamics.
 //!
 //! The load of a joint is what all bodies outboard of it need, by Newton and Euler, less the
@@ -6,6 +6,7 @@
 //! acceleration is part of what its devices need.
 
 use core::convert::Infallible;
+use core::fmt::Debug;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
@@ -14,15 +15,11 @@ use crate::equations::gravity::{Field, at_b};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::flexible::accelerations::{accelerated, finite};
-use crate::flexible::block::{Six, combined, dot6, joined, parted};
+use crate::flexible::accelerations::accelerated;
+use crate::flexible::block::{Six, combined, dot6, finite, joined, parted};
 use crate::flexible::gravity::on_body;
-use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::on_mount::OnMount;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};
@@ -37,23 +34,27 @@ use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
+use crate::sets::per_device::OnMount;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
-/// The loads of a [`FlexibleSpacecraft`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct FlexibleLoads<D: Devices, S: ModalStorage> {
-    /// Loads of the devices, and what must act on the frame B beside the inputs.
-    ///
-    /// The wrench at the mount of a [`DeviceLoads`](crate::DeviceLoads) is about the device's place
-    /// on the deformed structure: its parameters say where that is in the axes of the mount, which
-    /// are those of B undeformed. It is expressed in N with [`LoadAxes::Inertial`], otherwise in B,
-    /// as on a rigid hub.
-    pub rigid: Loads<D>,
+/// Loads of mounts and modes: [`Loads::modal`](crate::Loads::modal) of a flexible structure.
+#[derive(Clone, Copy, Debug)]
+pub struct ModalLoads<M: ModalStorage, T: Clone + Debug = f64> {
     /// What the structure exerts on the devices of each mount together, about the mount, expressed
     /// in N with [`LoadAxes::Inertial`], otherwise in B. A body that the model contains is not subtracted.
-    pub mounts: S::Mounts<Wrench<D::Scalar>>,
+    pub mounts: M::Mounts<Wrench<T>>,
     /// The force that each mode needs beside the inputs, N/sqrt(kg): only rounding with the
     /// spacecraft's own accelerations.
-    pub modal: S::Modes<D::Scalar>,
+    pub forces: M::Modes<T>,
+}
+
+impl<M: ModalStorage, T: Clone + Debug + PartialEq> PartialEq for ModalLoads<M, T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.mounts.as_ref() == other.mounts.as_ref()
+            && self.forces.as_ref() == other.forces.as_ref()
+    }
 }
 
 /// State, inputs and accelerations of the joints, and what comes of them.
@@ -169,9 +170,9 @@ impl<T: Scalar> Weighing<'_, T> {
 }
 
 /// Loads of the devices, of the mounts, and of B and modes.
-pub(crate) struct AllLoads<D: Devices, S: ModalStorage> {
+pub(crate) struct AllLoads<D: Devices, M: ModalStorage> {
     pub(crate) devices: D::Per<data::Loads>,
-    pub(crate) mounts: S::Mounts<MountLoads<D::Scalar>>,
+    pub(crate) mounts: M::Mounts<MountLoads<D::Scalar>>,
     /// Acceleration of B in the frame that falls with the field at B.
     pub(crate) hub: Solution<D::Scalar>,
     pub(crate) structure: StructureLoads<D::Scalar>,
@@ -190,7 +191,7 @@ pub(crate) struct StructureLoads<T> {
     pub(crate) second_moment: Symmetric<T>,
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// The loads that these accelerations need: inverse dynamics.
     ///
     /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
@@ -203,27 +204,27 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
     pub fn loads<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
         axes: LoadAxes,
-    ) -> Result<FlexibleLoads<D, S>, SolveError<D::Scalar>> {
+    ) -> Result<Loads<D, Flexible<M>>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         self.reject_accelerations(state, accelerations)?;
-        let bn = columns(&state.rigid.attitude.dcm());
-        let field = inputs.rigid.gravity.field(&bn, &state.rigid.r_b_n);
+        let bn = columns(&state.attitude.dcm());
+        let field = inputs.gravity.field(&bn, &state.r_b_n);
         let along = |motion: &MountMotion<D::Scalar>| mount_axes(axes, motion, &bn);
         let all = self.all_loads(state, inputs, accelerations, field.as_ref(), along);
         for mount in all.mounts.as_ref() {
-            let finite = self.rigid.check_joints(&mount.totals);
+            let finite = self.check_joints(&mount.totals);
             finite.map_err(|failure| self.diagnosis(state, inputs, failure))?;
         }
 
-        let given = Wrench { force: inputs.rigid.force, moment: inputs.rigid.torque_b };
+        let given = Wrench { force: inputs.force, moment: inputs.torque_b };
         let StructureLoads { rigid, bending, gradient, .. } = &all.structure;
         let mut hub = rigid.plus(bending).minus(gradient).minus(&given);
         let mut modal = self.modal_needs(state, inputs, accelerations, &all.hub);
-        let constants = self.mounts.as_ref().iter().zip(inputs.mounts.as_ref());
+        let constants = self.structure.mounts.as_ref().iter().zip(inputs.modal.mounts.as_ref());
         for (mount, (constants, wrench)) in all.mounts.as_ref().iter().zip(constants) {
             let needed = mount.needed(&constants.about_origin(wrench));
             let on_hub = needed.turned(&mount.motion.axes).moved(&vector(mount.motion.origin));
@@ -234,8 +235,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
                 *sum = *sum + dot6(shape, &of_shape);
             }
         }
-        let mut places = self.mounts.as_ref().iter().map(|mount| mount.position);
-        let mounts = S::per_mount(&all.mounts, |mount| {
+        let mut places = self.structure.mounts.as_ref().iter().map(|mount| mount.position);
+        let mounts = M::per_mount(&all.mounts, |mount| {
             let place = places.next().unwrap_or_else(zeros);
             let about_mount = mount.on_devices().moved(&vector(neg(place)));
             match &mount.along {
@@ -252,37 +253,28 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         if !finite(modal.as_ref()) {
             return overflow(Quantity::ModalAcceleration);
         }
-        Ok(FlexibleLoads { rigid: Loads { devices: all.devices, hub }, mounts, modal })
-    }
-
-    /// Rejects accelerations that are not finite, or of another number of modes.
-    pub(crate) fn reject_accelerations<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-        accelerations: &FlexibleAccelerations<D, S>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        self.rigid.reject_accelerations(&state.rigid, &accelerations.rigid)?;
-        self.reject_numbers(accelerations.eta_ddot.as_ref(), |_| Quantity::ModalAcceleration)
+        let modal = ModalLoads { mounts, forces: modal };
+        Ok(Loads { devices: all.devices, hub, modal })
     }
 
     /// Loads of the devices and of the structure, for a field at B.
     pub(crate) fn all_loads<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
         field: Option<&Field<D::Scalar>>,
         along: impl Fn(&MountMotion<D::Scalar>) -> Along<D::Scalar>,
-    ) -> AllLoads<D, S> {
-        let omega = components(&state.rigid.omega);
+    ) -> AllLoads<D, M> {
+        let omega = components(&state.omega);
         let central = field.and_then(|field| field.central);
         let hub = Solution {
-            r_b_n_ddot: sub(components(&accelerations.rigid.r_b_n_ddot), at_b(field)),
-            omega_dot: components(&accelerations.rigid.omega_dot),
+            r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), at_b(field)),
+            omega_dot: components(&accelerations.omega_dot),
         };
         let of_b = Environment { omega, central, impulse: false, reduction: None };
-        let eta_ddot = accelerations.eta_ddot.as_ref();
-        let mut mounts = S::per_mount(&self.mounts, |constants| {
+        let eta_ddot = accelerations.modal.eta_ddot.as_ref();
+        let mut mounts = M::per_mount(&self.structure.mounts, |constants| {
             let (motion, environment) = constants.surroundings(state, &of_b);
             let Solution { r_b_n_ddot, omega_dot } =
                 accelerated(&motion, &hub, constants, eta_ddot);
@@ -310,15 +302,17 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
                 contained_second_moment: second_moment,
             }
         });
-        let mut devices = D::new_data(&self.rigid.devices, &data::Loads);
+        let mut devices = D::new_data(&self.devices, &data::Loads);
         let mut weighing = Weighing { mounts: mounts.as_mut(), joints: 0 };
-        let (joints, given) = (&state.rigid.devices, inputs.rigid.of_joints());
-        let of_joints = &accelerations.rigid.devices;
-        let data = (joints, given, of_joints, (&mut devices, &self.on_mount));
-        let Ok(()) = D::visit::<Weighed, _>(&self.rigid.devices, data, &mut weighing);
+        let (joints, given) = (&state.devices, inputs.of_joints());
+        let of_joints = &accelerations.devices;
+        let data = (joints, given, of_joints, (&mut devices, &self.structure.on_mount));
+        let Ok(()) = D::visit::<Weighed, _>(&self.devices, data, &mut weighing);
 
-        let (linear, angular) = parted(&combined(self.momenta.as_ref(), state.eta_dot.as_ref()));
-        let (linear_rate, angular_rate) = parted(&combined(self.momenta.as_ref(), eta_ddot));
+        let (linear, angular) =
+            parted(&combined(self.structure.momenta.as_ref(), state.modal.eta_dot.as_ref()));
+        let (linear_rate, angular_rate) =
+            parted(&combined(self.structure.momenta.as_ref(), eta_ddot));
         let bending = Wrench::of(
             add(linear_rate, scale(two(), cross(omega, linear))),
             add(angular_rate, cross(omega, angular)),
@@ -331,12 +325,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             second_moment: Symmetric::zero(),
         };
         if let Some(central) = &central {
-            let pairs = mounts.as_ref().iter().zip(self.mounts.as_ref());
+            let pairs = mounts.as_ref().iter().zip(self.structure.mounts.as_ref());
             let of_devices = pairs.fold(Symmetric::zero(), |sum, (mount, constants)| {
                 sum.plus(mount.second_moment(constants.body.m_b))
             });
             structure.gradient = self.gradient(state, central, &of_devices);
-            structure.second_moment = of_devices.plus(self.rigid.hub.second_moment());
+            structure.second_moment = of_devices.plus(self.hub.second_moment());
         }
         AllLoads { devices, mounts, hub, structure }
     }
@@ -344,14 +338,14 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// The force that each mode needs for the structure's own motion, beside its inputs, (F4).
     fn modal_needs<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-        accelerations: &FlexibleAccelerations<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
         hub: &Solution<D::Scalar>,
-    ) -> S::Modes<D::Scalar> {
+    ) -> M::Modes<D::Scalar> {
         let u: Six<D::Scalar> = joined(hub.r_b_n_ddot, hub.omega_dot);
         let mut needed = self.modal_forces(state, inputs);
-        let own = self.momenta.as_ref().iter().zip(accelerations.eta_ddot.as_ref());
+        let own = self.structure.momenta.as_ref().iter().zip(accelerations.modal.eta_ddot.as_ref());
         let massive = self.massive();
         for (mode, (force, (column, acceleration))) in
             needed.as_mut().iter_mut().zip(own).enumerate()

@@ -1,7 +1,7 @@
 //! [`Modes`]: the modes of a structure in its floating frame B, as numbers.
 //!
 //! Numbers in SI units, all vectors expressed in B, the structure undeformed. Checked and turned
-//! into constants once by [`FlexibleSpacecraft::new`](crate::FlexibleSpacecraft::new).
+//! into constants once by [`Spacecraft::flexible`](crate::Spacecraft::flexible).
 
 use core::fmt::Debug;
 
@@ -18,35 +18,35 @@ use crate::flexible::storage::ModalStorage;
 /// Which frame B is follows from the shapes: clamped at B (cantilever modes), they have momentum
 /// integrals; those of the free structure have none about its centre of mass.
 #[derive(Clone, Debug)]
-pub struct Modes<S: ModalStorage, T: Clone + Debug = f64> {
+pub struct Modes<M: ModalStorage, T: Clone + Debug = f64> {
     /// `w`, natural frequencies, rad/s; not below zero.
-    pub frequencies: S::Modes<T>,
+    pub frequencies: M::Modes<T>,
     /// `zeta`, damping ratios; not below zero.
-    pub damping: S::Modes<T>,
+    pub damping: M::Modes<T>,
     /// P, linear momentum integrals, `integral of phi_i dm`, sqrt(kg).
-    pub linear: S::Modes<Vector3<T>>,
+    pub linear: M::Modes<Vector3<T>>,
     /// H, angular momentum integrals about B, `integral of r x phi_i dm`, m sqrt(kg).
-    pub angular: S::Modes<Vector3<T>>,
+    pub angular: M::Modes<Vector3<T>>,
     /// The points on which devices stand.
-    pub mounts: S::Mounts<ModalMount<S, T>>,
+    pub mounts: M::Mounts<ModalMount<M, T>>,
 }
 
 /// Shapes at a point of the structure: a mount, or a node such as an optic or a star tracker.
 #[derive(Clone, Debug)]
-pub struct ModalPoint<S: ModalStorage, T: Clone + Debug = f64> {
+pub struct ModalPoint<M: ModalStorage, T: Clone + Debug = f64> {
     /// Its place from B, m.
     pub position: Vector3<T>,
     /// `Phi`, displacement per modal coordinate, 1/sqrt(kg).
-    pub translation: S::Modes<Vector3<T>>,
+    pub translation: M::Modes<Vector3<T>>,
     /// `Psi`, small rotation per modal coordinate, rad/(m sqrt(kg)).
-    pub rotation: S::Modes<Vector3<T>>,
+    pub rotation: M::Modes<Vector3<T>>,
 }
 
 /// A point on which devices stand.
 #[derive(Clone, Debug)]
-pub struct ModalMount<S: ModalStorage, T: Clone + Debug = f64> {
+pub struct ModalMount<M: ModalStorage, T: Clone + Debug = f64> {
     /// The point and its shapes.
-    pub point: ModalPoint<S, T>,
+    pub point: ModalPoint<M, T>,
     /// What the model of the structure (its hub and its modes) already contains of the devices
     /// here, as a rigid body: it is subtracted. None if the model is of the structure without them.
     pub contained: Option<ContainedBody<T>>,

@@ -82,7 +82,7 @@ pub enum ResidualFault<T = f64> {
     },
 }
 
-/// Why [`FlexibleSpacecraft::new`](crate::FlexibleSpacecraft::new) rejects parameters.
+/// Why [`Spacecraft::flexible`](crate::Spacecraft::flexible) rejects parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ModesError<T = f64> {

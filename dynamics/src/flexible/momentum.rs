@@ -1,7 +1,7 @@
 //! Energy, momentum and centre of mass of a structure that bends, with its devices.
 //!
 //! Linear momentum is the mass times the velocity of the centre of mass, exactly; both momenta are
-//! conserved, and kinetic energy changes by the powers of the [ledger](crate::FlexibleLedger).
+//! conserved, and kinetic energy changes by the powers of the [ledger](crate::Ledger).
 
 use core::convert::Infallible;
 
@@ -11,10 +11,7 @@ use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::{BodySums, HubConstants};
 use crate::flexible::block::{combined, parted};
 use crate::flexible::mount::MountMotion;
-use crate::flexible::on_mount::OnMount;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::FlexibleState;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{
@@ -26,11 +23,13 @@ use crate::results::momentum::{
     kinetic, not_finite_in_point,
 };
 use crate::sets::bundle::{Bundle, Shared};
-use crate::sets::counts::check_counts;
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
+use crate::sets::per_device::OnMount;
 use crate::solve::finite::reject;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
 
 /// A mount and the sums over its devices, expressed in K.
 #[derive(Clone, Debug)]
@@ -88,17 +87,17 @@ impl<T: Scalar> Addition<'_, T> {
 }
 
 /// Sums over the whole spacecraft, expressed in B.
-pub(crate) struct WholeSums<S: ModalStorage, T: Scalar> {
+pub(crate) struct WholeSums<M: ModalStorage, T: Scalar> {
     /// `[BN]`, by its columns.
     pub(crate) bn: Columns<T>,
     pub(crate) sums: BodySums<T>,
     /// First moment about B, and its derivative seen from B.
     pub(crate) first_moment: [Vec3<T>; 2],
     /// Mount by mount, expressed in K.
-    pub(crate) mounts: S::Mounts<MountSums<T>>,
+    pub(crate) mounts: M::Mounts<MountSums<T>>,
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Kinetic energy of structure and devices, (F3), J.
     ///
     /// # Errors
@@ -107,7 +106,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`SolveError::Overflow`], [`SolveError::ModalCount`].
     pub fn energy<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
     ) -> Result<D::Scalar, SolveError<D::Scalar>> {
         self.reject_state(state)?;
         kinetic(&self.sums(state).sums)
@@ -120,7 +119,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::energy`], and of the point.
     pub fn momentum<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         about: About<D::Scalar>,
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
         Ok(self.energy_and_momentum(state, about)?.momentum)
@@ -133,7 +132,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::momentum`].
     pub fn energy_and_momentum<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         about: About<D::Scalar>,
     ) -> Result<EnergyAndMomentum<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
@@ -150,7 +149,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::energy`].
     pub fn centre_of_mass<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
     ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
         let per_mass = self.mass().recip();
@@ -162,13 +161,13 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// Momenta from the sums.
     pub(crate) fn momentum_of<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        WholeSums { bn, sums, first_moment: [first_moment, _], .. }: &WholeSums<S, D::Scalar>,
+        state: &State<D, A, Flexible<M>>,
+        WholeSums { bn, sums, first_moment: [first_moment, _], .. }: &WholeSums<M, D::Scalar>,
         about: About<D::Scalar>,
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
         let linear_n = rotate_transposed(bn, sums.linear);
         let about_b = rotate_transposed(bn, sums.angular_b);
-        let r_b_n = components(&state.rigid.r_b_n);
+        let r_b_n = components(&state.r_b_n);
         // H about P is H_B + r_{B/P} x p, for any motion of B.
         let r_b_p = match about {
             About::InertialOrigin => r_b_n,
@@ -185,12 +184,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// Energy, momenta and first moments, expressed in B.
     pub(crate) fn sums<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-    ) -> WholeSums<S, D::Scalar> {
-        let bn = columns(&state.rigid.attitude.dcm());
-        let r_b_n_dot = rotate(&bn, components(&state.rigid.r_b_n_dot));
-        let omega = components(&state.rigid.omega);
-        let mut mounts = S::per_mount(&self.mounts, |mount| {
+        state: &State<D, A, Flexible<M>>,
+    ) -> WholeSums<M, D::Scalar> {
+        let bn = columns(&state.attitude.dcm());
+        let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let mut mounts = M::per_mount(&self.structure.mounts, |mount| {
             let motion = mount.motion(state, omega);
             let velocity = motion.velocity(r_b_n_dot, omega);
             let none = BodySums { energy: zero(), linear: zeros(), angular_b: zeros() };
@@ -199,12 +198,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             let moment = contained.map_or_else(zeros, |body| neg(body.first_moment));
             MountSums { motion, velocity, sums, first_moment: [moment, zeros()] }
         });
-        let data = (&state.rigid.devices, &self.on_mount);
+        let data = (&state.devices, &self.structure.on_mount);
         let mut addition = Addition(mounts.as_mut());
-        let Ok(()) = D::visit::<Placed, _>(&self.rigid.devices, data, &mut addition);
+        let Ok(()) = D::visit::<Placed, _>(&self.devices, data, &mut addition);
 
         let (mut sums, mut first_moment) = self.structure_sums(state, r_b_n_dot, omega);
-        for (mount, constants) in mounts.as_ref().iter().zip(self.mounts.as_ref()) {
+        for (mount, constants) in mounts.as_ref().iter().zip(self.structure.mounts.as_ref()) {
             let MountSums { motion, sums: of_mount, first_moment: [s, s_prime], .. } = mount;
             let linear = rotate(&motion.axes, of_mount.linear);
             let angular = rotate(&motion.axes, of_mount.angular_b);
@@ -226,12 +225,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// Energy, momenta and first moments of the structure, (F3).
     fn structure_sums<A>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         r_b_n_dot: Vec3<D::Scalar>,
         omega: Vec3<D::Scalar>,
     ) -> (BodySums<D::Scalar>, [Vec3<D::Scalar>; 2]) {
-        let rates = state.eta_dot.as_ref();
-        let (linear, angular) = parted(&combined(self.momenta.as_ref(), rates));
+        let rates = state.modal.eta_dot.as_ref();
+        let (linear, angular) = parted(&combined(self.structure.momenta.as_ref(), rates));
         let body = self.deformed(state);
         let rigid = body.sums(r_b_n_dot, omega);
         let own = rates
@@ -244,16 +243,6 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             angular_b: add(rigid.angular_b, angular),
         };
         (sums, [body.first_moment, linear])
-    }
-
-    /// Rejects a state that is not finite, or has another number of devices or modes.
-    pub(crate) fn reject_state<A: Attitude<D::Scalar>>(
-        &self,
-        state: &FlexibleState<D, S, A>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        check_counts::<D>(&self.rigid.devices, &state.rigid.devices, None, None)?;
-        reject(self.rigid.not_finite_in_state(&state.rigid))?;
-        self.reject_modal(state)
     }
 }
 

@@ -7,12 +7,12 @@ use crate::equations::error::{Quantity, SolveError};
 use crate::flexible::block::{Six, add_scaled, joined, parted};
 use crate::flexible::modes::ModalPoint;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{add, columns, components, cross, finite, rotate, scale, vector, zeros};
 use crate::sets::devices::Devices;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
 /// Place and velocity of a point of the structure, all expressed in B.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub struct PointAcceleration<T = f64> {
 /// The motion of a point as if it were a mount; displacement above rotation, and their rates.
 type MovingPoint<T> = (MountMotion<T>, [Six<T>; 2]);
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Place and velocity of a point, (F5) and (F6).
     ///
     /// # Errors
@@ -50,15 +50,15 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// [`SolveError::Overflow`].
     pub fn point_motion<A: Attitude<D::Scalar>>(
         &self,
-        point: &ModalPoint<S, D::Scalar>,
-        state: &FlexibleState<D, S, A>,
+        point: &ModalPoint<M, D::Scalar>,
+        state: &State<D, A, Flexible<M>>,
     ) -> Result<PointMotion<D::Scalar>, SolveError<D::Scalar>> {
         let (motion, [q, q_dot]) = self.moving_point(point, state)?;
         let ((displacement, rotation), (rate, _)) = (parted(&q), parted(&q_dot));
         let arm = add(components(&point.position), displacement);
-        let bn = columns(&state.rigid.attitude.dcm());
-        let of_b = rotate(&bn, components(&state.rigid.r_b_n_dot));
-        let velocity = add(of_b, add(cross(components(&state.rigid.omega), arm), rate));
+        let bn = columns(&state.attitude.dcm());
+        let of_b = rotate(&bn, components(&state.r_b_n_dot));
+        let velocity = add(of_b, add(cross(components(&state.omega), arm), rate));
         let omega = rotate(&motion.axes, motion.omega);
         if !(finite(displacement) && finite(rotation) && finite(velocity) && finite(omega)) {
             return Err(SolveError::Overflow { what: Quantity::Velocity });
@@ -80,21 +80,20 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::point_motion`], and of the accelerations.
     pub fn point_acceleration<A: Attitude<D::Scalar>>(
         &self,
-        point: &ModalPoint<S, D::Scalar>,
-        state: &FlexibleState<D, S, A>,
-        accelerations: &FlexibleAccelerations<D, S>,
+        point: &ModalPoint<M, D::Scalar>,
+        state: &State<D, A, Flexible<M>>,
+        accelerations: &Accelerations<D, Flexible<M>>,
     ) -> Result<PointAcceleration<D::Scalar>, SolveError<D::Scalar>> {
         let (motion, [q, q_dot]) = self.moving_point(point, state)?;
-        let eta_ddot = accelerations.eta_ddot.as_ref();
-        self.rigid.reject_accelerations(&state.rigid, &accelerations.rigid)?;
-        self.reject_numbers(eta_ddot, |_| Quantity::ModalAcceleration)?;
+        self.reject_accelerations(state, accelerations)?;
+        let eta_ddot = accelerations.modal.eta_ddot.as_ref();
         let ((shift, _), (rate, _)) = (parted(&q), parted(&q_dot));
         let q_ddot = shape_sum(point, eta_ddot);
-        let (arm, omega) = (add(components(&point.position), shift), &state.rigid.omega);
-        let (omega, turning) = (components(omega), components(&accelerations.rigid.omega_dot));
+        let (arm, omega) = (add(components(&point.position), shift), &state.omega);
+        let (omega, turning) = (components(omega), components(&accelerations.omega_dot));
         let relative = add(parted(&q_ddot).0, scale(D::Scalar::from_f64(2.0), cross(omega, rate)));
         let carried = add(cross(turning, arm), cross(omega, cross(omega, arm)));
-        let of_b = components(&accelerations.rigid.r_b_n_ddot);
+        let of_b = components(&accelerations.r_b_n_ddot);
         let acceleration = add(of_b, add(carried, relative));
         let of_hub = motion.of_hub.times(&joined(zeros(), turning));
         let of_shape = motion.of_shape.times(&q_ddot);
@@ -110,8 +109,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// The motion of a point as if it were a mount, displacement and rotation with their rates.
     fn moving_point<A: Attitude<D::Scalar>>(
         &self,
-        point: &ModalPoint<S, D::Scalar>,
-        state: &FlexibleState<D, S, A>,
+        point: &ModalPoint<M, D::Scalar>,
+        state: &State<D, A, Flexible<M>>,
     ) -> Result<MovingPoint<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
         let expected = self.modes();
@@ -120,15 +119,16 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
                 return Err(SolveError::ModalCount { expected, found });
             }
         }
-        let q = [&state.eta, &state.eta_dot].map(|numbers| shape_sum(point, numbers.as_ref()));
+        let q = [&state.modal.eta, &state.modal.eta_dot]
+            .map(|numbers| shape_sum(point, numbers.as_ref()));
         let [now, rate] = &q;
-        let (position, omega) = (components(&point.position), components(&state.rigid.omega));
+        let (position, omega) = (components(&point.position), components(&state.omega));
         Ok((MountMotion::new(position, now, rate, omega), q))
     }
 }
 
 /// Displacement and rotation of a point for modal coordinates.
-fn shape_sum<S: ModalStorage, T: Scalar>(point: &ModalPoint<S, T>, eta: &[T]) -> Six<T> {
+fn shape_sum<M: ModalStorage, T: Scalar>(point: &ModalPoint<M, T>, eta: &[T]) -> Six<T> {
     let mut sum = [zero(); 6];
     let shapes = point.translation.as_ref().iter().zip(point.rotation.as_ref());
     for ((translation, rotation), eta) in shapes.zip(eta) {

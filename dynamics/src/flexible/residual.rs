@@ -4,16 +4,16 @@
 use crate::attitude::quaternion::Quaternion;
 use crate::flexible::modes::Modes;
 use crate::flexible::modes_error::{ModesError, ResidualFault};
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::FlexibleState;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::numbers::real::{Scalar, one, two, zero};
 use crate::numbers::vec3::{components, extreme};
 use crate::sets::devices::Devices;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
 
 /// Rejects residual coordinates that have momentum, no stiffness, or move a contained body.
-pub(crate) fn check_residual<S: ModalStorage, T: Scalar>(
-    modes: &Modes<S, T>,
+pub(crate) fn check_residual<M: ModalStorage, T: Scalar>(
+    modes: &Modes<M, T>,
     residual: usize,
 ) -> Result<(), ModesError<T>> {
     let count = modes.frequencies.as_ref().len();
@@ -45,17 +45,17 @@ pub(crate) fn check_residual<S: ModalStorage, T: Scalar>(
     Ok(())
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Damping of the residual coordinates from their ratios: `2 zeta w sqrt(m)`, with the mass that
     /// each moves, undeformed and with the joints at zero.
     pub(crate) fn damp_residual(
         &mut self,
         ratios: &[D::Scalar],
     ) -> Result<(), ModesError<D::Scalar>> {
-        let still = FlexibleState::<D, S, Quaternion<D::Scalar>>::at_rest_for(self);
+        let still = State::<D, Quaternion<D::Scalar>, Flexible<M>>::at_rest_for(self);
         for (mode, ratio) in ratios.iter().enumerate().skip(self.massive()) {
             let mut moving = still.clone();
-            if let Some(rate) = moving.eta_dot.as_mut().get_mut(mode) {
+            if let Some(rate) = moving.modal.eta_dot.as_mut().get_mut(mode) {
                 *rate = one();
             }
             let mass = two::<D::Scalar>() * self.sums(&moving).sums.energy;
@@ -63,7 +63,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
                 let fault = ResidualFault::Massless { mass };
                 return Err(ModesError::Residual { mode, fault });
             }
-            if let Some([stiffness, damping]) = self.passive.as_mut().get_mut(mode) {
+            if let Some([stiffness, damping]) = self.structure.passive.as_mut().get_mut(mode) {
                 *damping = two::<D::Scalar>() * *ratio * (*stiffness * mass).sqrt();
             }
         }
@@ -86,7 +86,7 @@ mod compliance {
     impl<T: Scalar> Modes<ListedModes, T> {
         /// Adds residual coordinates for a residual compliance of the mounts, (F17), and their
         /// shapes at the mounts and at other points; returns their number, for
-        /// [`FlexibleSpacecraft::with_residual`](crate::FlexibleSpacecraft::with_residual).
+        /// [`Spacecraft::flexible_with_residual`](crate::Spacecraft::flexible_with_residual).
         ///
         /// `compliance` has six columns for each mount (force, N, and moment, N m, on it) and six
         /// rows for each mount, then for each point (displacement, m, and rotation, rad), row by

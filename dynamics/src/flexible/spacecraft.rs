@@ -1,5 +1,5 @@
-//! [`FlexibleSpacecraft`]: a structure that bends, and devices on its mounts, checked and
-//! precomputed once.
+//! A spacecraft with a [`Flexible`] structure, and devices on its mounts, checked and precomputed
+//! once.
 
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
@@ -10,11 +10,9 @@ use crate::flexible::devices::Standing;
 use crate::flexible::modes::Modes;
 use crate::flexible::modes_error::ModesError;
 use crate::flexible::mount::MountMotion;
-use crate::flexible::on_mount::OnMount;
 use crate::flexible::residual::check_residual;
 use crate::flexible::stability::OwnLimit;
-use crate::flexible::state::FlexibleState;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::parameters::Hub;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};
@@ -22,27 +20,24 @@ use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, neg};
 use crate::sets::bundle::Shared;
 use crate::sets::devices::Devices;
+use crate::sets::per_device::OnMount;
 use crate::solve::spacecraft::Spacecraft;
-use crate::validation::parameter_error::{ParameterError, Warning};
+use crate::solve::state::State;
+use crate::validation::parameter_error::ParameterError;
 
-/// A structure that bends, with devices on its mounts. Never changes.
-///
-/// The equations are exact for a kinetic energy that is truncated once, `docs/flexible.md`:
-/// momentum is conserved and the energy ledger closes to rounding, at any rotation of the mounts;
-/// what the model leaves out is of first order in the deformation where the structure turns.
+/// What is computed of a structure with modes once.
 #[derive(Clone, Debug)]
-pub struct FlexibleSpacecraft<D: Devices, S: ModalStorage> {
-    /// Structure as a rigid hub, and the devices.
-    pub(crate) rigid: Spacecraft<D>,
+pub struct FlexibleConstants<D: Devices, M: ModalStorage> {
     /// The mount of each device.
     pub(crate) on_mount: D::Per<OnMount>,
     /// Stiffness `w²` and damping `2 zeta w` of each mode.
-    pub(crate) passive: S::Modes<[D::Scalar; 2]>,
+    pub(crate) passive: M::Modes<[D::Scalar; 2]>,
     /// `Y_0` by its columns: linear above angular momentum integral of each mode.
-    pub(crate) momenta: S::Modes<Six<D::Scalar>>,
-    pub(crate) mounts: S::Mounts<MountConstants<S, D::Scalar>>,
-    pub(crate) basis: Basis<S, D::Scalar>,
-    mass: D::Scalar,
+    pub(crate) momenta: M::Modes<Six<D::Scalar>>,
+    pub(crate) mounts: M::Mounts<MountConstants<M, D::Scalar>>,
+    pub(crate) basis: Basis<M, D::Scalar>,
+    /// Of structure and devices, contained bodies subtracted.
+    pub(crate) mass: D::Scalar,
     /// How many of the modes, at the end, are residual coordinates.
     residual: usize,
     /// Steps that the structure allows without devices.
@@ -51,19 +46,24 @@ pub struct FlexibleSpacecraft<D: Devices, S: ModalStorage> {
 
 /// Constants of a mount.
 #[derive(Clone, Debug)]
-pub(crate) struct MountConstants<S: ModalStorage, T: Scalar> {
+pub(crate) struct MountConstants<M: ModalStorage, T: Scalar> {
     /// The mount from B, expressed in B.
     pub(crate) position: Vec3<T>,
     /// `Y_k` by its columns: translation above rotation of each mode.
-    pub(crate) shapes: S::Modes<Six<T>>,
+    pub(crate) shapes: M::Modes<Six<T>>,
     /// Constant shares of the devices, less what the model contains of them.
     pub(crate) body: HubConstants<T>,
     /// What the model contains of the devices, to be subtracted.
     pub(crate) contained: Option<HubConstants<T>>,
 }
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
-    /// Checks the parameters and computes everything that depends only on them.
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
+    /// A flexible structure with devices on its mounts: checks the parameters and computes everything
+    /// that depends only on them.
+    ///
+    /// The equations are exact for a kinetic energy that is truncated once, `docs/flexible.md`:
+    /// momentum is conserved and the energy ledger closes to rounding, at any rotation of the mounts;
+    /// what the model leaves out is of first order in the deformation where the structure turns.
     ///
     /// `hub` is the whole structure undeformed, its modes with it. Devices have the parameters that
     /// they have on a rigid hub: places and axes in B, the structure undeformed; `on_mount` names
@@ -72,19 +72,16 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// # Errors
     ///
     /// [`ModesError`] names the part, the value and the bound.
-    pub fn new(
+    pub fn flexible(
         hub: &Hub<D::Scalar>,
-        modes: &Modes<S, D::Scalar>,
+        modes: &Modes<M, D::Scalar>,
         devices: &D,
         on_mount: &D::Per<OnMount>,
-    ) -> Result<Self, ModesError<D::Scalar>>
-    where
-        D::Per<OnMount>: Clone,
-    {
-        Self::with_residual(hub, modes, 0, devices, on_mount)
+    ) -> Result<Self, ModesError<D::Scalar>> {
+        Self::flexible_with_residual(hub, modes, 0, devices, on_mount)
     }
 
-    /// As [`Self::new`], where the last `residual` modes are residual coordinates, (F16): the static
+    /// As [`Self::flexible`], where the last `residual` modes are residual coordinates, (F16): the static
     /// response of the modes left out, without a mass of its own.
     ///
     /// A residual coordinate rho has the energy `½ (w rho)²` and the shapes `w psi`, of which the
@@ -94,22 +91,19 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     ///
     /// # Errors
     ///
-    /// As [`Self::new`], and [`ModesError::Residual`].
-    pub fn with_residual(
+    /// As [`Self::flexible`], and [`ModesError::Residual`].
+    pub fn flexible_with_residual(
         hub: &Hub<D::Scalar>,
-        modes: &Modes<S, D::Scalar>,
+        modes: &Modes<M, D::Scalar>,
         residual: usize,
         devices: &D,
         on_mount: &D::Per<OnMount>,
-    ) -> Result<Self, ModesError<D::Scalar>>
-    where
-        D::Per<OnMount>: Clone,
-    {
+    ) -> Result<Self, ModesError<D::Scalar>> {
         let rigid = Spacecraft::new(hub, devices)?;
         check_modes(modes)?;
         check_residual(modes, residual)?;
         let mut mass = rigid.mass();
-        let mut bodies = S::mounts(modes.mounts.as_ref().len(), &nothing());
+        let mut bodies = M::mounts(modes.mounts.as_ref().len(), &nothing());
         for (body, mount) in bodies.as_mut().iter_mut().zip(modes.mounts.as_ref()) {
             if let Some(contained) = &mount.contained {
                 *body = negative(&HubConstants::new(&contained.hub()));
@@ -123,14 +117,14 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         }
 
         let integrals = modes.linear.as_ref().iter().zip(modes.angular.as_ref());
-        let mut momenta = S::modes(modes.frequencies.as_ref().len(), &[zero(); 6]);
+        let mut momenta = M::modes(modes.frequencies.as_ref().len(), &[zero(); 6]);
         for (to, (linear, angular)) in momenta.as_mut().iter_mut().zip(integrals) {
             *to = joined(components(linear), components(angular));
         }
         check_momenta(&rigid.hub, momenta.as_ref())?;
         let mut bodies = bodies.as_ref().iter();
-        let mounts = S::per_mount(&modes.mounts, |mount| {
-            let mut shapes = S::modes(momenta.as_ref().len(), &[zero(); 6]);
+        let mounts = M::per_mount(&modes.mounts, |mount| {
+            let mut shapes = M::modes(momenta.as_ref().len(), &[zero(); 6]);
             let columns =
                 mount.point.translation.as_ref().iter().zip(mount.point.rotation.as_ref());
             for (to, (translation, rotation)) in shapes.as_mut().iter_mut().zip(columns) {
@@ -143,67 +137,63 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
                 contained: mount.contained.as_ref().map(|body| HubConstants::new(&body.hub())),
             }
         });
-        let mut passive = S::per_mode(&modes.frequencies, |w| [*w * *w, *w]);
+        let mut passive = M::per_mode(&modes.frequencies, |w| [*w * *w, *w]);
         for ([_, damping], zeta) in passive.as_mut().iter_mut().zip(modes.damping.as_ref()) {
             *damping = two::<D::Scalar>() * *zeta * *damping;
         }
-        let shapes = S::per_mount(&mounts, |mount: &MountConstants<S, _>| mount.shapes.clone());
+        let shapes = M::per_mount(&mounts, |mount: &MountConstants<M, _>| mount.shapes.clone());
         let basis = Basis::new(&shapes, &momenta, residual);
         let on_mount = on_mount.clone();
         let own_limit = OwnLimit { free: zero(), held: zero() };
-        let mut craft =
-            Self { rigid, on_mount, passive, momenta, mounts, basis, mass, residual, own_limit };
+        let mut craft: Self = rigid.with_structure(FlexibleConstants {
+            on_mount,
+            passive,
+            momenta,
+            mounts,
+            basis,
+            mass,
+            residual,
+            own_limit,
+        });
         craft.damp_residual(modes.damping.as_ref())?;
-        let own_limit = craft.own_limit();
-        Ok(Self { own_limit, ..craft })
-    }
-
-    /// Mass of structure and devices, kg.
-    #[must_use]
-    pub fn mass(&self) -> D::Scalar {
-        self.mass
+        craft.structure.own_limit = craft.own_limit();
+        Ok(craft)
     }
 
     /// The number of modes.
     #[must_use]
     pub fn modes(&self) -> usize {
-        self.momenta.as_ref().len()
+        self.structure.momenta.as_ref().len()
     }
 
     /// The number of modes that have a modal mass: those before the residual coordinates.
     #[must_use]
     pub fn massive(&self) -> usize {
-        self.modes().saturating_sub(self.residual)
+        self.modes().saturating_sub(self.structure.residual)
     }
 
     /// The number of mounts.
     #[must_use]
     pub fn mounts(&self) -> usize {
-        self.mounts.as_ref().len()
+        self.structure.mounts.as_ref().len()
     }
 
     /// The structure as a rigid hub, undeformed, with the devices on it.
     #[must_use]
-    pub fn rigid(&self) -> &Spacecraft<D> {
-        &self.rigid
-    }
-
-    /// Unusual parameters that are accepted; see [`Warning`].
-    #[must_use = "warnings do nothing unless they are read"]
-    pub fn warnings(&self) -> impl Iterator<Item = Warning<D::Scalar>> + '_ {
-        self.rigid.warnings()
+    pub fn undeformed(&self) -> Spacecraft<D> {
+        self.clone().with_structure(())
     }
 }
 
-impl<S: ModalStorage, T: Scalar> MountConstants<S, T> {
+impl<M: ModalStorage, T: Scalar> MountConstants<M, T> {
     /// The motion of the mount, on a frame B that turns at `omega`.
     pub(crate) fn motion<D: Devices<Scalar = T>, A>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         omega: Vec3<T>,
     ) -> MountMotion<T> {
-        let q = combined(self.shapes.as_ref(), state.eta.as_ref());
-        let q_dot = combined(self.shapes.as_ref(), state.eta_dot.as_ref());
+        let q = combined(self.shapes.as_ref(), state.modal.eta.as_ref());
+        let q_dot = combined(self.shapes.as_ref(), state.modal.eta_dot.as_ref());
         MountMotion::new(self.position, &q, &q_dot, omega)
     }
 
@@ -217,7 +207,7 @@ impl<S: ModalStorage, T: Scalar> MountConstants<S, T> {
     /// acceleration of K is counted in the frame that falls with the field at K.
     pub(crate) fn surroundings<D: Devices<Scalar = T>, A>(
         &self,
-        state: &FlexibleState<D, S, A>,
+        state: &State<D, A, Flexible<M>>,
         of_b: &Environment<T>,
     ) -> (MountMotion<T>, Environment<T>) {
         let mut motion = self.motion(state, of_b.omega);

@@ -23,10 +23,8 @@ use crate::flexible::basis::Basis;
 use crate::flexible::block::Six;
 use crate::flexible::condense::Condensed;
 use crate::flexible::devices::MountStage;
-use crate::flexible::inputs::FlexibleInputs;
-use crate::flexible::spacecraft::{FlexibleSpacecraft, negative, nothing};
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::spacecraft::{negative, nothing};
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::integrate::longest_step::{StepLimit, irregular, is_stable, step_limit};
 use crate::integrate::stability::{ITERATIONS, SlowestRates, largest};
 use crate::model::mode::HubMode;
@@ -36,6 +34,9 @@ use crate::numbers::vec3::zeros;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::accelerations::overflow;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
 /// Share of [`OwnLimit`] up to which a step is accepted: the deformation moves mass, to first order.
 const UNDEFORMED: f64 = 0.95;
@@ -58,19 +59,19 @@ pub(crate) struct OwnLimit<T> {
 
 /// A state at rest whose vibrations are looked at: pose, modes of the joints and of the hub, and
 /// the equations of the mounts with the joints eliminated.
-struct Vibrations<'a, D: Devices, S: ModalStorage, A> {
-    craft: &'a FlexibleSpacecraft<D, S>,
-    posed: FlexibleState<D, S, A>,
-    unforced: FlexibleInputs<D, S>,
+struct Vibrations<'a, D: Devices, M: ModalStorage, A> {
+    craft: &'a Spacecraft<D, Flexible<M>>,
+    posed: State<D, A, Flexible<M>>,
+    unforced: Inputs<D, Flexible<M>>,
 }
 
 /// Equations of the mounts, and the gains of the joints eliminated into them.
-type Reduced<D, S> = (
-    <S as ModalStorage>::Mounts<MountStage<<D as crate::sets::devices::DeviceSet>::Scalar>>,
+type Reduced<D, M> = (
+    <M as ModalStorage>::Mounts<MountStage<<D as crate::sets::devices::DeviceSet>::Scalar>>,
     <D as crate::sets::devices::DeviceSet>::Per<data::Gains>,
 );
 
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Steps that are stable without devices.
     pub(crate) fn own_limit(&self) -> OwnLimit<D::Scalar> {
         OwnLimit { free: self.own_limit_on(true), held: self.own_limit_on(false) }
@@ -78,7 +79,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
 
     fn own_limit_on(&self, hub_is_free: bool) -> D::Scalar {
         let mut rate = zero::<D::Scalar>();
-        for [stiffness, damping] in self.passive.as_ref() {
+        for [stiffness, damping] in self.structure.passive.as_ref() {
             rate = rate.max(stiffness.sqrt()).max(*damping);
         }
         if rate == zero() {
@@ -88,14 +89,14 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         if self.massive() < self.modes() {
             return zero();
         }
-        let state = FlexibleState::<D, S, Quaternion<D::Scalar>>::at_rest_for(self);
+        let state = State::<D, Quaternion<D::Scalar>, Flexible<M>>::at_rest_for(self);
         let still = Environment { omega: zeros(), central: None, impulse: true, reduction: None };
-        let stages = S::per_mount(&self.mounts, |mount| {
+        let stages = M::per_mount(&self.structure.mounts, |mount| {
             let (motion, environment) = mount.surroundings(&state, &still);
             let body = mount.contained.as_ref().map_or_else(nothing, negative);
             MountStage { motion, environment, assembly: Assembly::new(&body, zeros(), zeros()) }
         });
-        let inputs = FlexibleInputs::none_for(self);
+        let inputs = Inputs::none_for(self);
         let mut dt = D::Scalar::from_f64(FIRST) * rate.recip();
         for _ in 0..TRIES {
             let stable = is_stable(dt, |reduction| {
@@ -113,16 +114,16 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// joints during it.
     pub(crate) fn check_stability<A: Attitude<D::Scalar>>(
         &self,
-        start: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        start: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
         slowest: &SlowestRates<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let own = match inputs.rigid.hub {
-            HubMode::Free => self.own_limit.free,
-            HubMode::Fixed | HubMode::Prescribed { .. } => self.own_limit.held,
+        let own = match inputs.hub {
+            HubMode::Free => self.structure.own_limit.free,
+            HubMode::Fixed | HubMode::Prescribed { .. } => self.structure.own_limit.held,
         };
-        if !self.rigid.passive && dt.abs() <= D::Scalar::from_f64(UNDEFORMED) * own {
+        if !self.passive && dt.abs() <= D::Scalar::from_f64(UNDEFORMED) * own {
             return Ok(());
         }
         self.check_vibrations(start, inputs, dt, slowest)
@@ -131,14 +132,13 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     #[cold]
     fn check_vibrations<A: Attitude<D::Scalar>>(
         &self,
-        start: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        start: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
         slowest: &SlowestRates<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let mut posed = start.clone();
-        posed.rigid = slowest.at_slowest(&start.rigid);
-        posed.eta_dot.as_mut().fill(zero());
+        let mut posed = slowest.at_slowest(start);
+        posed.modal.eta_dot.as_mut().fill(zero());
         let unforced = self.without_forces(inputs);
         let vibrations = Vibrations { craft: self, posed, unforced };
         let limit = step_limit(dt, |reduction| vibrations.are_slower(reduction));
@@ -157,15 +157,15 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// equations of the mounts.
     fn is_definite<A: Attitude<D::Scalar>>(
         &self,
-        posed: &FlexibleState<D, S, A>,
-        unforced: &FlexibleInputs<D, S>,
+        posed: &State<D, A, Flexible<M>>,
+        unforced: &Inputs<D, Flexible<M>>,
         stages: &[MountStage<D::Scalar>],
         reduction: &MassReduction<D::Scalar>,
         hub_is_free: bool,
     ) -> bool {
         let structure = self.structure(posed, unforced, zeros());
-        let definite = |basis: &Basis<S, D::Scalar>, largest: Option<D::Scalar>| {
-            let projected = S::modes(basis.count, &zero());
+        let definite = |basis: &Basis<M, D::Scalar>, largest: Option<D::Scalar>| {
+            let projected = M::modes(basis.count, &zero());
             let mut condensed = Condensed::new(&structure, basis, &projected);
             let massive = basis.count.saturating_sub(basis.residual);
             let residual = self.reductions(reduction).skip(self.massive());
@@ -179,12 +179,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             self.add_mounts_to(&mut condensed, stages, basis);
             condensed.is_definite(hub_is_free)
         };
-        if self.basis.is_of_modes() {
-            return definite(&self.basis, None);
+        if self.structure.basis.is_of_modes() {
+            return definite(&self.structure.basis, None);
         }
         let massive = self.reductions(reduction).take(self.massive());
         let largest = massive.reduce(Scalar::max).unwrap_or_else(zero);
-        if largest < one() && definite(&self.basis, Some(largest)) {
+        if largest < one() && definite(&self.structure.basis, Some(largest)) {
             return true;
         }
         definite(&self.basis_of_modes(), None)
@@ -193,40 +193,44 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// What is subtracted from the mass of each mode.
     fn reductions(&self, reduction: &MassReduction<D::Scalar>) -> impl Iterator<Item = D::Scalar> {
         let reduction = *reduction;
-        let passive = self.passive.as_ref().iter();
+        let passive = self.structure.passive.as_ref().iter();
         passive.map(move |[stiffness, damping]| reduction.subtracted(*damping, *stiffness))
     }
 
     /// Every mode as a direction.
-    fn basis_of_modes(&self) -> Basis<S, D::Scalar> {
-        let shapes = S::per_mount(&self.mounts, |mount| -> S::Modes<Six<D::Scalar>> {
+    fn basis_of_modes(&self) -> Basis<M, D::Scalar> {
+        let shapes = M::per_mount(&self.structure.mounts, |mount| -> M::Modes<Six<D::Scalar>> {
             mount.shapes.clone()
         });
-        Basis::of_modes(&shapes, &self.momenta, self.modes().saturating_sub(self.massive()))
+        Basis::of_modes(
+            &shapes,
+            &self.structure.momenta,
+            self.modes().saturating_sub(self.massive()),
+        )
     }
 }
 
-impl<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, S, A> {
+impl<D: Devices, M: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, M, A> {
     /// Whether every vibration is below the limits of a reduction: the reduced mass matrix is
     /// positive definite.
     fn are_slower(&self, reduction: &MassReduction<D::Scalar>) -> bool {
         let Self { craft, posed, unforced } = self;
         let Ok((stages, _)) = self.reduced(unforced, reduction) else { return false };
-        let free = unforced.rigid.hub == HubMode::Free;
+        let free = unforced.hub == HubMode::Free;
         craft.is_definite(posed, unforced, stages.as_ref(), reduction, free)
     }
 
     /// The joints eliminated into the equations of their mounts, for torques.
     fn reduced(
         &self,
-        forces: &FlexibleInputs<D, S>,
+        forces: &Inputs<D, Flexible<M>>,
         reduction: &MassReduction<D::Scalar>,
-    ) -> Result<Reduced<D, S>, SolveError<D::Scalar>> {
+    ) -> Result<Reduced<D, M>, SolveError<D::Scalar>> {
         let Self { craft, posed, .. } = self;
         let reduction = Some(*reduction);
         let still = Environment { omega: zeros(), central: None, impulse: true, reduction };
         let mut stages = craft.stages(posed, forces, &still);
-        let mut gains = D::new_data(&craft.rigid.devices, &data::Gains);
+        let mut gains = D::new_data(&craft.devices, &data::Gains);
         craft.eliminate(posed, forces, stages.as_mut(), &mut gains)?;
         Ok((stages, gains))
     }
@@ -234,17 +238,17 @@ impl<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, S, A
     /// Accelerations for torques and modal forces, with the mass matrix reduced.
     fn response_to(
         &self,
-        forces: &FlexibleInputs<D, S>,
+        forces: &Inputs<D, Flexible<M>>,
         reduction: &MassReduction<D::Scalar>,
-    ) -> Result<FlexibleAccelerations<D, S>, SolveError<D::Scalar>> {
+    ) -> Result<Accelerations<D, Flexible<M>>, SolveError<D::Scalar>> {
         let Self { craft, posed, .. } = self;
         let (stages, gains) = self.reduced(forces, reduction)?;
         let structure = craft.structure(posed, forces, zeros());
         let basis = craft.basis_of_modes();
-        let mut condensed = Condensed::new(&structure, &basis, &forces.modal);
+        let mut condensed = Condensed::new(&structure, &basis, &forces.modal.forces);
         condensed.reduce(craft.reductions(reduction));
         craft.add_mounts_to(&mut condensed, stages.as_ref(), &basis);
-        let given = match forces.rigid.hub {
+        let given = match forces.hub {
             HubMode::Free => None,
             HubMode::Fixed | HubMode::Prescribed { .. } => {
                 Some(Solution { r_b_n_ddot: zeros(), omega_dot: zeros() })
@@ -252,7 +256,7 @@ impl<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, S, A
         };
         let mut found = craft.no_accelerations();
         let (hub, eta_ddot) = condensed.unchecked(given);
-        found.eta_ddot = eta_ddot;
+        found.modal.eta_ddot = eta_ddot;
         craft.substitute_joints(stages.as_ref(), &hub, &gains, &mut found);
         Ok(found)
     }
@@ -262,41 +266,41 @@ impl<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, S, A
     fn limiting_joint(&self, limit: &StepLimit<D::Scalar>) -> Option<(usize, &'static str)> {
         let (craft, reduction) = (self.craft, &limit.reduction);
         let mut forces = self.unforced.clone();
-        let of_joints = || craft.rigid.weights(&self.posed.rigid, reduction);
+        let of_joints = || craft.weights(&self.posed, reduction);
         let stiffness = reduction.stiffness.max(zero());
         let taken = MassReduction { stiffness, ..*reduction };
         let of_modes = || craft.reductions(&taken);
         let mut irregular = irregular::<D::Scalar>();
-        let motors = forces.rigid.motors.values_mut().zip(of_joints());
-        let modal = forces.modal.as_mut().iter_mut().zip(of_modes());
+        let motors = forces.motors.values_mut().zip(of_joints());
+        let modal = forces.modal.forces.as_mut().iter_mut().zip(of_modes());
         for ((force, weight), number) in motors.chain(modal).zip(&mut irregular) {
             *force = weight.sqrt() * number;
         }
         for _ in 0..ITERATIONS {
             let Ok(found) = self.response_to(&forces, reduction) else { break };
             let mut energy = zero::<D::Scalar>();
-            let joints = found.rigid.devices.values().zip(of_joints());
-            let motors = forces.rigid.motors.values_mut().zip(joints);
-            let modes = found.eta_ddot.as_ref().iter().copied().zip(of_modes());
-            let modal = forces.modal.as_mut().iter_mut().zip(modes);
+            let joints = found.devices.values().zip(of_joints());
+            let motors = forces.motors.values_mut().zip(joints);
+            let modes = found.modal.eta_ddot.as_ref().iter().copied().zip(of_modes());
+            let modal = forces.modal.forces.as_mut().iter_mut().zip(modes);
             for (force, (acceleration, weight)) in motors.chain(modal) {
                 *force = weight * acceleration;
                 energy = energy + *force * acceleration;
             }
             let over = energy.sqrt().recip();
-            let motors = forces.rigid.motors.values_mut();
-            motors.chain(forces.modal.as_mut()).for_each(|force| *force = *force * over);
+            let motors = forces.motors.values_mut();
+            motors.chain(forces.modal.forces.as_mut()).for_each(|force| *force = *force * over);
         }
         let energy = |(force, weight): (D::Scalar, D::Scalar)| {
             if weight > zero() { force * force * weight.recip() } else { zero() }
         };
         let sum = |sum: D::Scalar, energy| sum + energy;
-        let joints = || forces.rigid.motors.values().zip(of_joints()).map(energy);
-        let modes = forces.modal.as_ref().iter().copied().zip(of_modes()).map(energy);
+        let joints = || forces.motors.values().zip(of_joints()).map(energy);
+        let modes = forces.modal.forces.as_ref().iter().copied().zip(of_modes()).map(energy);
         if modes.fold(zero(), sum) > joints().fold(zero(), sum) {
             return None;
         }
-        let most = largest(joints().zip(craft.rigid.joints()));
+        let most = largest(joints().zip(craft.joints()));
         most.map(|(_, (device, info))| (device, info.body))
     }
 }

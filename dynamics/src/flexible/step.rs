@@ -4,26 +4,19 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
-use crate::flexible::inputs::FlexibleInputs;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::integrate::rk4::Stepped;
 use crate::integrate::stability::SlowestRates;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
 use crate::solve::accelerations::overflow;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::StructureServices as _;
 
-/// Result of [`FlexibleSpacecraft::step_with_work`]: the state after the step, and the work during it.
-#[derive(Clone, Debug)]
-pub struct FlexibleStepped<D: Devices, S: ModalStorage, A> {
-    /// The state after the step.
-    pub state: FlexibleState<D, S, A>,
-    /// Work of each source during the step, J.
-    pub work: Power<D::Scalar>,
-}
-
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// The state after `dt` seconds, with inputs constant in the axes in which they are expressed.
     ///
     /// The attitude is normalised at the end of the step; joint angles are not wrapped.
@@ -39,10 +32,10 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// two above.
     pub fn step<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
-    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, Flexible<M>>, SolveError<D::Scalar>> {
         self.stepped(state, inputs, dt, |_, stage, found| self.solve(stage, inputs, found))
     }
 
@@ -54,18 +47,18 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::step`].
     pub fn step_with_work<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
-    ) -> Result<FlexibleStepped<D, S, A>, SolveError<D::Scalar>> {
+    ) -> Result<Stepped<D, A, Flexible<M>>, SolveError<D::Scalar>> {
         let mut work = Power::none();
         let next = self.stepped(state, inputs, dt, |weight, stage, found| {
             self.solve(stage, inputs, found)?;
-            work = work.plus_scaled(weight, &self.ledger_of(stage, inputs, found)?.whole.power);
+            work = work.plus_scaled(weight, &self.ledger_of(stage, inputs, found)?.power);
             Ok(())
         })?;
         if work.is_finite() {
-            Ok(FlexibleStepped { state: next, work })
+            Ok(Stepped { state: next, work })
         } else {
             Err(SolveError::Overflow { what: Quantity::Work })
         }
@@ -75,22 +68,22 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// writes accelerations.
     fn stepped<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
         evaluate: impl FnMut(
             D::Scalar,
-            &FlexibleState<D, S, A>,
-            &mut FlexibleAccelerations<D, S>,
+            &State<D, A, Flexible<M>>,
+            &mut Accelerations<D, Flexible<M>>,
         ) -> Result<(), SolveError<D::Scalar>>,
-    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, Flexible<M>>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
         if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
-        let mut slowest = SlowestRates::new(&self.rigid, &state.rigid);
+        let mut slowest = SlowestRates::new(self, state);
         let next = self.advance(state, inputs, dt, &mut slowest, evaluate);
         next.and_then(|next| self.check_stability(state, inputs, dt, &slowest).map(|()| next))
             .map_err(|failure| self.cause_of_step(state, inputs, dt, failure))
@@ -101,8 +94,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     #[cold]
     fn cause_of_step<A: Attitude<D::Scalar>>(
         &self,
-        start: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        start: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
         failure: SolveError<D::Scalar>,
     ) -> SolveError<D::Scalar> {
@@ -112,7 +105,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             | SolveError::ModalMass { .. }
             | SolveError::Overflow { .. } => {
                 let begins = self.solve(start, inputs, &mut self.no_accelerations()).is_ok();
-                let slowest = SlowestRates::new(&self.rigid, &start.rigid);
+                let slowest = SlowestRates::new(self, start);
                 let stable = begins.then(|| self.check_stability(start, inputs, dt, &slowest));
                 match stable {
                     Some(Err(
@@ -127,65 +120,64 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
 
     fn advance<A: Attitude<D::Scalar>>(
         &self,
-        start: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
+        start: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
         slowest: &mut SlowestRates<D>,
         mut evaluate: impl FnMut(
             D::Scalar,
-            &FlexibleState<D, S, A>,
-            &mut FlexibleAccelerations<D, S>,
+            &State<D, A, Flexible<M>>,
+            &mut Accelerations<D, Flexible<M>>,
         ) -> Result<(), SolveError<D::Scalar>>,
-    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, Flexible<M>>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
 
         let mut found = self.no_accelerations();
         let mut stage = start.clone();
-        stage.rigid.attitude = start.rigid.attitude.regular();
-        let attitude = stage.rigid.attitude;
-        let mut sum = FlexibleState::<D, S, A>::at_rest_for(self);
-        let mut rates = [(zero(), attitude.rate(&start.rigid.omega)); 4];
+        stage.attitude = start.attitude.regular();
+        let attitude = stage.attitude;
+        let mut sum = State::<D, A, Flexible<M>>::at_rest_for(self);
+        let mut rates = [(zero(), attitude.rate(&start.omega)); 4];
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
         for ((weight, offset), rate) in stages.into_iter().zip(&mut rates) {
-            if self.rigid.passive {
-                slowest.pass(&stage.rigid);
+            if self.passive {
+                slowest.pass(&stage);
             }
             evaluate(weight, &stage, &mut found)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
-            *rate = (weight, stage.rigid.attitude.rate(&stage.rigid.omega));
-            let (craft, scales) = (&self.rigid, [weight, offset]);
-            stage.rigid.follow(craft, &start.rigid, &found.rigid, scales, &mut sum.rigid);
-            stage.rigid.attitude = attitude.advanced(&[(offset, rate.1)]);
-            follow(&mut stage, start, found.eta_ddot.as_ref(), [weight, offset], &mut sum);
+            *rate = (weight, stage.attitude.rate(&stage.omega));
+            stage.follow(self, start, &found, [weight, offset], &mut sum);
+            stage.attitude = attitude.advanced(&[(offset, rate.1)]);
+            follow(&mut stage, start, found.modal.eta_ddot.as_ref(), [weight, offset], &mut sum);
         }
         let mut next = stage;
-        next.rigid.add(&self.rigid, &start.rigid, &sum.rigid);
-        next.rigid.attitude = attitude.advanced(&rates).normalised();
-        add(next.eta.as_mut(), start.eta.as_ref(), sum.eta.as_ref());
-        add(next.eta_dot.as_mut(), start.eta_dot.as_ref(), sum.eta_dot.as_ref());
-        self.rigid.check_reached(&next.rigid)?;
-        if self.reject_modal(&next).is_err() {
+        next.add(self, start, &sum);
+        next.attitude = attitude.advanced(&rates).normalised();
+        add(next.modal.eta.as_mut(), start.modal.eta.as_ref(), sum.modal.eta.as_ref());
+        add(next.modal.eta_dot.as_mut(), start.modal.eta_dot.as_ref(), sum.modal.eta_dot.as_ref());
+        self.check_reached(&next)?;
+        if Flexible::reject_state(self, &next.modal).is_err() {
             return Err(SolveError::Overflow { what: Quantity::ModalAcceleration });
         }
-        slowest.pass(&next.rigid);
+        slowest.pass(&next);
         Ok(next)
     }
 }
 
 /// Adds `weight` times the slope of the modal coordinates to `sum`, and sets those of the next
 /// stage.
-fn follow<D: Devices, S: ModalStorage, A>(
-    stage: &mut FlexibleState<D, S, A>,
-    start: &FlexibleState<D, S, A>,
+fn follow<D: Devices, M: ModalStorage, A>(
+    stage: &mut State<D, A, Flexible<M>>,
+    start: &State<D, A, Flexible<M>>,
     eta_ddot: &[D::Scalar],
     [weight, offset]: [D::Scalar; 2],
-    sum: &mut FlexibleState<D, S, A>,
+    sum: &mut State<D, A, Flexible<M>>,
 ) {
-    let now = stage.eta.as_mut().iter_mut().zip(stage.eta_dot.as_mut());
-    let from = start.eta.as_ref().iter().zip(start.eta_dot.as_ref());
-    let sums = sum.eta.as_mut().iter_mut().zip(sum.eta_dot.as_mut());
+    let now = stage.modal.eta.as_mut().iter_mut().zip(stage.modal.eta_dot.as_mut());
+    let from = start.modal.eta.as_ref().iter().zip(start.modal.eta_dot.as_ref());
+    let sums = sum.modal.eta.as_mut().iter_mut().zip(sum.modal.eta_dot.as_mut());
     for ((((eta, rate), (from, rate_from)), (sum, sum_of_rate)), acceleration) in
         now.zip(from).zip(sums).zip(eta_ddot)
     {

@@ -9,11 +9,9 @@ use crate::equations::error::SolveError;
 use crate::equations::gravity::Gravity;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
-use crate::flexible::inputs::FlexibleInputs;
-use crate::flexible::spacecraft::FlexibleSpacecraft;
-use crate::flexible::state::FlexibleState;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
+use crate::integrate::stop::Stopped;
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
@@ -22,19 +20,11 @@ use crate::numbers::vec3::{columns, components, neg, rotate, vector, zeros};
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::accelerations::overflow;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
 
-/// The state of a [`FlexibleSpacecraft`] after an impulsive stop, and the energy lost.
-#[derive(Clone, Debug)]
-pub struct FlexibleStopped<D: Devices, S: ModalStorage, A> {
-    /// The state with its new velocities; every locked joint is at rest.
-    pub state: FlexibleState<D, S, A>,
-    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero unless
-    /// a joint or the hub is prescribed. Of the velocities' jump and not the difference of two
-    /// energies, so no digit is lost to what keeps moving.
-    pub energy_lost: D::Scalar,
-}
-
-impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Stops every joint that `inputs` has locked, and the frame B if it is fixed, impulsively.
     ///
     /// Driven joints and modes take what impulse reaches them through the structure, prescribed
@@ -46,81 +36,79 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// As [`Self::accelerations`], but a moving joint may be locked.
     pub fn stop<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> Result<FlexibleStopped<D, S, A>, SolveError<D::Scalar>> {
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+    ) -> Result<Stopped<D, A, Flexible<M>>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         let Jumped { after: next, jump } =
             self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
-        let mut given = next.clone();
-        given.rigid = prescribed(&next.rigid, &inputs.rigid);
-        given.eta_dot.as_mut().fill(zero());
+        let mut given = prescribed(&next, inputs);
+        given.modal.eta_dot.as_mut().fill(zero());
         let energy_lost = energy_lost((&jump, &given), |state| self.energy(state), both)?;
-        self.rigid.check_reached(&next.rigid)?;
-        Ok(FlexibleStopped { state: next, energy_lost })
+        self.check_reached(&next)?;
+        Ok(Stopped { state: next, energy_lost })
     }
 
     /// The same modes of the joints and of the hub, and nothing that acts.
-    pub(crate) fn without_forces(&self, inputs: &FlexibleInputs<D, S>) -> FlexibleInputs<D, S> {
+    pub(crate) fn without_forces(&self, inputs: &Inputs<D, Flexible<M>>) -> Inputs<D, Flexible<M>> {
         let (still, mut unforced) = (zeros(), inputs.clone());
-        unforced.rigid.gravity = Gravity::None;
-        (unforced.rigid.force, unforced.rigid.torque_b) = (vector(still), vector(still));
-        unforced.rigid.motors = D::new_data(&self.rigid.devices, &data::Motors);
-        unforced.rigid.bodies = None;
-        unforced.modal.as_mut().fill(zero());
-        unforced.mounts.as_mut().fill(Wrench::none());
+        unforced.gravity = Gravity::None;
+        (unforced.force, unforced.torque_b) = (vector(still), vector(still));
+        unforced.motors = D::new_data(&self.devices, &data::Motors);
+        unforced.bodies = None;
+        unforced.modal.forces.as_mut().fill(zero());
+        unforced.modal.mounts.as_mut().fill(Wrench::none());
         unforced
     }
 
     fn jump<A: Attitude<D::Scalar>>(
         &self,
-        state: &FlexibleState<D, S, A>,
-        inputs: &FlexibleInputs<D, S>,
-    ) -> Jump<FlexibleState<D, S, A>, D::Scalar> {
+        state: &State<D, A, Flexible<M>>,
+        inputs: &Inputs<D, Flexible<M>>,
+    ) -> Jump<State<D, A, Flexible<M>>, D::Scalar> {
         let (still, impulses) = (zeros(), self.without_forces(inputs));
         let mut posed = state.clone();
-        posed.eta_dot.as_mut().fill(zero());
+        posed.modal.eta_dot.as_mut().fill(zero());
 
         let environment =
             Environment { omega: still, central: None, impulse: true, reduction: None };
         let mut stages = self.stages(&posed, &impulses, &environment);
-        let mut gains = D::new_data(&self.rigid.devices, &data::Gains);
+        let mut gains = D::new_data(&self.devices, &data::Gains);
         self.eliminate(&posed, &impulses, stages.as_mut(), &mut gains)?;
         let structure = self.structure(&posed, &impulses, still);
-        let bn = columns(&state.rigid.attitude.dcm());
-        let velocity = rotate(&bn, components(&state.rigid.r_b_n_dot));
-        let omega = components(&state.rigid.omega);
-        let given = match inputs.rigid.hub {
+        let bn = columns(&state.attitude.dcm());
+        let velocity = rotate(&bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let given = match inputs.hub {
             HubMode::Free => None,
             HubMode::Fixed => Some(Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(omega) }),
             HubMode::Prescribed { .. } => Some(Solution { r_b_n_ddot: still, omega_dot: still }),
         };
-        let (mut jumps, forces) = (self.no_accelerations(), &impulses.modal);
+        let (mut jumps, forces) = (self.no_accelerations(), &impulses.modal.forces);
         let stages = stages.as_ref();
         let hub = self.substitute(stages, &structure, forces, given, &gains, &mut jumps)?;
-        if !jumps.rigid.devices.values().all(crate::numbers::real::Scalar::is_finite) {
+        if !jumps.devices.values().all(crate::numbers::real::Scalar::is_finite) {
             return Err(overflow());
         }
 
-        let (mut next, mut jump) = (state.clone(), state.clone());
-        let rigid = jumped(&state.rigid, &inputs.rigid, &bn, &hub, &jumps.rigid.devices);
-        (next.rigid, jump.rigid) = (rigid.after, rigid.jump);
-        for (rate, jump) in next.eta_dot.as_mut().iter_mut().zip(jumps.eta_ddot.as_ref()) {
+        let Jumped { after: mut next, mut jump } = jumped(state, inputs, &bn, &hub, &jumps.devices);
+        for (rate, jump) in
+            next.modal.eta_dot.as_mut().iter_mut().zip(jumps.modal.eta_ddot.as_ref())
+        {
             *rate = *rate + *jump;
         }
-        jump.eta_dot = jumps.eta_ddot;
+        jump.modal.eta_dot = jumps.modal.eta_ddot;
         Ok(Jumped { after: next, jump })
     }
 }
 
 /// The first state with the velocities `a x + b y`.
-fn both<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>>(
-    (a, x): (D::Scalar, &FlexibleState<D, S, A>),
-    (b, y): (D::Scalar, &FlexibleState<D, S, A>),
-) -> FlexibleState<D, S, A> {
-    let mut found = x.clone();
-    found.rigid = sum((a, &x.rigid), (b, &y.rigid));
-    for (rate, other) in found.eta_dot.as_mut().iter_mut().zip(y.eta_dot.as_ref()) {
+fn both<D: Devices, M: ModalStorage, A: Attitude<D::Scalar>>(
+    (a, x): (D::Scalar, &State<D, A, Flexible<M>>),
+    (b, y): (D::Scalar, &State<D, A, Flexible<M>>),
+) -> State<D, A, Flexible<M>> {
+    let mut found = sum((a, x), (b, y));
+    for (rate, other) in found.modal.eta_dot.as_mut().iter_mut().zip(y.modal.eta_dot.as_ref()) {
         *rate = a * *rate + b * *other;
     }
     found

@@ -1,6 +1,12 @@
-//! [`ModalStorage`]: where numbers per mode and per mount are kept, in arrays or on the heap.
+//! [`Flexible`]: a structure with modes, by its [`ModalStorage`]: where numbers per mode and per mount
+//! are kept, in arrays or on the heap.
 
 use core::fmt::Debug;
+use core::marker::PhantomData;
+
+/// A structure with modes, and devices on its mounts; `M` is where modal numbers are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Flexible<M>(PhantomData<M>);
 
 /// Storage of what there is one of per mode or per mount.
 pub trait ModalStorage: Copy + Debug + PartialEq + Send + Sync + 'static {

@@ -20,6 +20,7 @@ use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::state::State;
+use crate::solve::structure::Structure;
 
 /// A state whose velocities have jumped.
 pub(crate) struct Jumped<V> {
@@ -33,13 +34,13 @@ pub(crate) struct Jumped<V> {
 pub(crate) type Jump<V, T> = Result<Jumped<V>, SolveError<T>>;
 
 /// The jump of the hub's and of the joints' velocities; `bn` are the columns of the attitude's matrix.
-pub(crate) fn jumped<D: Devices, A: Attitude<D::Scalar>>(
-    state: &State<D, A>,
-    inputs: &Inputs<D>,
+pub(crate) fn jumped<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+    state: &State<D, A, S>,
+    inputs: &Inputs<D, S>,
     bn: &Columns<D::Scalar>,
     hub: &Solution<D::Scalar>,
     joints: &D::Per<data::Accelerations>,
-) -> Jumped<State<D, A>> {
+) -> Jumped<State<D, A, S>> {
     let (mut after, mut jump) = (state.clone(), state.clone());
     let of_joints = joints.values().zip(inputs.modes.values());
     let rates = after.devices.states_mut().zip(jump.devices.states_mut());
@@ -83,10 +84,10 @@ pub(crate) fn energy_lost<T: Scalar, V>(
 }
 
 /// The state with no velocities but those that `inputs` has prescribed.
-pub(crate) fn prescribed<D: Devices, A: Clone>(
-    state: &State<D, A>,
-    inputs: &Inputs<D>,
-) -> State<D, A> {
+pub(crate) fn prescribed<D: Devices, A: Clone, S: Structure>(
+    state: &State<D, A, S>,
+    inputs: &Inputs<D, S>,
+) -> State<D, A, S> {
     let mut given = state.clone();
     if !matches!(inputs.hub, HubMode::Prescribed { .. }) {
         (given.r_b_n_dot, given.omega) = (vector(zeros()), vector(zeros()));
@@ -100,10 +101,10 @@ pub(crate) fn prescribed<D: Devices, A: Clone>(
 }
 
 /// The first state with the velocities `a x + b y`.
-pub(crate) fn sum<D: Devices, A: Attitude<D::Scalar>>(
-    (a, x): (D::Scalar, &State<D, A>),
-    (b, y): (D::Scalar, &State<D, A>),
-) -> State<D, A> {
+pub(crate) fn sum<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+    (a, x): (D::Scalar, &State<D, A, S>),
+    (b, y): (D::Scalar, &State<D, A, S>),
+) -> State<D, A, S> {
     let of = |x: Vec3<D::Scalar>, y: Vec3<D::Scalar>| vector(add(scale(a, x), scale(b, y)));
     let mut found = x.clone();
     found.r_b_n_dot = of(components(&x.r_b_n_dot), components(&y.r_b_n_dot));

@@ -18,12 +18,13 @@ use crate::solve::accelerations::{inputs_are_finite, overflow};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, Structure, StructureData};
 
 /// Result of [`Spacecraft::step_with_work`]: the state after the step, and the work during it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stepped<D: Devices, A> {
+pub struct Stepped<D: Devices, A, S: StructureData = Rigid> {
     /// The state after the step.
-    pub state: State<D, A>,
+    pub state: State<D, A, S>,
     /// Work of each source during the step, J.
     pub work: Power<D::Scalar>,
 }
@@ -167,14 +168,14 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
+impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
     /// Adds `weight` times the slope to `sum` and sets the next stage, `start` plus `offset` times
     /// the slope, s both; the attitude is left out.
     pub(crate) fn follow(
         &mut self,
-        craft: &Spacecraft<D>,
+        craft: &Spacecraft<D, S>,
         start: &Self,
-        found: &Accelerations<D>,
+        found: &Accelerations<D, S>,
         [weight, offset]: [D::Scalar; 2],
         sum: &mut Self,
     ) {
@@ -192,7 +193,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     }
 
     /// Becomes `start + sum`, attitude left out.
-    pub(crate) fn add(&mut self, craft: &Spacecraft<D>, start: &Self, sum: &Self) {
+    pub(crate) fn add(&mut self, craft: &Spacecraft<D, S>, start: &Self, sum: &Self) {
         let plus = |a, b| vector(add(components(a), components(b)));
         self.r_b_n = plus(&start.r_b_n, &sum.r_b_n);
         self.r_b_n_dot = plus(&start.r_b_n_dot, &sum.r_b_n_dot);

@@ -23,6 +23,7 @@ use crate::solve::accelerations::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
+use crate::solve::structure::Structure;
 
 /// Inverse iterations for the vibration that limits a step: the first leaves of others some 1e-7 of
 /// what an irregular direction has of them.
@@ -48,7 +49,7 @@ pub(crate) struct SlowestRates<D: Devices>(D::Per<data::PerJoint<Slowest<D::Scal
 
 impl<D: Devices> SlowestRates<D> {
     /// At the start.
-    pub(crate) fn new<A>(craft: &Spacecraft<D>, start: &State<D, A>) -> Self {
+    pub(crate) fn new<A, S: Structure>(craft: &Spacecraft<D, S>, start: &State<D, A, S>) -> Self {
         let mut slowest = D::new_data(&craft.devices, &data::PerJoint([zero(); 2]));
         for (slowest, [_, rate]) in slowest.values_mut().zip(start.devices.states()) {
             *slowest = [rate, rate.abs()];
@@ -57,7 +58,7 @@ impl<D: Devices> SlowestRates<D> {
     }
 
     /// At another stage, or at the end.
-    pub(crate) fn pass<A>(&mut self, stage: &State<D, A>) {
+    pub(crate) fn pass<A, S: Structure>(&mut self, stage: &State<D, A, S>) {
         for (slowest, [_, rate]) in self.0.values_mut().zip(stage.devices.states()) {
             *slowest = pass(*slowest, rate);
         }
@@ -70,7 +71,10 @@ impl<D: Devices> SlowestRates<D> {
     }
 
     /// The state with these rates: those at which friction is stiffest.
-    pub(crate) fn at_slowest<A: Clone>(&self, start: &State<D, A>) -> State<D, A> {
+    pub(crate) fn at_slowest<A: Clone, S: Structure>(
+        &self,
+        start: &State<D, A, S>,
+    ) -> State<D, A, S> {
         let mut posed = start.clone();
         for ([_, rate], [_, slowest]) in posed.devices.states_mut().zip(self.0.values()) {
             *rate = slowest;
@@ -175,20 +179,6 @@ impl<D: Devices> Spacecraft<D> {
         largest(energies.zip(self.joints())).map(|(_, joint)| joint)
     }
 
-    /// Of each joint, what a reduction takes from its inertia; of a share that it adds, nothing.
-    pub(crate) fn weights<A>(
-        &self,
-        posed: &State<D, A>,
-        reduction: &MassReduction<D::Scalar>,
-    ) -> impl Iterator<Item = D::Scalar> {
-        let stiffness = reduction.stiffness.max(zero());
-        let taken = MassReduction { stiffness, ..*reduction };
-        let joints = D::list::<Passives>(&self.devices).zip(posed.devices.states());
-        joints.map(move |(passive, [_, rate])| {
-            taken.subtracted(passive.damping(rate), passive.stiffness)
-        })
-    }
-
     /// Accelerations of all joints for torques, with the mass matrix reduced.
     fn response_to<A: Attitude<D::Scalar>>(
         &self,
@@ -208,6 +198,22 @@ impl<D: Devices> Spacecraft<D> {
             }
         };
         self.back_substitute(&scratch, &hub)
+    }
+}
+
+impl<D: Devices, S: Structure> Spacecraft<D, S> {
+    /// Of each joint, what a reduction takes from its inertia; of a share that it adds, nothing.
+    pub(crate) fn weights<A>(
+        &self,
+        posed: &State<D, A, S>,
+        reduction: &MassReduction<D::Scalar>,
+    ) -> impl Iterator<Item = D::Scalar> {
+        let stiffness = reduction.stiffness.max(zero());
+        let taken = MassReduction { stiffness, ..*reduction };
+        let joints = D::list::<Passives>(&self.devices).zip(posed.devices.states());
+        joints.map(move |(passive, [_, rate])| {
+            taken.subtracted(passive.damping(rate), passive.stiffness)
+        })
     }
 }
 

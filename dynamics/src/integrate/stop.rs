@@ -21,12 +21,13 @@ use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
+use crate::solve::structure::{Rigid, StructureData};
 
 /// The state after an impulsive stop, and the energy lost.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stopped<D: Devices, A> {
+pub struct Stopped<D: Devices, A, S: StructureData = Rigid> {
     /// The state with its new velocities; every locked joint is at rest.
-    pub state: State<D, A>,
+    pub state: State<D, A, S>,
     /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero unless
     /// a joint or the hub is prescribed. Of the velocities' jump and not the difference of two
     /// energies, so no digit is lost to what keeps moving.

@@ -21,15 +21,16 @@ use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, StructureData};
 
 /// The energy ledger of a spacecraft at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ledger<T = f64> {
+pub struct Ledger<T: Scalar = f64, S: StructureData = Rigid> {
     /// Kinetic energy T of hub and devices, J.
     pub kinetic: T,
     /// Potential energy in the field of gravity, J.
     pub gravity: T,
-    /// Energy of the springs, J.
+    /// Energy of the springs, J; the strain of a flexible structure among them.
     pub springs: T,
     /// `dT/dt`, W.
     pub kinetic_rate: T,
@@ -43,6 +44,9 @@ pub struct Ledger<T = f64> {
     pub magnitude: T,
     /// Linear momentum, and angular momentum about the inertial origin, N axes.
     pub momentum: Momentum<T>,
+    /// Energy and powers of the modes of a flexible structure, which are part of those above; `()` of
+    /// a rigid hub.
+    pub modal: S::Ledger<T>,
 }
 
 /// Power of each source on the spacecraft's motion, W; in [`Stepped::work`] the work of each source
@@ -52,7 +56,7 @@ pub struct Ledger<T = f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power<T = f64> {
     /// Force and torque on the hub and wrenches on bodies, with the simplified model's disturbance
-    /// among them.
+    /// among them; modal forces and wrenches on mounts.
     pub external: T,
     /// What holds a prescribed hub to its motion; nothing for a free or fixed one.
     pub hub: T,
@@ -60,9 +64,9 @@ pub struct Power<T = f64> {
     pub gravity: T,
     /// All motors, those of prescribed joints among them.
     pub motors: T,
-    /// Springs.
+    /// Springs; the stiffness of a flexible structure among them.
     pub springs: T,
-    /// Viscous and Coulomb friction; not above zero: what becomes heat.
+    /// Viscous and Coulomb friction, damping of modes; not above zero: what becomes heat.
     pub friction: T,
 }
 
@@ -104,11 +108,29 @@ impl<T: Scalar> Power<T> {
     }
 }
 
-impl<T: Scalar> Ledger<T> {
+impl<T: Scalar, S: StructureData> Ledger<T, S> {
     /// Kinetic and potential energy, J: constant but for motors, external forces and friction.
     #[must_use]
     pub fn energy(&self) -> T {
         self.kinetic + self.gravity + self.springs
+    }
+
+    /// The same ledger with the modal part of another structure.
+    #[must_use]
+    pub fn with_modal<R: StructureData>(self, modal: R::Ledger<T>) -> Ledger<T, R> {
+        let Self { kinetic, gravity, springs, kinetic_rate, power, residual, magnitude, .. } = self;
+        let momentum = self.momentum;
+        Ledger {
+            kinetic,
+            gravity,
+            springs,
+            kinetic_rate,
+            power,
+            residual,
+            magnitude,
+            momentum,
+            modal,
+        }
     }
 }
 
@@ -179,6 +201,7 @@ impl<D: Devices> Spacecraft<D> {
             residual: kinetic_rate - power.total(),
             magnitude: terms + joints.magnitude,
             momentum: self.momentum_of(state, &bn, &sums, About::InertialOrigin)?,
+            modal: (),
         };
         self.check_joints(&totals)?;
         let rates = [ledger.residual, ledger.magnitude, ledger.kinetic_rate];

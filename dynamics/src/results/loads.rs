@@ -26,6 +26,7 @@ use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, Structure, StructureData};
 
 /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
 type Weights<D> = (
@@ -51,13 +52,19 @@ pub enum LoadAxes {
 
 /// The loads of a spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loads<D: Devices> {
+pub struct Loads<D: Devices, S: StructureData = Rigid> {
     /// Device by device; a [`DeviceLoads`](crate::DeviceLoads) for each.
+    ///
+    /// On a flexible structure the wrench at a device's mount is about its place on the deformed
+    /// structure: its parameters say where that is in the axes of the mount, which are those of B
+    /// undeformed. It is expressed in N with [`LoadAxes::Inertial`], otherwise in B, as on a rigid hub.
     pub devices: D::Per<data::Loads>,
     /// What must act on the hub in addition to the inputs, about B, expressed in B: only rounding
     /// on a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
     /// table exerts on it. A dynamometer reads the opposite.
     pub hub: Wrench<D::Scalar>,
+    /// Loads of the mounts and modes of a flexible structure; `()` of a rigid hub.
+    pub modal: S::Loads<D::Scalar>,
 }
 
 /// State, inputs and accelerations of the joints, and the loads that come of them.
@@ -157,20 +164,9 @@ impl<D: Devices> Spacecraft<D> {
             if hub.is_finite() { Ok(()) } else { Err(SolveError::Overflow { what }) }
         });
         match finite {
-            Ok(()) => Ok(Loads { devices, hub }),
+            Ok(()) => Ok(Loads { devices, hub, modal: () }),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
-    }
-
-    /// Rejects loads of a joint that are not finite.
-    pub(crate) fn check_joints(
-        &self,
-        totals: &LoadSums<D::Scalar>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        let joint = totals.overflow.and_then(|joint| self.joints().nth(joint));
-        joint.map_or(Ok(()), |(device, info)| {
-            Err(SolveError::Overflow { what: Quantity::Load { device, joint: info.body } })
-        })
     }
 
     /// Loads of the devices, what the hub needs in addition to the inputs, and the sums of both.
@@ -210,5 +206,18 @@ impl<D: Devices> Spacecraft<D> {
         let inputs = Wrench { force: inputs.force, moment: inputs.torque_b };
         let needed = totals.inertial.minus(&totals.applied).minus(&totals.gradient).minus(&inputs);
         (devices, needed, totals)
+    }
+}
+
+impl<D: Devices, S: Structure> Spacecraft<D, S> {
+    /// Rejects loads of a joint that are not finite.
+    pub(crate) fn check_joints(
+        &self,
+        totals: &LoadSums<D::Scalar>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let joint = totals.overflow.and_then(|joint| self.joints().nth(joint));
+        joint.map_or(Ok(()), |(device, info)| {
+            Err(SolveError::Overflow { what: Quantity::Load { device, joint: info.body } })
+        })
     }
 }

@@ -18,7 +18,6 @@ use crate::numbers::vec3::{
     sub, vector, zeros,
 };
 use crate::sets::bundle::Shared;
-use crate::sets::counts::check_counts;
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
@@ -257,15 +256,6 @@ impl<D: Devices> Spacecraft<D> {
         let Ok(()) = D::visit::<Shared<Joints>, _>(&self.devices, &state.devices, &mut addition);
         let per_mass = self.mass().recip();
         moment.map(|moment| scale(per_mass, moment))
-    }
-
-    /// Rejects a state that is not finite, or has another number of devices.
-    fn reject_state<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A>,
-    ) -> Result<(), SolveError<D::Scalar>> {
-        check_counts::<D>(&self.devices, &state.devices, None, None)?;
-        reject(self.not_finite_in_state(state))
     }
 }
 

@@ -21,7 +21,7 @@ use crate::numbers::real::Scalar;
 use crate::sets::bundle::Bundle;
 use crate::sets::enumeration::{DeviceEnum, Visited};
 use crate::sets::isolated::{Isolated, PreparedIsolated, only_mass};
-use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, PerDevice, PerJoint};
+use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, OnMount, PerDevice, PerJoint};
 use crate::validation::parameter_error::ParameterError;
 
 /// A set of devices, by their parameters.
@@ -144,6 +144,7 @@ pub trait Devices:
         >,
         Per<PerJoint<[<Self as DeviceSet>::Scalar; 2]>>: Each<[<Self as DeviceSet>::Scalar; 2]>,
         Per<Loads>: Clone + Debug + PartialEq,
+        Per<OnMount>: Clone + Debug,
     >
 {
 }
@@ -157,6 +158,7 @@ impl<D> Devices for D where
             Per<PerJoint<Wrench<<D as DeviceSet>::Scalar>>>: Each<Wrench<<D as DeviceSet>::Scalar>>,
             Per<PerJoint<[<D as DeviceSet>::Scalar; 2]>>: Each<[<D as DeviceSet>::Scalar; 2]>,
             Per<Loads>: Clone + Debug + PartialEq,
+            Per<OnMount>: Clone + Debug,
         >
 {
 }

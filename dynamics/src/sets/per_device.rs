@@ -68,6 +68,11 @@ pub struct Loads;
 #[derive(Clone, Copy, Debug)]
 pub struct Gains;
 
+/// The number of the mount of each device, from 0; at first 0. A platform's is that of all it
+/// carries, whose own are not read.
+#[derive(Clone, Copy, Debug)]
+pub struct OnMount;
+
 /// Loads of a device whose kind is known only at run time.
 pub type EnumLoads<T = f64> =
     DeviceLoads<JointArray<Wrench<T>>, JointArray<T>, JointArray<JointPower<T>>, T>;
@@ -244,6 +249,31 @@ impl<T: Scalar> PerDevice<T> for Gains {
     }
 
     fn count<E: DeviceEnum<Scalar = T>>(_: &E::Gains) -> Option<usize> {
+        None
+    }
+}
+
+impl<T: Scalar> PerDevice<T> for OnMount {
+    type Of<K: Kind<Scalar = T>> = usize;
+    type OfEnum<E: DeviceEnum<Scalar = T>> = usize;
+
+    fn initial<K: Kind<Scalar = T>>(&self) -> usize {
+        0
+    }
+
+    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> usize {
+        0
+    }
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &usize) -> Option<usize> {
+        Some(*of)
+    }
+
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &usize, to: &mut usize) {
+        *to = *of;
+    }
+
+    fn count<E: DeviceEnum<Scalar = T>>(_: &usize) -> Option<usize> {
         None
     }
 }

@@ -24,6 +24,7 @@ use crate::solve::finite::all_finite;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::Structure;
 
 impl<D: Devices> Spacecraft<D> {
     /// All second derivatives of the state: six numbers and one per joint, from (16), (75), (80),
@@ -103,17 +104,31 @@ impl<D: Devices> Spacecraft<D> {
         }
         found.finish(inputs, &hub, *at_b, finite)
     }
+}
+
+impl<D: Devices, S: Structure> Spacecraft<D, S> {
+    /// Whether what the accelerations may not depend on is finite, and the structure's part of state
+    /// and inputs.
+    #[inline(always)]
+    pub(crate) fn are_finite<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+    ) -> bool {
+        inputs_are_finite(state, inputs) && S::are_finite(self, &state.modal, &inputs.modal)
+    }
 
     /// Accelerations to be filled in.
-    pub(crate) fn no_accelerations(&self) -> Accelerations<D> {
+    pub(crate) fn no_accelerations(&self) -> Accelerations<D, S> {
         let still = vector([filling(zero()); 3]);
         let devices = D::new_data(&self.devices, &data::Accelerations);
-        Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
+        let modal = S::no_accelerations(self);
+        Accelerations { r_b_n_ddot: still, omega_dot: still, devices, modal }
     }
 
     /// The hub's system before any device is evaluated.
     #[inline]
-    pub(crate) fn assembly(&self, inputs: &Inputs<D>) -> Assembly<D::Scalar> {
+    pub(crate) fn assembly(&self, inputs: &Inputs<D, S>) -> Assembly<D::Scalar> {
         Assembly::new(&self.body, components(&inputs.force), components(&inputs.torque_b))
     }
 
@@ -122,7 +137,7 @@ impl<D: Devices> Spacecraft<D> {
     #[inline(always)]
     pub(crate) fn hub_accelerations(
         &self,
-        inputs: &Inputs<D>,
+        inputs: &Inputs<D, S>,
         environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         at_b: Vec3<D::Scalar>,
@@ -149,7 +164,7 @@ impl<D: Devices> Spacecraft<D> {
     #[inline(never)]
     pub(crate) fn stiffness(
         &self,
-        inputs: &Inputs<D>,
+        inputs: &Inputs<D, S>,
         assembly: &Assembly<D::Scalar>,
     ) -> Stiffness<D::Scalar> {
         match inputs.hub {
@@ -166,7 +181,7 @@ impl<D: Devices> Spacecraft<D> {
     pub(crate) fn eliminate_devices<A>(
         &self,
         by: impl Eliminate<D::Scalar>,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
         given: SetInputs<'_, D>,
         environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
@@ -193,8 +208,8 @@ impl<D: Devices> Spacecraft<D> {
     #[cold]
     pub(crate) fn diagnosis<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         failure: SolveError<D::Scalar>,
     ) -> SolveError<D::Scalar> {
         if matches!(failure, SolveError::Count { .. }) {
@@ -210,11 +225,18 @@ impl<D: Devices> Spacecraft<D> {
     #[cold]
     pub(crate) fn cause<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         failure: SolveError<D::Scalar>,
     ) -> SolveError<D::Scalar> {
         match failure {
+            SolveError::UnstableModes { .. } => failure,
+            SolveError::ModalMass { pivot, bound } if pivot.is_finite() && bound.is_finite() => {
+                failure
+            }
+            SolveError::ModalMass { .. } => {
+                SolveError::Overflow { what: Quantity::ModalAcceleration }
+            }
             _ if matches!(inputs.gravity, Gravity::Central { .. })
                 && extreme(components(&state.r_b_n)) == zero() =>
             {
@@ -242,8 +264,8 @@ impl<D: Devices> Spacecraft<D> {
     /// joint nearest the tip, which was eliminated first.
     fn overflowing<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
     ) -> Quantity {
         let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
             check_fixed(state, inputs)?;
@@ -292,9 +314,9 @@ pub(crate) struct EvaluationStart<T> {
 /// The start of an evaluation: motion of the hub and gravity for the devices. A fixed hub that moves
 /// is for [`check_fixed`] to reject: within a [`Result`], the start is written twice.
 #[inline(always)]
-pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
-    state: &State<D, A>,
-    inputs: &Inputs<D>,
+pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+    state: &State<D, A, S>,
+    inputs: &Inputs<D, S>,
 ) -> EvaluationStart<D::Scalar> {
     let environment = Environment {
         omega: components(&state.omega),
@@ -311,12 +333,12 @@ pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
     start
 }
 
-impl<D: Devices> Accelerations<D> {
+impl<D: Devices, S: Structure> Accelerations<D, S> {
     /// Fills the hub's in, no longer relative to the frame that falls with it; all must be finite.
     #[inline]
     pub(crate) fn finish(
         &mut self,
-        inputs: &Inputs<D>,
+        inputs: &Inputs<D, S>,
         hub: &Solution<D::Scalar>,
         at_b: Vec3<D::Scalar>,
         joints_are_finite: bool,
@@ -336,9 +358,9 @@ impl<D: Devices> Accelerations<D> {
 }
 
 /// Rejects a fixed hub that moves.
-pub(crate) fn check_fixed<D: Devices, A>(
-    state: &State<D, A>,
-    inputs: &Inputs<D>,
+pub(crate) fn check_fixed<D: Devices, A, S: Structure>(
+    state: &State<D, A, S>,
+    inputs: &Inputs<D, S>,
 ) -> Result<(), SolveError<D::Scalar>> {
     if inputs.hub != HubMode::Fixed {
         return Ok(());
@@ -351,15 +373,15 @@ pub(crate) fn check_fixed<D: Devices, A>(
 
 /// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they
 /// may show nowhere.
-fn rates_are_finite<D: Devices, A>(state: &State<D, A>) -> bool {
+fn rates_are_finite<D: Devices, A, S: Structure>(state: &State<D, A, S>) -> bool {
     finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
 }
 
 /// Whether what the accelerations may not depend on is finite: the position, forces and rates on a
 /// hub that is held, motors of joints that are. All else shows in the result.
-pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>>(
-    state: &State<D, A>,
-    inputs: &Inputs<D>,
+pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+    state: &State<D, A, S>,
+    inputs: &Inputs<D, S>,
 ) -> bool {
     all_finite([&state.r_b_n, &state.r_b_n_dot, &inputs.force, &inputs.torque_b])
         && state.attitude.is_valid()

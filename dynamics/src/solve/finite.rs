@@ -16,6 +16,7 @@ use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::Structure;
 
 /// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is
 /// infinite or NaN.
@@ -37,25 +38,37 @@ pub(crate) fn reject<T: Scalar>(not_finite: Option<(Quantity, T)>) -> Result<(),
     }
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: Structure> Spacecraft<D, S> {
     /// Rejects the first input that is not finite.
     pub(crate) fn reject<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
-        reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))
+        reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))?;
+        S::reject_state(self, &state.modal)?;
+        S::reject_inputs(self, &inputs.modal)
+    }
+
+    /// Rejects a state that is not finite, or has another number of devices or modes.
+    pub(crate) fn reject_state<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        check_counts::<D>(&self.devices, &state.devices, None, None)?;
+        reject(self.not_finite_in_state(state))?;
+        S::reject_state(self, &state.modal)
     }
 
     /// Rejects accelerations that are not finite, or of another number of devices.
     pub(crate) fn reject_accelerations<A>(
         &self,
-        state: &State<D, A>,
-        accelerations: &Accelerations<D>,
+        state: &State<D, A, S>,
+        accelerations: &Accelerations<D, S>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_counts::<D>(&self.devices, &state.devices, None, Some(&accelerations.devices))?;
-        let Accelerations { r_b_n_ddot, omega_dot, devices } = accelerations;
+        let Accelerations { r_b_n_ddot, omega_dot, devices, modal } = accelerations;
         let joint = || {
             let mut joints = devices.values().zip(self.joints());
             joints.find(|(value, _)| !value.is_finite()).map(|(value, (device, info))| {
@@ -64,14 +77,15 @@ impl<D: Devices> Spacecraft<D> {
         };
         let hub = not_finite_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
             .or_else(|| not_finite_in_vector(Quantity::HubAcceleration, omega_dot));
-        reject(hub.or_else(joint))
+        reject(hub.or_else(joint))?;
+        S::reject_accelerations(self, modal)
     }
 
     /// Rejects a state that a step or a stop leads to unless it is finite.
     #[inline]
     pub(crate) fn check_reached<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
     ) -> Result<(), SolveError<D::Scalar>> {
         let vectors = [&state.r_b_n, &state.r_b_n_dot, &state.omega];
         let finite = vectors.into_iter().all(|v| finite(components(v)))
@@ -83,7 +97,7 @@ impl<D: Devices> Spacecraft<D> {
     #[cold]
     fn reject_reached<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
     ) -> Result<(), SolveError<D::Scalar>> {
         let not_finite = self.not_finite_in_state(state);
         not_finite.map_or(Ok(()), |(what, _)| Err(SolveError::Overflow { what }))
@@ -92,7 +106,7 @@ impl<D: Devices> Spacecraft<D> {
     /// The first part of a state that is not finite, and its value.
     pub(crate) fn not_finite_in_state<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
     ) -> Option<(Quantity, D::Scalar)> {
         let attitude = || {
             let spoilt = !state.attitude.is_valid();
@@ -114,8 +128,11 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// The first input that is not finite, and its value.
-    pub(crate) fn not_finite_in_inputs(&self, inputs: &Inputs<D>) -> Option<(Quantity, D::Scalar)> {
-        let Inputs { force, torque_b, motors, modes, hub, gravity, bodies } = inputs;
+    pub(crate) fn not_finite_in_inputs(
+        &self,
+        inputs: &Inputs<D, S>,
+    ) -> Option<(Quantity, D::Scalar)> {
+        let Inputs { force, torque_b, motors, modes, hub, gravity, bodies, .. } = inputs;
         let hub = || match hub {
             HubMode::Free | HubMode::Fixed => None,
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => {

@@ -10,12 +10,13 @@ use crate::numbers::vec3::{add, components, cross, vector, zeros};
 use crate::sets::devices::{Devices, FixedSet, JointInfos, SetInputs, set_own_modes};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
+use crate::solve::structure::{Rigid, Structure, StructureData};
 
 /// Forces, torques and modes. Constant during a step, expressed in the axes that each field names.
 ///
 /// `Inputs { motors, ..Inputs::none() }` is a free hub with every joint driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inputs<D: Devices> {
+pub struct Inputs<D: Devices, S: StructureData = Rigid> {
     /// External force F through B, B axes, N; see [`Self::add_force`] for other points.
     pub force: Vector3<D::Scalar>,
     /// `L_B`, external torque about B, B axes, N m.
@@ -36,9 +37,11 @@ pub struct Inputs<D: Devices> {
     /// kind's) has the axes of its parent body, so the same numbers mean another force there than
     /// on an imbalanced rotor.
     pub bodies: Option<D::Per<data::PerJoint<Wrench<D::Scalar>>>>,
+    /// Modal forces, and wrenches on mounts, of a flexible structure; `()` of a rigid hub.
+    pub modal: S::Inputs<D::Scalar>,
 }
 
-impl<D: Devices> Inputs<D> {
+impl<D: Devices, S: Structure> Inputs<D, S> {
     /// Those of the joints.
     pub(crate) fn of_joints(&self) -> SetInputs<'_, D> {
         JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
@@ -57,6 +60,7 @@ impl<D: FixedSet> Inputs<D> {
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
+            modal: (),
         }
     }
 
@@ -67,10 +71,10 @@ impl<D: FixedSet> Inputs<D> {
     }
 }
 
-impl<D: Devices> Inputs<D> {
+impl<D: Devices, S: Structure> Inputs<D, S> {
     /// As [`Inputs::none`], for a set whose devices are known only at run time.
     #[must_use]
-    pub fn none_for(spacecraft: &Spacecraft<D>) -> Self {
+    pub fn none_for(spacecraft: &Spacecraft<D, S>) -> Self {
         let mut inputs = Self::driven_for(spacecraft);
         set_own_modes(&mut inputs.modes, D::list::<JointInfos>(&spacecraft.devices));
         inputs
@@ -80,7 +84,7 @@ impl<D: Devices> Inputs<D> {
     /// whose modes are all written.
     #[must_use]
     #[inline]
-    pub fn driven_for(spacecraft: &Spacecraft<D>) -> Self {
+    pub fn driven_for(spacecraft: &Spacecraft<D, S>) -> Self {
         Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
@@ -89,13 +93,21 @@ impl<D: Devices> Inputs<D> {
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
+            modal: S::no_inputs(spacecraft),
         }
+    }
+
+    /// The same forces, torques and modes, with the modal part of another structure.
+    #[must_use]
+    pub fn with_modal<R: Structure>(self, modal: R::Inputs<D::Scalar>) -> Inputs<D, R> {
+        let Self { force, torque_b, motors, modes, hub, gravity, bodies, .. } = self;
+        Inputs { force, torque_b, motors, modes, hub, gravity, bodies, modal }
     }
 
     /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn no_wrenches_for(
-        spacecraft: &Spacecraft<D>,
+        spacecraft: &Spacecraft<D, S>,
     ) -> D::Per<data::PerJoint<Wrench<D::Scalar>>> {
         D::new_data(&spacecraft.devices, &data::PerJoint(Wrench::none()))
     }

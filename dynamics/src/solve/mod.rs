@@ -12,3 +12,4 @@ pub(crate) mod spacecraft;
 #[cfg(test)]
 mod spacecraft_checks;
 pub(crate) mod state;
+pub(crate) mod structure;

@@ -1,4 +1,4 @@
-//! [`Spacecraft`]: a hub and its devices, checked and prepared once, and warnings.
+//! [`Spacecraft`]: a hub or flexible structure and its devices, checked and prepared once, and warnings.
 
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::hub::HubConstants;
@@ -6,13 +6,14 @@ use crate::model::parameters::Hub;
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, TriangleExcesses};
 use crate::sets::with_numbers::WithNumbers;
+use crate::solve::structure::{Rigid, Structure, StructureData};
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
-/// A rigid hub with devices, prepared for evaluation. Never changes; `[Dgvscmg; 0]` is a hub
-/// without devices.
+/// A hub with devices, prepared for evaluation: a [`Rigid`] hub, or a
+/// [`Flexible`](crate::Flexible) structure. Never changes; `[Dgvscmg; 0]` is a hub without devices.
 #[derive(Clone, Copy, Debug)]
-pub struct Spacecraft<D: Devices> {
+pub struct Spacecraft<D: Devices, S: StructureData = Rigid> {
     pub(crate) hub: HubConstants<D::Scalar>,
     /// The hub with the constant shares of its devices.
     pub(crate) body: HubConstants<D::Scalar>,
@@ -21,6 +22,8 @@ pub struct Spacecraft<D: Devices> {
     pub(crate) passive: bool,
     hub_excess: D::Scalar,
     pub(crate) arithmetic: Arithmetic,
+    /// What the structure has beside the hub.
+    pub(crate) structure: S::Constants<D>,
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -50,7 +53,8 @@ impl<D: Devices> Spacecraft<D> {
         let hub = HubConstants::new(hub);
         let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
         let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());
-        Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::detected() }
+        let arithmetic = Arithmetic::detected();
+        Self { hub, body, devices, passive, hub_excess, arithmetic, structure: () }
     }
 
     /// The same spacecraft with each of its numbers converted, such as
@@ -74,7 +78,19 @@ impl<D: Devices> Spacecraft<D> {
             passive: self.passive,
             hub_excess: number(self.hub_excess),
             arithmetic: self.arithmetic,
+            structure: (),
         }
+    }
+}
+
+impl<D: Devices, S: Structure> Spacecraft<D, S> {
+    /// The same hub and devices with another structure.
+    pub(crate) fn with_structure<R: Structure>(
+        self,
+        structure: R::Constants<D>,
+    ) -> Spacecraft<D, R> {
+        let Self { hub, body, devices, passive, hub_excess, arithmetic, .. } = self;
+        Spacecraft { hub, body, devices, passive, hub_excess, arithmetic, structure }
     }
 
     /// Unusual parameters that are accepted; see [`Warning`].
@@ -91,7 +107,7 @@ impl<D: Devices> Spacecraft<D> {
     /// `m_sc`, mass of hub and devices, kg.
     #[must_use]
     pub fn mass(&self) -> D::Scalar {
-        self.body.m_b
+        S::mass(self)
     }
 
     /// The joints in order, each with the number of its device.

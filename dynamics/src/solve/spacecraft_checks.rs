@@ -241,6 +241,7 @@ fn loads_that_overflow_are_rejected() {
         r_b_n_ddot: Vector3::zeros(),
         omega_dot: Vector3::zeros(),
         devices: [Dgvscmg::no_accelerations()],
+        modal: (),
     };
     let loads = spacecraft.loads(&state, &inputs, &still, LoadAxes::Body);
     let what = Quantity::Load { device: 0, joint: "wheel" };

@@ -13,10 +13,11 @@ use crate::numbers::vec3::{vector, zeros};
 use crate::sets::devices::{DeviceSet, Devices, FixedSet, JointInfos, Passives};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
+use crate::solve::structure::{Rigid, Structure, StructureData};
 
 /// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
+pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>, S: StructureData = Rigid> {
     /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, expressed in N,
     /// m.
     pub r_b_n: Vector3<D::Scalar>,
@@ -29,6 +30,8 @@ pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
     pub omega: Vector3<D::Scalar>,
     /// Joint coordinates and rates, device by device.
     pub devices: D::Per<data::Joints>,
+    /// Modal coordinates and rates of a flexible structure; `()` of a rigid hub.
+    pub modal: S::State<D::Scalar>,
 }
 
 /// All second derivatives of the state.
@@ -40,7 +43,7 @@ pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
 ///
 /// [`Spacecraft::step`]: crate::Spacecraft::step
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accelerations<D: Devices> {
+pub struct Accelerations<D: Devices, S: StructureData = Rigid> {
     /// Inertial acceleration of B, *expressed in B*, m/s^2: the derivative of
     /// [`State::r_b_n_dot`], which is expressed in N, is `[BN]^T` times this.
     pub r_b_n_ddot: Vector3<D::Scalar>,
@@ -48,21 +51,43 @@ pub struct Accelerations<D: Devices> {
     pub omega_dot: Vector3<D::Scalar>,
     /// Joint accelerations, device by device.
     pub devices: D::Per<data::Accelerations>,
+    /// Those of the modal coordinates of a flexible structure; `()` of a rigid hub.
+    pub modal: S::Accelerations<D::Scalar>,
+}
+
+impl<D: Devices, S: StructureData> Accelerations<D, S> {
+    /// The same accelerations of hub and joints, with the modal part of another structure.
+    #[must_use]
+    pub fn with_modal<R: StructureData>(
+        self,
+        modal: R::Accelerations<D::Scalar>,
+    ) -> Accelerations<D, R> {
+        let Self { r_b_n_ddot, omega_dot, devices, .. } = self;
+        Accelerations { r_b_n_ddot, omega_dot, devices, modal }
+    }
 }
 
 impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     /// Everything at zero: B at the inertial origin, B's axes those of N, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
-        Self::with(D::at_rest())
+        Self::with(D::at_rest(), ())
     }
 }
 
-impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
-    /// As [`State::at_rest`], for a set whose devices are known only at run time.
+impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
+    /// As [`State::at_rest`], for a set whose devices are known only at run time, and for a flexible
+    /// structure, undeformed.
     #[must_use]
-    pub fn at_rest_for(spacecraft: &Spacecraft<D>) -> Self {
-        Self::with(D::new_data(&spacecraft.devices, &data::Joints))
+    pub fn at_rest_for(spacecraft: &Spacecraft<D, S>) -> Self {
+        Self::with(D::new_data(&spacecraft.devices, &data::Joints), S::at_rest(spacecraft))
+    }
+
+    /// The same motion of hub and joints, with the modal part of another structure.
+    #[must_use]
+    pub fn with_modal<R: Structure>(self, modal: R::State<D::Scalar>) -> State<D, A, R> {
+        let Self { r_b_n, r_b_n_dot, attitude, omega, devices, .. } = self;
+        State { r_b_n, r_b_n_dot, attitude, omega, devices, modal }
     }
 
     /// The same state with joint angles brought into `[-pi, pi]` where whole turns change nothing:
@@ -71,7 +96,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     /// Nothing else changes, and an angle already in that range keeps its bits. An infinite or NaN
     /// angle is left as it is, for the solver to report.
     #[must_use]
-    pub fn wrapped(mut self, spacecraft: &Spacecraft<D>) -> Self {
+    pub fn wrapped(mut self, spacecraft: &Spacecraft<D, S>) -> Self {
         let joints = D::list::<JointInfos>(&spacecraft.devices)
             .zip(D::list::<Passives>(&spacecraft.devices));
         for ([coordinate, _], (info, passive)) in self.devices.states_mut().zip(joints) {
@@ -82,13 +107,14 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
         self
     }
 
-    fn with(devices: D::Per<data::Joints>) -> Self {
+    fn with(devices: D::Per<data::Joints>, modal: S::State<D::Scalar>) -> Self {
         Self {
             r_b_n: vector(zeros()),
             r_b_n_dot: vector(zeros()),
             attitude: A::identity(),
             omega: vector(zeros()),
             devices,
+            modal,
         }
     }
 }

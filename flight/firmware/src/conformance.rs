@@ -11,8 +11,8 @@
 use core::fmt::{self, Display, LowerExp, Write};
 
 use precess_dynamics::{
-    Accelerations, Each, FixedSet, FlexibleState, Inputs, JointStates, ModesError, ParameterError,
-    Scalar, SolveError, Spacecraft, State,
+    Accelerations, Each, FixedSet, Flexible, Inputs, JointStates, ModesError, ParameterError,
+    Quaternion, Scalar, SolveError, Spacecraft, State, StructureData,
 };
 
 use crate::bits::{Bits, Hash, write};
@@ -126,10 +126,10 @@ impl Lines<'_> {
         for seed in 0..EVALUATIONS {
             let Structure { craft, state, inputs } = Structure::<T>::drawn(&mut Random::new(seed))?;
             let found = craft.accelerations(&state, &inputs)?;
-            numbers(&found.rigid).chain(found.eta_ddot).for_each(|number| hash.take(number));
+            numbers(&found).chain(found.modal.eta_ddot).for_each(|number| hash.take(number));
             last = Some(found);
         }
-        let last = last.iter().flat_map(|found| numbers(&found.rigid).chain(found.eta_ddot));
+        let last = last.iter().flat_map(|found| numbers(found).chain(found.modal.eta_ddot));
         self.line("bending", 2, "accelerations", hash, last)?;
 
         let Structure { craft, mut state, inputs } =
@@ -208,18 +208,24 @@ fn stepped<D: FixedSet>(
 }
 
 /// The numbers of an evaluation in order.
-fn numbers<D: FixedSet>(found: &Accelerations<D>) -> impl Iterator<Item = D::Scalar> {
+fn numbers<D: FixedSet, S: StructureData>(
+    found: &Accelerations<D, S>,
+) -> impl Iterator<Item = D::Scalar> {
     let hub = [&found.r_b_n_ddot, &found.omega_dot].into_iter();
     hub.flat_map(|vector| vector.iter().copied()).chain(found.devices.values())
 }
 
 /// The numbers of the state of a hub that bends in order.
-fn bent<T: Bits>(state: &FlexibleState<Wheels<T>, Storage>) -> impl Iterator<Item = T> {
-    of_state(&state.rigid).chain(state.eta).chain(state.eta_dot)
+fn bent<T: Bits>(
+    state: &State<Wheels<T>, Quaternion<T>, Flexible<Storage>>,
+) -> impl Iterator<Item = T> {
+    of_state(state).chain(state.modal.eta).chain(state.modal.eta_dot)
 }
 
 /// The numbers of a state in order.
-fn of_state<D: FixedSet>(state: &State<D>) -> impl Iterator<Item = D::Scalar> {
+fn of_state<D: FixedSet, S: StructureData>(
+    state: &State<D, Quaternion<D::Scalar>, S>,
+) -> impl Iterator<Item = D::Scalar> {
     let q = &state.attitude;
     let hub = [&state.r_b_n, &state.r_b_n_dot, &state.omega].into_iter();
     hub.flat_map(|vector| vector.iter().copied())

@@ -4,8 +4,8 @@ use core::array::from_fn;
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Hub, ModalMount, ModalPoint,
-    Modes, ModesError, ReactionWheel, Scalar,
+    FixedModes, Flexible, Hub, Inputs, ModalMount, ModalPoint, ModalState, Modes, ModesError,
+    Quaternion, ReactionWheel, Scalar, Spacecraft, State,
 };
 
 use crate::craft::{Craft, HubIs};
@@ -28,32 +28,32 @@ pub type Storage = FixedModes<MODES, MOUNTS>;
 #[derive(Clone, Debug)]
 pub struct Structure<T: Scalar> {
     /// The spacecraft.
-    pub craft: FlexibleSpacecraft<Wheels<T>, Storage>,
+    pub craft: Spacecraft<Wheels<T>, Flexible<Storage>>,
     /// Its state.
-    pub state: FlexibleState<Wheels<T>, Storage>,
+    pub state: State<Wheels<T>, Quaternion<T>, Flexible<Storage>>,
     /// What acts on it.
-    pub inputs: FlexibleInputs<Wheels<T>, Storage>,
+    pub inputs: Inputs<Wheels<T>, Flexible<Storage>>,
 }
 
 impl<T: Scalar> Structure<T> {
     /// The next structure; its rigid motion and inputs are those of a rigid [`Craft`].
     ///
     /// # Errors
-    /// As [`FlexibleSpacecraft::new`].
+    /// As [`Spacecraft::flexible`].
     pub fn drawn(random: &mut Random) -> Result<Self, ModesError<T>> {
         let devices: Wheels<T> = from_fn(|_| Drawn::drawn(random));
         let rigid = Craft::drawn(&devices, HubIs::Free, random).map_err(ModesError::Rigid)?;
         let mass = random.within(200.0, 1000.0);
         let hub =
             Hub { m_b: T::from_f64(mass), r_bc_b: random.vector(0.2), i_b_bc: random.block(mass) };
-        let craft = FlexibleSpacecraft::new(&hub, &modes(random), &devices, &[0, 1])?;
-        let mut state = FlexibleState::at_rest(&craft);
-        state.rigid = rigid.state;
-        state.eta = from_fn(|_| random.number(-0.02, 0.02));
-        state.eta_dot = from_fn(|_| random.number(-0.1, 0.1));
-        let mut inputs = FlexibleInputs::none_for(&craft);
-        inputs.rigid = rigid.inputs;
-        inputs.modal = from_fn(|_| random.number(-0.1, 0.1));
+        let craft = Spacecraft::flexible(&hub, &modes(random), &devices, &[0, 1])?;
+        let state = rigid.state.with_modal(ModalState {
+            eta: from_fn(|_| random.number(-0.02, 0.02)),
+            eta_dot: from_fn(|_| random.number(-0.1, 0.1)),
+        });
+        let mut inputs: Inputs<_, Flexible<Storage>> =
+            rigid.inputs.with_modal(Inputs::none_for(&craft).modal);
+        inputs.modal.forces = from_fn(|_| random.number(-0.1, 0.1));
         Ok(Self { craft, state, inputs })
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `craft` | [`Craft`]: a rigid hub or a structure that bends |
+//! | `craft` | [`Craft`]: a rigid hub or a flexible structure |
 //! | `derivatives` | derivatives by state, inputs and parameters |
 //! | `tangent` | the set over dual numbers |
 
@@ -15,11 +15,12 @@ mod derivatives;
 pub mod tangent;
 
 use precess_dynamics::{
-    BuiltIn, FlexibleSpacecraft, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError,
-    Spacecraft, platform,
+    BuiltIn, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError, Spacecraft, platform,
 };
 
-pub use craft::{Craft, CraftAccelerations, CraftInputs, CraftState, rigid_state};
+pub use craft::{
+    Craft, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft, FlexibleState, rigid_state,
+};
 pub use derivatives::{
     derivatives, linearize, linearize_step, parameter_derivatives, step_parameter_derivatives,
 };
@@ -36,17 +37,17 @@ pub fn spacecraft(hub: &Hub, devices: &Set) -> Result<Spacecraft<Set>, Parameter
     Spacecraft::new(hub, devices)
 }
 
-/// The structure that bends, each device on one of its mounts.
+/// The flexible structure, each device on one of its mounts.
 ///
 /// # Errors
 ///
-/// As [`FlexibleSpacecraft::with_residual`].
+/// As [`Spacecraft::flexible_with_residual`].
 pub fn flexible(
     hub: &Hub,
     modes: &Modes<ListedModes>,
     residual: usize,
     devices: &Set,
     on: &(Vec<usize>, Vec<platform::Data<usize, Vec<usize>>>),
-) -> Result<FlexibleSpacecraft<Set, ListedModes>, ModesError> {
-    FlexibleSpacecraft::with_residual(hub, modes, residual, devices, on)
+) -> Result<FlexibleCraft, ModesError> {
+    Spacecraft::flexible_with_residual(hub, modes, residual, devices, on)
 }

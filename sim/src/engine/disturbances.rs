@@ -190,7 +190,7 @@ impl<'a> Source<'a> {
                 all.rigid.add_force(&self.point, &force);
             }
             On::Mount(mount) => {
-                if let Some(sum) = all.mounts.get_mut(*mount) {
+                if let Some(sum) = all.modal.mounts.get_mut(*mount) {
                     *sum = sum.plus(&about(&force, &moment));
                 }
             }

@@ -117,7 +117,7 @@ fn sizes(scenario: &Scenario, system: &System<'_>, state: &CraftState) -> Sizes 
     });
     let far = magnitude(&state.rigid.r_b_n);
     let modes = scenario.structure.iter().flat_map(|structure| &structure.modes);
-    for (mode, rate) in modes.zip(&state.eta_dot) {
+    for (mode, rate) in modes.zip(&state.modal.eta_dot) {
         let linear = magnitude(&(mode.linear * *rate));
         sum.linear += linear;
         sum.angular += far * linear + magnitude(&(mode.angular * *rate));

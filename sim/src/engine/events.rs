@@ -265,8 +265,8 @@ fn state_value(stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
         }
         Quantity::Coordinate(index) => joint(index)[0],
         Quantity::Rate(index) => joint(index)[1],
-        Quantity::ModalCoordinate(mode) => moment.state.eta[mode],
-        Quantity::ModalRate(mode) => moment.state.eta_dot[mode],
+        Quantity::ModalCoordinate(mode) => moment.state.modal.eta[mode],
+        Quantity::ModalRate(mode) => moment.state.modal.eta_dot[mode],
         _ => f64::NAN,
     }
 }

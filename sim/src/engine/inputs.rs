@@ -186,8 +186,8 @@ impl<'a> Acting<'a> {
                 *wrench = Wrench::none();
             }
         }
-        all.modal.fill(0.0);
-        all.mounts.fill(Wrench::none());
+        all.modal.forces.fill(0.0);
+        all.modal.mounts.fill(Wrench::none());
         self.disturbances.add(time, from_below, state, all);
         for Placed { wrench, on } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));

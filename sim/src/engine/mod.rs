@@ -36,7 +36,7 @@ mod side_by_side;
 mod system;
 
 pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
-use precess_dynamics::{About, JointStates, State};
+use precess_dynamics::{About, JointStates, ModalState, State};
 
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
@@ -63,7 +63,7 @@ const EVENTS_MAX: usize = 10_000;
 /// The equations of motion of a scenario.
 pub(crate) fn craft_of(scenario: &Scenario) -> Result<Craft, RunError> {
     Ok(match scenario.flexible() {
-        Some(craft) => Craft::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
+        Some(craft) => Craft::from(craft.map_err(RunError::Modes)?),
         None => Craft::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
     })
 }
@@ -129,7 +129,8 @@ impl<'a> Run<'a> {
             .structure
             .as_ref()
             .map_or_else(Default::default, |of| (of.coordinates.clone(), of.rates.clone()));
-        let state = CraftState { rigid: scenario.initial.clone(), eta, eta_dot };
+        let state =
+            CraftState { rigid: scenario.initial.clone(), modal: ModalState { eta, eta_dot } };
         let moment = Moment { state, integrals: [0.0; 2] };
         // The solver names what is not finite, and a list of another length.
         let evaluated = system.craft.momentum(&moment.state, About::InertialOrigin);
@@ -261,7 +262,7 @@ impl<'a> Run<'a> {
     /// Modal coordinates of the structure, m kg^1/2, and their rates; empty on a rigid hub.
     #[must_use]
     pub fn modal(&self) -> (&[f64], &[f64]) {
-        (&self.moment.state.eta, &self.moment.state.eta_dot)
+        (&self.moment.state.modal.eta, &self.moment.state.modal.eta_dot)
     }
 
     /// Work of all sources but gravity and springs since the start, J; NaN where it is not kept.

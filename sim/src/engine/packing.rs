@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointInfo};
-use precess_dynamics::{Attitude, JointStates, Quaternion};
+use precess_dynamics::{Attitude, JointStates, ModalState, Quaternion};
 
 use crate::record::columns::{Quantity, state_quantities};
 use crate::scenario::Scenario;
@@ -130,7 +130,7 @@ impl Layout {
 
     /// Writes a state and both integrals to a flat vector.
     pub(crate) fn pack(&self, state: &CraftState, integrals: [f64; 2]) -> Vec<f64> {
-        let CraftState { rigid: state, eta, eta_dot } = state;
+        let CraftState { rigid: state, modal: ModalState { eta, eta_dot } } = state;
         let mut y = vec![0.0; self.length()];
         y[..3].copy_from_slice(state.r_b_n.as_slice());
         y[3..6].copy_from_slice(state.r_b_n_dot.as_slice());
@@ -156,8 +156,8 @@ impl Layout {
     /// Reads the state, its quaternion normalised.
     pub(crate) fn unpack(&self, y: &[f64], state: &mut CraftState) {
         let (coordinates, rates) = self.modal();
-        state.eta.copy_from_slice(&y[coordinates]);
-        state.eta_dot.copy_from_slice(&y[rates]);
+        state.modal.eta.copy_from_slice(&y[coordinates]);
+        state.modal.eta_dot.copy_from_slice(&y[rates]);
         let state = &mut state.rigid;
         let vector = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
         state.r_b_n = vector(0);
@@ -204,7 +204,7 @@ impl Layout {
         }
         let (coordinates, rates) = self.modal();
         dydt[coordinates].copy_from_slice(&y[rates.clone()]);
-        dydt[rates].copy_from_slice(&found.eta_ddot);
+        dydt[rates].copy_from_slice(&found.modal.eta_ddot);
     }
 
     /// Writes the time derivatives of both integrals.

@@ -17,7 +17,7 @@ use super::system::System;
 use crate::disturbance::Six;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::scenario::Scenario;
-use precess_craft::CraftInputs;
+use precess_craft::{CraftAccelerations, CraftInputs};
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
@@ -142,13 +142,17 @@ impl Row {
             None if self.momentum => Some(system.craft.momentum(state, About::InertialOrigin)?),
             known => known,
         };
-        if let Some(craft) = system.craft.flexible() {
+        if let Some(craft) = system.craft.flexible()
+            && !self.points.is_empty()
+        {
+            let state = state.flexible();
+            let found = found.as_ref().map(CraftAccelerations::flexible);
             for point in &mut self.points {
                 if point.moves {
-                    point.motion = Some(craft.point_motion(&point.place, state)?);
+                    point.motion = Some(craft.point_motion(&point.place, &state)?);
                 }
                 if let (true, Some(found)) = (point.accelerates, &found) {
-                    let acceleration = craft.point_acceleration(&point.place, state, found)?;
+                    let acceleration = craft.point_acceleration(&point.place, &state, found)?;
                     point.acceleration = Some(acceleration);
                 }
             }
@@ -239,8 +243,8 @@ impl Computed<'_> {
             Quantity::Disturbance(source, component) => {
                 self.disturbances.get(source).and_then(|of| of.get(component).copied())
             }
-            Quantity::ModalCoordinate(mode) => modal.eta.get(mode).copied(),
-            Quantity::ModalRate(mode) => modal.eta_dot.get(mode).copied(),
+            Quantity::ModalCoordinate(mode) => modal.modal.eta.get(mode).copied(),
+            Quantity::ModalRate(mode) => modal.modal.eta_dot.get(mode).copied(),
             Quantity::Displacement(point, axis) => motion(point).map(|m| m.displacement[axis]),
             Quantity::Rotation(point, axis) => motion(point).map(|m| m.rotation[axis]),
             Quantity::PointOmega(point, axis) => motion(point).map(|m| m.omega[axis]),

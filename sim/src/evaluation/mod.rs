@@ -36,7 +36,8 @@ mod step;
 mod tests;
 
 use precess_dynamics::{
-    About, DeviceSet, EnergyAndMomentum, Inputs, Ledger, Power, SolveError, Spacecraft, Wrench, set,
+    About, DeviceSet, EnergyAndMomentum, Inputs, Ledger, ModalState, Power, SolveError, Spacecraft,
+    Wrench, set,
 };
 
 pub use error::EvaluationError;
@@ -105,7 +106,7 @@ impl Evaluator {
     pub fn initial(&self) -> CraftState {
         let mut state = rigid_state(self.scenario.initial.clone());
         if let Some(of) = &self.scenario.structure {
-            (state.eta, state.eta_dot) = (of.coordinates.clone(), of.rates.clone());
+            state.modal = ModalState { eta: of.coordinates.clone(), eta_dot: of.rates.clone() };
         }
         state
     }

@@ -1,12 +1,12 @@
 //! Residual coordinates without mass: those that move a node only where a joint on it moves freely.
 
-use precess_craft::{Craft, CraftInputs};
+use precess_craft::{Craft, CraftInputs, FlexibleCraft};
 use precess_dynamics::kind::Each;
-use precess_dynamics::{FlexibleSpacecraft, JointStates, ListedModes, Mode, SolveError};
+use precess_dynamics::{JointStates, Mode, SolveError};
 
 use super::check::range;
 use super::mass::drive_at_start;
-use super::{ModalStructure, Scenario, ScenarioError, Set};
+use super::{ModalStructure, Scenario, ScenarioError};
 
 impl Scenario {
     /// What is wrong with the residual coordinates: one that moves a mount only where a joint on it
@@ -14,14 +14,14 @@ impl Scenario {
     pub(super) fn check_residual(
         &self,
         structure: &ModalStructure,
-        craft: FlexibleSpacecraft<Set, ListedModes>,
+        craft: FlexibleCraft,
     ) -> Option<ScenarioError> {
         if structure.residual == 0 {
             return None;
         }
-        let craft = Craft::Flexible(Box::new(craft));
+        let craft = Craft::from(craft);
         let mut state = craft.at_rest();
-        state.eta.clone_from(&structure.coordinates);
+        state.modal.eta.clone_from(&structure.coordinates);
         let initial = self.initial.devices.states();
         for ([own, _], [coordinate, _]) in state.rigid.devices.states_mut().zip(initial) {
             *own = coordinate;

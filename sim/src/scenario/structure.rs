@@ -1,15 +1,15 @@
 //! [`ModalStructure`]: the modes of a scenario's structure, the nodes that it uses, and the
-//! [`FlexibleSpacecraft`] of both with the devices.
+//! [`Spacecraft`] of both with the devices.
 //!
 //! Numbers are in SI units, vectors are expressed in B. Nodes are those that carry a device, are
 //! recorded, or take a wrench; every node has one row of shapes for each mode. What the equations of
 //! a structure that bends do not have is listed in one place: [`Scenario::not_on_a_structure`].
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
+use precess_craft::FlexibleCraft;
 use precess_dynamics::{
-    About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, Isolated, JointStates, ListedModes,
-    ModalMount, ModalPoint, Modes, ModesError, ParameterError, ResidualFault, Spacecraft, State,
-    platform,
+    About, BuiltIn, ContainedBody, Hub, Isolated, JointStates, ListedModes, ModalMount, ModalPoint,
+    Modes, ModesError, ParameterError, ResidualFault, Spacecraft, State, platform,
 };
 
 use super::check::range;
@@ -110,15 +110,12 @@ impl Scenario {
     ///
     /// Parameters that the solver rejects.
     #[must_use]
-    pub fn flexible(&self) -> Option<Result<FlexibleSpacecraft<Set, ListedModes>, ModesError>> {
+    pub fn flexible(&self) -> Option<Result<FlexibleCraft, ModesError>> {
         let structure = self.structure.as_ref()?;
         Some(self.flexible_with(structure))
     }
 
-    fn flexible_with(
-        &self,
-        structure: &ModalStructure,
-    ) -> Result<FlexibleSpacecraft<Set, ListedModes>, ModesError> {
+    fn flexible_with(&self, structure: &ModalStructure) -> Result<FlexibleCraft, ModesError> {
         let of = |of: fn(&Mode) -> f64| structure.modes.iter().map(of).collect();
         let mounts = structure.mounts();
         let mut modal = Vec::new();

@@ -4,16 +4,16 @@ use nalgebra::Vector3;
 use precess::file::{from_toml, to_toml};
 use precess::scenario::{IntegratorChoice, Scenario};
 use precess_dynamics::{
-    FlexibleInputs, FlexibleSpacecraft, FlexibleState, ListedModes, ModalMount, Modes, Wrench,
+    Flexible, Inputs, ListedModes, ModalMount, Modes, Spacecraft, State, Wrench,
 };
 
 use super::{BEAM, columns, folder, ran, text};
 
-fn craft(scenario: &Scenario) -> FlexibleSpacecraft<precess::scenario::Set, ListedModes> {
+fn craft(scenario: &Scenario) -> Spacecraft<precess::scenario::Set, Flexible<ListedModes>> {
     scenario.flexible().expect("a structure").expect("valid")
 }
 
-/// RK4 of the engine is a loop over `FlexibleSpacecraft::step`, to the bit.
+/// RK4 of the engine is a loop over `Spacecraft::step`, to the bit.
 #[test]
 fn rk4_is_the_library_to_the_bit() {
     let text_of = BEAM.replace(
@@ -32,19 +32,19 @@ fn rk4_is_the_library_to_the_bit() {
         mounts: vec![ModalMount { point: of.nodes[0].point(), contained: None }],
     };
     let craft =
-        FlexibleSpacecraft::new(&scenario.hub, &modes, &scenario.devices, &(vec![0], Vec::new()));
+        Spacecraft::flexible(&scenario.hub, &modes, &scenario.devices, &(vec![0], Vec::new()));
     let craft = craft.expect("valid");
-    let mut state = FlexibleState::at_rest_for(&craft);
-    state.rigid = scenario.initial.clone();
+    let mut state = State::at_rest_for(&craft);
+    state = scenario.initial.clone().with_modal(state.modal);
     let (samples, outcome) = ran(&scenario);
     let names = ["modes.eta_1", "modes.eta_dot_2", "omega_y", "rw.spin", "position_z"];
     let rows = columns(&samples, names);
-    let mut inputs = FlexibleInputs::none_for(&craft);
+    let mut inputs = Inputs::none_for(&craft);
     for (step, row) in (0_u32..).zip(&rows) {
-        let rigid = &state.rigid;
+        let rigid = &state;
         let expected = [
-            state.eta[0],
-            state.eta_dot[1],
+            state.modal.eta[0],
+            state.modal.eta_dot[1],
             rigid.omega.y,
             rigid.devices.0[0][0][1],
             rigid.r_b_n.z,
@@ -52,7 +52,7 @@ fn rk4_is_the_library_to_the_bit() {
         assert_eq!(*row, expected, "step {step}");
         let time = f64::from(step) * 1e-3;
         let phase = std::f64::consts::TAU * 3.0 * time;
-        inputs.rigid.motors.0[0][0] = 5e-3 * precess_dynamics::Angle::sin_cos(phase).0;
+        inputs.motors.0[0][0] = 5e-3 * precess_dynamics::Angle::sin_cos(phase).0;
         state = craft.step(&state, &inputs, 1e-3).expect("a step");
     }
     assert_eq!(rows.len(), 101);
@@ -177,16 +177,20 @@ fn contained_devices_are_subtracted() {
     let masses = [&with, &without].map(|scenario| scenario.spacecraft().expect("valid").mass());
     assert!((masses[0] - masses[1]).abs() < 1e-12 * masses[1], "{masses:?}");
     let accelerations = [(&a, &with), (&b, &without)].map(|(craft, scenario)| {
-        let mut state = FlexibleState::at_rest_for(craft);
-        state.rigid = scenario.initial.clone();
-        state.rigid.omega = Vector3::new(0.1, -0.2, 0.3);
-        let mut inputs = FlexibleInputs::none_for(craft);
-        inputs.mounts[0] = Wrench { force: Vector3::new(1.0, 2.0, 3.0), moment: Vector3::zeros() };
+        let mut state = State::at_rest_for(craft);
+        state = scenario.initial.clone().with_modal(state.modal);
+        state.omega = Vector3::new(0.1, -0.2, 0.3);
+        let mut inputs = Inputs::none_for(craft);
+        inputs.modal.mounts[0] =
+            Wrench { force: Vector3::new(1.0, 2.0, 3.0), moment: Vector3::zeros() };
         craft.accelerations(&state, &inputs).expect("regular")
     });
     let [a, b] = accelerations;
-    assert!((a.rigid.omega_dot - b.rigid.omega_dot).norm() < 1e-12, "{a:?}\n{b:?}");
-    assert!((a.eta_ddot[0] - b.eta_ddot[0]).abs() < 1e-12 * b.eta_ddot[0].abs().max(1.0));
+    assert!((a.omega_dot - b.omega_dot).norm() < 1e-12, "{a:?}\n{b:?}");
+    assert!(
+        (a.modal.eta_ddot[0] - b.modal.eta_ddot[0]).abs()
+            < 1e-12 * b.modal.eta_ddot[0].abs().max(1.0)
+    );
 }
 
 #[test]

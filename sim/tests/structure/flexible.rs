@@ -1,4 +1,4 @@
-//! The mounted force of an imbalanced wheel by the filter against runs of `FlexibleSpacecraft` from rest: a
+//! The mounted force of an imbalanced wheel by the filter against runs of `Spacecraft` from rest: a
 //! structure of two modes that carry momentum, off resonance and at it.
 
 use nalgebra::{Complex, DMatrix, DVector, Vector3};
@@ -8,15 +8,15 @@ use precess::structure::dynamic_mass::Motor;
 use precess::structure::mounted::mounted_force;
 use precess::structure::{Mode, Node, RigidMass, Structure};
 use precess_dynamics::{
-    BuiltIn, FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, ModalMount, ModalPoint,
-    Modes, ReactionWheel,
+    BuiltIn, FixedModes, Flexible, Inputs, ModalMount, ModalPoint, Modes, Quaternion,
+    ReactionWheel, Spacecraft, State,
 };
 
 use super::structure;
 use super::wheel::{I, hub, wheel};
 
 type Storage = FixedModes<2, 1>;
-type Craft = FlexibleSpacecraft<[ReactionWheel; 1], Storage>;
+type Craft = Spacecraft<[ReactionWheel; 1], Flexible<Storage>>;
 
 const RATE: f64 = 400.0;
 /// Static imbalance over mass, m.
@@ -86,7 +86,7 @@ fn craft(frequency: f64) -> Craft {
             contained: None,
         }],
     };
-    FlexibleSpacecraft::new(&hub(), &modes, &[wheel(OFFSET)], &[0]).expect("valid")
+    Spacecraft::flexible(&hub(), &modes, &[wheel(OFFSET)], &[0]).expect("valid")
 }
 
 /// The wheel at its mount.
@@ -124,9 +124,10 @@ impl Device {
 /// The acceleration of the mount at the wheel's rate, in a run from rest.
 fn measured(frequency: f64) -> DVector<Complex<f64>> {
     let craft = craft(frequency);
-    let mut state: FlexibleState<[ReactionWheel; 1], Storage> = FlexibleState::at_rest(&craft);
-    state.rigid.devices[0].spin = RATE;
-    let inputs = FlexibleInputs::none_for(&craft);
+    let mut state: State<[ReactionWheel; 1], Quaternion, Flexible<Storage>> =
+        State::at_rest_for(&craft);
+    state.devices[0].spin = RATE;
+    let inputs = Inputs::none_for(&craft);
     let step = std::f64::consts::TAU / RATE / f64::from(STEPS);
     let [at_mount, count] = [shapes(), shapes()];
     let mut sum = DVector::zeros(6);
@@ -134,10 +135,10 @@ fn measured(frequency: f64) -> DVector<Complex<f64>> {
     for k in 0..STEPS * (SETTLE + TURNS) {
         if k >= STEPS * SETTLE {
             let found = craft.accelerations(&state, &inputs).expect("regular");
-            let [a, alpha] = [found.rigid.r_b_n_ddot, found.rigid.omega_dot];
+            let [a, alpha] = [found.r_b_n_ddot, found.omega_dot];
             let bent = |part: usize| {
                 (0..count.len()).fold(Vector3::zeros(), |sum, mode| {
-                    sum + at_mount[mode][part] * found.eta_ddot[mode]
+                    sum + at_mount[mode][part] * found.modal.eta_ddot[mode]
                 })
             };
             let (linear, angular) = (a + alpha.cross(&mount()) + bent(0), alpha + bent(1));

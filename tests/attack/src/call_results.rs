@@ -75,8 +75,17 @@ tuples! {
 
 impl<T: Scalar> Numbers<T> for Ledger<T> {
     fn add_to(&self, all: &mut Vec<T>) {
-        let Self { kinetic, gravity, springs, kinetic_rate, power, residual, magnitude, momentum } =
-            *self;
+        let Self {
+            kinetic,
+            gravity,
+            springs,
+            kinetic_rate,
+            power,
+            residual,
+            magnitude,
+            momentum,
+            ..
+        } = *self;
         all.extend([kinetic, gravity, springs, kinetic_rate, residual, magnitude]);
         all.extend([power.total(), self.energy()]);
         power.add_to(all);

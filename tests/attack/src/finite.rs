@@ -71,6 +71,7 @@ fn with_parameters(list: &Placed<List>, dt: f64) -> Verdict {
             attitude,
             omega: state.omega,
             devices: state.devices.clone(),
+            modal: (),
         };
         let next = craft.step(&state, inputs, dt);
         let numbers = next.map(|next| {

@@ -169,6 +169,7 @@ fn with_attitude<A>(state: &State<List>, attitude: A) -> State<List, A> {
         attitude,
         omega: state.omega,
         devices: state.devices.clone(),
+        modal: (),
     }
 }
 

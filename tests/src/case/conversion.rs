@@ -32,6 +32,7 @@ pub fn converted<const N: usize, T: Scalar, U: Scalar>(
             gamma_i_ddot: scalar(joint.gamma_i_ddot),
             spin_dot: scalar(joint.spin_dot),
         }),
+        modal: (),
     }
 }
 
@@ -103,6 +104,7 @@ fn state<const N: usize, T: Scalar, U: Scalar>(state: &State<Set<N, T>>) -> Stat
             gamma_i_dot: scalar(joints.gamma_i_dot),
             spin: scalar(joints.spin),
         }),
+        modal: (),
     }
 }
 
@@ -130,6 +132,7 @@ fn inputs<const N: usize, T: Scalar, U: Scalar>(inputs: &Inputs<Set<N, T>>) -> I
             Gravity::Central { mu } => Gravity::Central { mu: scalar(mu) },
         },
         bodies: inputs.bodies.map(|bodies| bodies.map(|device| per_joint(device, wrench))),
+        modal: (),
     }
 }
 

@@ -157,7 +157,7 @@ fn device_and_its_two_halves_move_alike() {
         let whole = sample.case::<f64>();
         let half: [_; 4] =
             core::array::from_fn(|j| halved(&whole.devices[j], &whole.inputs.motors[j]));
-        let State { r_b_n, r_b_n_dot, attitude, omega, devices } = whole.state;
+        let State { r_b_n, r_b_n_dot, attitude, omega, devices, .. } = whole.state;
         let split: Case<8> = Case {
             hub: whole.hub,
             devices: core::array::from_fn(|j| half[j / 2].0),
@@ -167,6 +167,7 @@ fn device_and_its_two_halves_move_alike() {
                 attitude,
                 omega,
                 devices: core::array::from_fn(|j| devices[j / 2]),
+                modal: (),
             },
             inputs: Inputs {
                 force: whole.inputs.force,
@@ -181,6 +182,7 @@ fn device_and_its_two_halves_move_alike() {
                 r_b_n_ddot: found.r_b_n_ddot,
                 omega_dot: found.omega_dot,
                 devices: core::array::from_fn::<_, 4, _>(|j| found.devices[2 * j + parity]),
+                modal: (),
             };
             let (error, block) = worst(errors(&found, &expected));
             figures.add(error);

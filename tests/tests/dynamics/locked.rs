@@ -5,9 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "lanes")]
 use precess_dynamics::lanes::{AcrossDevices, Batch, ParameterBatch};
 use precess_dynamics::{
-    BuiltIn, FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Hub, Inputs, Isolated,
-    JointStates, ModalMount, ModalPoint, Mode, Modes, Platform, Scalar, Sgcmg, Spacecraft, State,
-    Suspension,
+    BuiltIn, FixedModes, Flexible, Hub, Inputs, Isolated, JointStates, ModalMount, ModalPoint,
+    Mode, Modes, Platform, Quaternion, Scalar, Sgcmg, Spacecraft, State, Suspension,
 };
 
 #[cfg(feature = "lanes")]
@@ -134,15 +133,16 @@ fn steps_on_a_flexible_structure_and_a_platform_keep_locked_coordinates() {
             contained: None,
         }],
     };
-    let craft = FlexibleSpacecraft::new(&hub(), &modes, &devices(), &[0; 5]).unwrap();
-    let mut given: FlexibleInputs<Set, Modal> = FlexibleInputs::none_for(&craft);
-    given.rigid = inputs();
-    let mut now: FlexibleState<Set, Modal> = FlexibleState::at_rest(&craft);
-    (now.rigid, now.eta[0]) = (state(), 1e-3);
+    let craft = Spacecraft::flexible(&hub(), &modes, &devices(), &[0; 5]).unwrap();
+    let mut given: Inputs<Set, Flexible<Modal>> = Inputs::none_for(&craft);
+    given = inputs().with_modal(given.modal);
+    let mut now: State<Set, Quaternion, Flexible<Modal>> = State::at_rest_for(&craft);
+    now = state().with_modal(now.modal);
+    now.modal.eta[0] = 1e-3;
     for _ in 0..STEPS {
         now = craft.step(&now, &given, DT).unwrap();
     }
-    kept("step of a structure", &now.rigid.devices);
+    kept("step of a structure", &now.devices);
 
     let platform = Platform::bare(10.0, Matrix3::identity());
     let isolated = Isolated { platform, suspension: Suspension::none(), carried: devices() };

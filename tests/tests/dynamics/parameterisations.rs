@@ -30,7 +30,7 @@ fn run<A: Attitude<Wide>>(attitude: A, steps: u32) -> State<Set<1, Wide>, A> {
     let State { r_b_n, r_b_n_dot, devices, .. } = case.state;
     let omega = Vector3::new(1.0, 0.5, -0.25).map(Wide::from_f64);
     let dt = Wide::from_f64(f64::from(steps)).recip();
-    (0..steps).fold(State { r_b_n, r_b_n_dot, attitude, omega, devices }, |state, _| {
+    (0..steps).fold(State { r_b_n, r_b_n_dot, attitude, omega, devices, modal: () }, |state, _| {
         spacecraft.step(&state, &case.inputs, dt).expect("finite state")
     })
 }

@@ -94,6 +94,7 @@ fn velocities_are_the_derivatives_of_positions() {
                     gamma_i_ddot: wide(0.0),
                     spin_dot: wide(0.0),
                 }; N],
+                modal: (),
             };
             let now = case.snapshot();
             let (before, after) =

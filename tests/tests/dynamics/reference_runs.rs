@@ -45,6 +45,7 @@ fn from_numbers<const N: usize>(numbers: &[Wide]) -> State<Set<N, Wide>> {
                 core::array::from_fn(|k| numbers[13 + 6 * j + k]);
             Joints { gamma_o, gamma_i, theta, gamma_o_dot, gamma_i_dot, spin }
         }),
+        modal: (),
     }
 }
 

@@ -83,9 +83,10 @@ fn list<T: Scalar>(v: &Vector3<T>) -> Vec<f64> {
 /// Energy, momenta, centre of mass, and the state after a step, in either parameterisation.
 fn results<T: Scalar>(case: &Case<1, T>) -> Result<Vec<Named>, SolveError<T>> {
     let spacecraft = Spacecraft::new(&case.hub, &case.devices).expect("Table 1 is valid");
-    let State { r_b_n, r_b_n_dot, attitude, omega, devices } = case.state;
+    let State { r_b_n, r_b_n_dot, attitude, omega, devices, .. } = case.state;
     let attitude = Mrp::from(attitude);
-    let in_mrps: State<Set<1, T>, Mrp<T>> = State { r_b_n, r_b_n_dot, attitude, omega, devices };
+    let in_mrps: State<Set<1, T>, Mrp<T>> =
+        State { r_b_n, r_b_n_dot, attitude, omega, devices, modal: () };
 
     let momentum = spacecraft.momentum(&case.state, About::CentreOfMass)?;
     let of_mrps = spacecraft.momentum(&in_mrps, About::InertialOrigin)?;

@@ -120,6 +120,7 @@ impl Sample {
             attitude: Mrp(self.mrp.into()),
             omega: self.omega.into(),
             devices: core::array::from_fn(joints),
+            modal: (),
         }
     }
 

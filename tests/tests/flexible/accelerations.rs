@@ -11,9 +11,9 @@ use crate::reference::reference;
 /// `a_B`, omega', eta'', q'' as one list.
 pub(crate) fn listed<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
     let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
-    let rigid = &found.rigid;
+    let rigid = &found;
     let hub = rigid.r_b_n_ddot.iter().chain(&rigid.omega_dot).copied();
-    hub.chain(found.eta_ddot.iter().copied()).chain(rigid.devices.values()).collect()
+    hub.chain(found.modal.eta_ddot.iter().copied()).chain(rigid.devices.values()).collect()
 }
 
 /// Largest difference within each block, in units of its largest magnitude; the worst.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointStates};
-use precess_dynamics::{About, Devices, FlexibleInputs, Gravity, HubMode, Wrench};
+use precess_dynamics::{About, Devices, Gravity, HubMode, Inputs, Wrench};
 use precess_tests::bounds::{ORDER, POWER_EPSILONS};
 
 use crate::craft::{Case, SEED, Size};
@@ -10,7 +10,7 @@ use crate::craft::{Case, SEED, Size};
 /// Linear momentum, angular momentum about the origin, energy of everything.
 fn conserved<D: Devices<Scalar = f64>>(case: &Case<D>) -> (Vector3<f64>, Vector3<f64>, f64) {
     let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
-    let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger").whole;
+    let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
     (ledger.momentum.linear, ledger.momentum.angular, ledger.energy())
 }
 
@@ -29,14 +29,14 @@ fn closed(seed: u64) -> Case {
     for joint in case.devices.3.passive.values_mut() {
         joint.viscous = 0.0;
     }
-    case.craft = precess_dynamics::FlexibleSpacecraft::new(
+    case.craft = precess_dynamics::Spacecraft::flexible(
         &case.hub,
         &case.modes,
         &case.devices,
         &crate::craft::ON_MOUNT,
     )
     .expect("valid");
-    case.inputs = FlexibleInputs::none_for(&case.craft);
+    case.inputs = Inputs::none_for(&case.craft);
     case
 }
 
@@ -76,26 +76,26 @@ fn momentum_is_conserved_pointwise() {
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
         let at = |h: f64| {
             let mut moved = case.clone();
-            let rigid = &mut moved.state.rigid;
+            let rigid = &mut moved.state;
             let bn = precess_dynamics::Attitude::dcm(&rigid.attitude);
-            let a = bn.transpose() * found.rigid.r_b_n_ddot;
+            let a = bn.transpose() * found.r_b_n_ddot;
             rigid.r_b_n += rigid.r_b_n_dot * h + a * (0.5 * h * h);
             rigid.r_b_n_dot += a * h;
-            let w = rigid.omega + found.rigid.omega_dot * (0.5 * h);
+            let w = rigid.omega + found.omega_dot * (0.5 * h);
             let rate = precess_dynamics::Attitude::rate(&rigid.attitude, &w);
             // A step of half the size with the rate in the middle: exact to second order.
             let middle = precess_dynamics::Attitude::advanced(&rigid.attitude, &[(0.5 * h, rate)]);
             let rate = precess_dynamics::Attitude::rate(&middle, &w);
             rigid.attitude = precess_dynamics::Attitude::advanced(&rigid.attitude, &[(h, rate)]);
-            rigid.omega += found.rigid.omega_dot * h;
-            let joints = rigid.devices.states_mut().zip(found.rigid.devices.values());
+            rigid.omega += found.omega_dot * h;
+            let joints = rigid.devices.states_mut().zip(found.devices.values());
             for ([q, rate], a) in joints {
                 *q += *rate * h + 0.5 * a * h * h;
                 *rate += a * h;
             }
-            for (k, a) in found.eta_ddot.iter().enumerate() {
-                moved.state.eta[k] += moved.state.eta_dot[k] * h + 0.5 * a * h * h;
-                moved.state.eta_dot[k] += a * h;
+            for (k, a) in found.modal.eta_ddot.iter().enumerate() {
+                moved.state.modal.eta[k] += moved.state.modal.eta_dot[k] * h + 0.5 * a * h * h;
+                moved.state.modal.eta_dot[k] += a * h;
             }
             conserved(&moved)
         };
@@ -119,24 +119,24 @@ fn power_balances_to_rounding_with_everything_on() {
         let modes = usize::try_from(1 + seed % 40).unwrap();
         let size = Size { modes, contained: seed % 2 == 1, rotation: 0.2, free: false };
         let mut case = Case::new(seed, size);
-        case.inputs.rigid.gravity = Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0));
-        let mut bodies = precess_dynamics::Inputs::no_wrenches_for(case.craft.rigid());
+        case.inputs.gravity = Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0));
+        let mut bodies = Inputs::no_wrenches_for(&case.craft);
         let pull =
             Wrench { force: Vector3::new(0.3, 0.1, -0.2), moment: Vector3::new(0.1, 0.2, 0.3) };
         bodies.values_mut().for_each(|wrench| *wrench = pull);
-        case.inputs.rigid.bodies = Some(bodies);
+        case.inputs.bodies = Some(bodies);
         if seed % 3 == 0 {
-            case.inputs.rigid.hub = HubMode::Prescribed {
+            case.inputs.hub = HubMode::Prescribed {
                 r_b_n_ddot: Vector3::new(0.2, -0.1, 0.3),
                 omega_dot: Vector3::new(0.1, 0.3, -0.2),
             };
         }
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
         let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
-        let balance = ledger.whole.residual.abs() / ledger.whole.magnitude;
+        let balance = ledger.residual.abs() / ledger.magnitude;
         worst = worst.max(balance / f64::EPSILON);
         assert!(balance <= POWER_EPSILONS * f64::EPSILON, "seed {seed:#x}: {balance:e}");
-        assert!(ledger.damping <= 0.0 && ledger.strain > 0.0);
+        assert!(ledger.modal.damping <= 0.0 && ledger.modal.strain > 0.0);
     }
     println!("worst {worst:.1} eps");
 }
@@ -150,7 +150,7 @@ fn linear_momentum_is_mass_times_velocity_of_the_centre() {
             Size { modes: 7, contained: seed % 2 == 1, rotation: 0.3, free: false },
         );
         let centre = case.craft.centre_of_mass(&case.state).unwrap();
-        let rigid = &case.state.rigid;
+        let rigid = &case.state;
         let bn = precess_dynamics::Attitude::dcm(&rigid.attitude);
         let relative = rigid.omega.cross(&centre.c) + centre.c_prime;
         let velocity = rigid.r_b_n_dot + bn.transpose() * relative;

@@ -8,9 +8,9 @@ use nalgebra::{DVector, Matrix3, Quaternion as Hamilton, UnitQuaternion, Vector3
 use precess_dynamics::kind::{Each, JointInfo, JointStates, Kind};
 use precess_dynamics::set::OnMount;
 use precess_dynamics::{
-    ContainedBody, DeviceSet, Devices, Dgvscmg, FlexibleInputs, FlexibleSpacecraft, FlexibleState,
-    HingedPanel, Hub, ImbalanceModel, ListedModes, ModalMount, ModalPoint, Modes, Passive,
-    Quaternion, ReactionWheel, SloshMass, Wrench,
+    ContainedBody, DeviceSet, Devices, Dgvscmg, Flexible, HingedPanel, Hub, ImbalanceModel, Inputs,
+    ListedModes, ModalMount, ModalPoint, Modes, Passive, Quaternion, ReactionWheel, SloshMass,
+    Spacecraft, State, Wrench,
 };
 use precess_tests::random::Random;
 
@@ -47,10 +47,10 @@ pub(crate) struct Case<D: Devices<Scalar = f64> = Mixed> {
     pub(crate) hub: Hub,
     pub(crate) modes: Modes<ListedModes>,
     pub(crate) devices: D,
-    pub(crate) craft: FlexibleSpacecraft<D, ListedModes>,
+    pub(crate) craft: Spacecraft<D, Flexible<ListedModes>>,
     pub(crate) chains: Vec<Chain>,
-    pub(crate) state: FlexibleState<D, ListedModes>,
-    pub(crate) inputs: FlexibleInputs<D, ListedModes>,
+    pub(crate) state: State<D, Quaternion, Flexible<ListedModes>>,
+    pub(crate) inputs: Inputs<D, Flexible<ListedModes>>,
 }
 
 impl Clone for Case {
@@ -86,15 +86,15 @@ impl Case {
         let devices: Mixed =
             (device(random, 6.0), device(random, 4.0), device(random, 20.0), device(random, 10.0));
         let (hub, modes) = structure(random, size, &[6.0, 14.0, 20.0]);
-        let craft = FlexibleSpacecraft::new(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
+        let craft = Spacecraft::flexible(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
         let chains = vec![
             chain(&devices.0, ON_MOUNT.0),
             chain(&devices.1, ON_MOUNT.1),
             chain(&devices.2, ON_MOUNT.2),
             chain(&devices.3, ON_MOUNT.3),
         ];
-        let mut state = FlexibleState::at_rest(&craft);
-        let mut inputs = FlexibleInputs::none_for(&craft);
+        let mut state = State::at_rest_for(&craft);
+        let mut inputs = Inputs::none_for(&craft);
         draw_motion(random, size, &mut state);
         draw_inputs(random, &mut inputs);
         Self { seed, hub, modes, devices, craft, chains, state, inputs }
@@ -105,20 +105,19 @@ impl Case {
 pub(crate) fn draw_motion<D: Devices<Scalar = f64>>(
     random: &mut Random,
     size: Size,
-    state: &mut FlexibleState<D, ListedModes>,
+    state: &mut State<D, Quaternion, Flexible<ListedModes>>,
 ) {
-    let rigid = &mut state.rigid;
-    rigid.r_b_n = random.vector(10.0);
-    rigid.r_b_n_dot = random.vector(3.0);
-    rigid.omega = random.vector(0.8);
+    state.r_b_n = random.vector(10.0);
+    state.r_b_n_dot = random.vector(3.0);
+    state.omega = random.vector(0.8);
     let q = rotation(random).into_inner();
-    rigid.attitude = Quaternion { q0: q.w, q1: q.i, q2: q.j, q3: q.k };
-    for [coordinate, rate] in rigid.devices.states_mut() {
+    state.attitude = Quaternion { q0: q.w, q1: q.i, q2: q.j, q3: q.k };
+    for [coordinate, rate] in state.devices.states_mut() {
         (*coordinate, *rate) = (random.within(-2.0, 2.0), random.within(-4.0, 4.0));
     }
     // Shapes of about 0.1/sqrt(kg) and 0.1 rad/(m sqrt(kg)): so many times the rotation.
     let eta = 10.0 * size.rotation;
-    for (eta_, rate) in state.eta.iter_mut().zip(&mut state.eta_dot) {
+    for (eta_, rate) in state.modal.eta.iter_mut().zip(&mut state.modal.eta_dot) {
         (*eta_, *rate) = (random.within(-eta, eta), random.within(-20.0 * eta, 20.0 * eta));
     }
 }
@@ -126,13 +125,13 @@ pub(crate) fn draw_motion<D: Devices<Scalar = f64>>(
 /// Any forces.
 pub(crate) fn draw_inputs<D: Devices<Scalar = f64>>(
     random: &mut Random,
-    inputs: &mut FlexibleInputs<D, ListedModes>,
+    inputs: &mut Inputs<D, Flexible<ListedModes>>,
 ) {
-    inputs.rigid.force = random.vector(20.0);
-    inputs.rigid.torque_b = random.vector(5.0);
-    inputs.rigid.motors.values_mut().for_each(|motor| *motor = random.within(-1.0, 1.0));
-    inputs.modal.iter_mut().for_each(|force| *force = random.within(-1.0, 1.0));
-    for wrench in &mut inputs.mounts {
+    inputs.force = random.vector(20.0);
+    inputs.torque_b = random.vector(5.0);
+    inputs.motors.values_mut().for_each(|motor| *motor = random.within(-1.0, 1.0));
+    inputs.modal.forces.iter_mut().for_each(|force| *force = random.within(-1.0, 1.0));
+    for wrench in &mut inputs.modal.mounts {
         *wrench = Wrench { force: random.vector(2.0), moment: random.vector(1.0) };
     }
 }

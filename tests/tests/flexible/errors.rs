@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    FlexibleSpacecraft, Isolated, ModalQuantity, ModesError, Platform, Quantity, ReactionWheel,
-    SolveError, Suspension, platform,
+    Isolated, ModalQuantity, ModesError, Platform, Quantity, ReactionWheel, SolveError, Spacecraft,
+    Suspension, platform,
 };
 
 use crate::craft::{Case, ON_MOUNT, SEED, Size};
@@ -16,7 +16,7 @@ fn case() -> Case {
 fn rejected(change: impl Fn(&mut Case)) -> ModesError {
     let mut case = case();
     change(&mut case);
-    FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect_err("rejected")
+    Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect_err("rejected")
 }
 
 #[test]
@@ -75,31 +75,34 @@ fn states_and_inputs_are_rejected_by_name() {
     };
     let not_finite = |what| SolveError::NotFinite { what, value: BAD };
     assert_eq!(
-        rejected(&|case| case.state.eta[3] = BAD),
+        rejected(&|case| case.state.modal.eta[3] = BAD),
         not_finite(Quantity::ModalCoordinate { mode: 3 })
     );
     assert_eq!(
-        rejected(&|case| case.state.eta_dot[0] = BAD),
+        rejected(&|case| case.state.modal.eta_dot[0] = BAD),
         not_finite(Quantity::ModalRate { mode: 0 })
     );
     assert_eq!(
-        rejected(&|case| case.inputs.modal[1] = BAD),
+        rejected(&|case| case.inputs.modal.forces[1] = BAD),
         not_finite(Quantity::ModalForce { mode: 1 })
     );
     assert_eq!(
-        rejected(&|case| case.inputs.mounts[2].moment.y = BAD),
+        rejected(&|case| case.inputs.modal.mounts[2].moment.y = BAD),
         not_finite(Quantity::MountWrench { mount: 2 })
     );
-    assert_eq!(rejected(&|case| case.state.rigid.omega.x = BAD), not_finite(Quantity::BodyRate));
+    assert_eq!(rejected(&|case| case.state.omega.x = BAD), not_finite(Quantity::BodyRate));
     assert_eq!(
-        rejected(&|case| case.state.eta.push(0.0)),
+        rejected(&|case| case.state.modal.eta.push(0.0)),
         SolveError::ModalCount { expected: 4, found: 5 }
     );
     assert_eq!(
-        rejected(&|case| case.inputs.mounts.clear()),
+        rejected(&|case| case.inputs.modal.mounts.clear()),
         SolveError::ModalCount { expected: 3, found: 0 }
     );
-    assert!(matches!(rejected(&|case| case.state.eta_dot[0] = 1e200), SolveError::Overflow { .. }));
+    assert!(matches!(
+        rejected(&|case| case.state.modal.eta_dot[0] = 1e200),
+        SolveError::Overflow { .. }
+    ));
 }
 
 /// Subtracted bodies far heavier than what the modes move, and than the devices in their place.
@@ -109,7 +112,7 @@ fn modes_without_mass_are_rejected() {
     for mount in &mut case.modes.mounts {
         mount.contained.as_mut().expect("a body").mass = 100.0;
     }
-    let craft = FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
+    let craft = Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
     let found = craft.accelerations(&case.state, &case.inputs);
     let Err(SolveError::ModalMass { pivot, bound }) = found else { panic!("{found:?}") };
     assert!(pivot <= bound);
@@ -119,7 +122,7 @@ fn modes_without_mass_are_rejected() {
 fn springs_of_joints_bound_the_step() {
     let mut case = case();
     case.devices.1.passive.wheel.stiffness = 1e6;
-    case.craft = FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
+    case.craft = Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
     let found = case.craft.step(&case.state, &case.inputs, 0.02);
     assert!(
         matches!(found, Err(SolveError::Unstable { device: 1, joint: "wheel", .. })),
@@ -137,7 +140,7 @@ fn a_platform_on_a_mount_that_is_not_there_is_rejected() {
     let isolated = Isolated { platform, suspension, carried: [wheel] };
     let (devices, carried) = ((isolated, wheel), [9]);
     let on_mount = |platform, wheel| (platform::Data { platform, carried }, wheel);
-    let built = |on_mount| FlexibleSpacecraft::new(&case.hub, &case.modes, &devices, &on_mount);
+    let built = |on_mount| Spacecraft::flexible(&case.hub, &case.modes, &devices, &on_mount);
     assert!(built(on_mount(0, 1)).is_ok());
     let rejected = |device| ModesError::NoMount { device, mount: 3, mounts: 3 };
     assert_eq!(built(on_mount(3, 1)).expect_err("rejected"), rejected(0));

@@ -48,7 +48,7 @@ pub(crate) fn forces<D: Devices<Scalar = f64>>(case: &Case<D>, mu: DD, x: &[DD])
 
 /// The place of B from the centre, expressed in B.
 fn place<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vector<DD> {
-    tensor(&case.state.rigid.attitude.dcm()) * vector(&case.state.rigid.r_b_n)
+    tensor(&case.state.attitude.dcm()) * vector(&case.state.r_b_n)
 }
 
 fn potential<D: Devices<Scalar = f64>>(case: &Case<D>, mu: DD, rho: Vector<DD>, x: &[DD]) -> DD {
@@ -81,8 +81,8 @@ fn potential<D: Devices<Scalar = f64>>(case: &Case<D>, mu: DD, rho: Vector<DD>, 
 fn case(seed: u64, modes: usize) -> Case {
     let size = Size { modes, contained: seed % 2 == 1, rotation: 0.3, free: false };
     let mut case = Case::new(seed, size);
-    case.state.rigid.r_b_n = Vector3::new(6.0, -5.0, 7.0);
-    case.inputs.rigid.gravity = Gravity::Central { mu: MU };
+    case.state.r_b_n = Vector3::new(6.0, -5.0, 7.0);
+    case.inputs.gravity = Gravity::Central { mu: MU };
     case
 }
 
@@ -96,7 +96,7 @@ fn accelerations_in_a_central_field_are_those_of_the_potential() {
         backward = backward.max(expected.backward_error(&found));
         // The field matters.
         let mut without = case.clone();
-        without.inputs.rigid.gravity = Gravity::None;
+        without.inputs.gravity = Gravity::None;
         assert!(block_error(&listed(&without), &found, modes) > 0.1);
     }
     println!("{worst:.1e}, {backward:.1e}");
@@ -112,27 +112,27 @@ fn power_balances_in_a_central_field() {
     for seed in SEED + 710..SEED + 722 {
         let mut case = case(seed, usize::try_from(1 + seed % 40).unwrap());
         if seed % 3 == 0 {
-            case.inputs.rigid.hub = HubMode::Prescribed {
+            case.inputs.hub = HubMode::Prescribed {
                 r_b_n_ddot: Vector3::new(0.2, -0.1, 0.3),
                 omega_dot: Vector3::new(0.1, 0.3, -0.2),
             };
         }
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
-        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger").whole;
+        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
         let balance = ledger.residual.abs() / ledger.magnitude;
         worst = worst.max(balance / f64::EPSILON);
         assert!(balance <= POWER_EPSILONS * f64::EPSILON, "seed {seed:#x}: {balance:e}");
-        let joints = precess_dynamics::kind::JointStates::states(&case.state.rigid.devices);
-        let x = case.state.eta.iter().copied().chain(joints.map(|[q, _]| q)).map(dd);
+        let joints = precess_dynamics::kind::JointStates::states(&case.state.devices);
+        let x = case.state.modal.eta.iter().copied().chain(joints.map(|[q, _]| q)).map(dd);
         let x: Vec<DD> = x.collect();
         let expected = potential(&case, dd(MU), place(&case), &x).to_f64();
         assert!((ledger.gravity - expected).abs() <= LIMITS * expected.abs(), "seed {seed:#x}");
         // And its power is the derivative along the motion.
         let of_field = forces(&case, dd(MU), &x);
-        let rigid = &case.state.rigid;
+        let rigid = &case.state;
         let v = rigid.attitude.dcm() * rigid.r_b_n_dot;
         let joints = precess_dynamics::kind::JointStates::states(&rigid.devices);
-        let rates = case.state.eta_dot.iter().copied().chain(joints.map(|[_, rate]| rate));
+        let rates = case.state.modal.eta_dot.iter().copied().chain(joints.map(|[_, rate]| rate));
         let hub = dot(of_field.force, vector(&v)) + dot(of_field.torque, vector(&rigid.omega));
         let pairs = of_field.generalised.iter().zip(rates);
         let terms: Vec<DD> = pairs.map(|(force, rate)| *force * dd(rate)).collect();
@@ -149,8 +149,8 @@ fn angular_momentum_about_the_centre_is_conserved() {
     for seed in [SEED + 750, SEED + 751] {
         let drift = |steps: u32| {
             let mut case = case(seed, 4);
-            case.inputs = precess_dynamics::FlexibleInputs::none_for(&case.craft);
-            case.inputs.rigid.gravity = Gravity::Central { mu: MU };
+            case.inputs = precess_dynamics::Inputs::none_for(&case.craft);
+            case.inputs.gravity = Gravity::Central { mu: MU };
             let about = precess_dynamics::About::InertialOrigin;
             let angular = |case: &Case| case.craft.momentum(&case.state, about).unwrap().angular;
             let before = angular(&case);
@@ -170,7 +170,7 @@ fn angular_momentum_about_the_centre_is_conserved() {
 #[test]
 fn at_the_centre_of_the_field_is_an_error() {
     let mut case = case(SEED + 760, 3);
-    case.state.rigid.r_b_n = Vector3::zeros();
+    case.state.r_b_n = Vector3::zeros();
     let rejected = case.craft.accelerations(&case.state, &case.inputs);
     assert_eq!(rejected, Err(precess_dynamics::SolveError::AtCentre));
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector, Matrix3, Vector3};
 use precess_dynamics::{
-    About, Dgvscmg, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Hub, HubMode, ListedModes,
-    ModalMount, ModalPoint, Mode, Modes, SloshMass, SolveError,
+    About, Dgvscmg, Flexible, Hub, HubMode, Inputs, ListedModes, ModalMount, ModalPoint, Mode,
+    Modes, Quaternion, SloshMass, SolveError, Spacecraft, State,
 };
 use precess_tests::bounds::LIMITS;
 use precess_tests::random::Random;
@@ -19,7 +19,7 @@ const TINY: f64 = f64::EPSILON * f64::EPSILON;
 
 /// A cantilever along x from B that bends in z, a point mass at its tip.
 pub(crate) struct Cantilever {
-    craft: FlexibleSpacecraft<SloshMass, ListedModes>,
+    craft: Spacecraft<SloshMass, Flexible<ListedModes>>,
     tip: ModalPoint<ListedModes>,
     frequencies: Vec<f64>,
     /// Compliance of the modes left out at the tip, if it is part of the model, m/N.
@@ -101,7 +101,7 @@ impl Cantilever {
             count = modes.add_residual(&mut [], &compliance).expect("valid");
             assert_eq!(count, 1);
         }
-        let craft = FlexibleSpacecraft::with_residual(&hub, &modes, count, &device, &0);
+        let craft = Spacecraft::flexible_with_residual(&hub, &modes, count, &device, &0);
         let tip = modes.mounts[0].point.clone();
         let frequencies = modes.frequencies;
         Self { craft: craft.expect("valid"), tip, frequencies, residual }
@@ -109,16 +109,18 @@ impl Cantilever {
 
     /// Acceleration of the modes for coordinates and a force at the tip, the mass held.
     fn acceleration(&self, eta: Vec<f64>, force: f64, hub: HubMode) -> DVector<f64> {
-        let mut state = FlexibleState::at_rest(&self.craft);
-        state.eta = eta;
-        let mut inputs = FlexibleInputs::none_for(&self.craft);
-        inputs.rigid.hub = hub;
-        for mode in precess_dynamics::Each::values_mut(&mut inputs.rigid.modes) {
+        let mut state = State::at_rest_for(&self.craft);
+        state.modal.eta = eta;
+        let mut inputs = Inputs::none_for(&self.craft);
+        inputs.hub = hub;
+        for mode in precess_dynamics::Each::values_mut(&mut inputs.modes) {
             *mode = Mode::Locked;
         }
-        inputs.mounts[0].force.z = force;
-        let state: FlexibleState<SloshMass, ListedModes> = state;
-        DVector::from_vec(self.craft.accelerations(&state, &inputs).expect("a solution").eta_ddot)
+        inputs.modal.mounts[0].force.z = force;
+        let state: State<SloshMass, Quaternion, Flexible<ListedModes>> = state;
+        DVector::from_vec(
+            self.craft.accelerations(&state, &inputs).expect("a solution").modal.eta_ddot,
+        )
     }
 
     /// `-M^-1 K` of the modes, from the solver's accelerations, which are linear for deformations
@@ -196,10 +198,10 @@ fn truncated_cantilever_converges_to_the_beam_with_the_third_power_of_the_modes(
 fn longest_step_is_that_of_the_fastest_vibration() {
     let cantilever = Cantilever::new(4);
     let longest = |hub| {
-        let mut inputs = FlexibleInputs::none_for(&cantilever.craft);
-        inputs.rigid.hub = hub;
-        let state: FlexibleState<SloshMass, ListedModes> =
-            FlexibleState::at_rest(&cantilever.craft);
+        let mut inputs = Inputs::none_for(&cantilever.craft);
+        inputs.hub = hub;
+        let state: State<SloshMass, Quaternion, Flexible<ListedModes>> =
+            State::at_rest_for(&cantilever.craft);
         match cantilever.craft.step(&state, &inputs, 1e3) {
             Err(SolveError::UnstableModes { dt: 1e3, longest }) => longest,
             found => panic!("{found:?}"),
@@ -217,15 +219,15 @@ fn longest_step_is_that_of_the_fastest_vibration() {
     assert!(held < free && held < fastest, "{held} {free} {fastest}");
 
     // Just below, vibration on a free base stays; its energy is what damping leaves.
-    let mut state: FlexibleState<SloshMass, ListedModes> =
-        FlexibleState::at_rest(&cantilever.craft);
-    state.eta.fill(1e-6);
-    let inputs = FlexibleInputs::none_for(&cantilever.craft);
+    let mut state: State<SloshMass, Quaternion, Flexible<ListedModes>> =
+        State::at_rest_for(&cantilever.craft);
+    state.modal.eta.fill(1e-6);
+    let inputs = Inputs::none_for(&cantilever.craft);
     let dt = 0.999 * longest(HubMode::Free);
     for _ in 0..3000 {
         state = cantilever.craft.step(&state, &inputs, dt).unwrap();
     }
-    assert!(state.eta.iter().all(|eta| eta.abs() < 1e-5), "{:?}", state.eta);
+    assert!(state.modal.eta.iter().all(|eta| eta.abs() < 1e-5), "{:?}", state.modal.eta);
 }
 
 /// Shapes that are orthogonal to the rigid motions have no momentum integrals.
@@ -234,37 +236,38 @@ fn modes_of_a_free_structure_carry_no_momentum() {
     let random = &mut Random::new(SEED + 500);
     let size = Size { modes: 12, contained: false, rotation: 0.1, free: true };
     let (hub, modes) = structure(random, size, &[1.0]);
-    let craft = FlexibleSpacecraft::new(&hub, &modes, &[] as &[Dgvscmg; 0], &[]).expect("valid");
-    let mut state: FlexibleState<[Dgvscmg; 0], ListedModes> = FlexibleState::at_rest(&craft);
-    for (eta, rate) in state.eta.iter_mut().zip(&mut state.eta_dot) {
+    let craft = Spacecraft::flexible(&hub, &modes, &[] as &[Dgvscmg; 0], &[]).expect("valid");
+    let mut state: State<[Dgvscmg; 0], Quaternion, Flexible<ListedModes>> =
+        State::at_rest_for(&craft);
+    for (eta, rate) in state.modal.eta.iter_mut().zip(&mut state.modal.eta_dot) {
         (*eta, *rate) = (random.within(-1.0, 1.0), random.within(-5.0, 5.0));
     }
     // Integrals of shapes of some 0.1/sqrt(kg) over 400 kg are rounding of 40 sqrt(kg).
     let momentum = craft.momentum(&state, About::CentreOfMass).unwrap();
     let (linear, angular) = (momentum.linear.norm(), momentum.angular.norm());
     assert!(linear <= 1e-12 && angular <= 1e-12, "{linear:e} {angular:e}");
-    let found = craft.accelerations(&state, &FlexibleInputs::none_for(&craft)).unwrap();
-    let hub = found.rigid.r_b_n_ddot.norm() + found.rigid.omega_dot.norm();
-    let largest = found.eta_ddot.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let found = craft.accelerations(&state, &Inputs::none_for(&craft)).unwrap();
+    let hub = found.r_b_n_ddot.norm() + found.omega_dot.norm();
+    let largest = found.modal.eta_ddot.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     assert!(hub <= 1e-14 * largest, "{hub:e} of {largest:e}");
-    for (k, acceleration) in found.eta_ddot.iter().enumerate() {
+    for (k, acceleration) in found.modal.eta_ddot.iter().enumerate() {
         let (w, zeta) = (modes.frequencies[k], modes.damping[k]);
-        let own = -w * w * state.eta[k] - 2.0 * zeta * w * state.eta_dot[k];
+        let own = -w * w * state.modal.eta[k] - 2.0 * zeta * w * state.modal.eta_dot[k];
         assert!((acceleration - own).abs() <= 1e-13 * largest);
     }
     // And it oscillates as exp(lambda t), to the fifth power of the step.
-    let next = craft.step(&state, &FlexibleInputs::none_for(&craft), 1e-4).unwrap();
+    let next = craft.step(&state, &Inputs::none_for(&craft), 1e-4).unwrap();
     for k in 0..12 {
         let (w, zeta) = (modes.frequencies[k], modes.damping[k]);
         let root = Complex::new(-zeta * w, w * (1.0 - zeta * zeta).sqrt());
-        let (eta, rate) = (state.eta[k], state.eta_dot[k]);
+        let (eta, rate) = (state.modal.eta[k], state.modal.eta_dot[k]);
         let b = Complex::new(0.5 * eta, 0.0)
             + Complex::new(0.0, -0.5) * Complex::new((rate + zeta * w * eta) / root.im, 0.0);
         let over = root * 1e-4;
         let turn = Complex::new(libm::cos(over.im), libm::sin(over.im)) * libm::exp(over.re);
         let expected = 2.0 * (b * turn).re;
-        assert!((next.eta[k] - expected).abs() < 1e-11, "{} {expected}", next.eta[k]);
+        assert!((next.modal.eta[k] - expected).abs() < 1e-11, "{} {expected}", next.modal.eta[k]);
     }
-    let too_long = craft.step(&state, &FlexibleInputs::none_for(&craft), 1.0);
+    let too_long = craft.step(&state, &Inputs::none_for(&craft), 1.0);
     assert!(matches!(too_long, Err(SolveError::UnstableModes { .. })));
 }

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointStates, Kind};
 use precess_dynamics::{
-    BuiltInKind, FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Gravity, Hub,
-    HubMode, Inputs, ListedModes, LoadAxes, ModalMount, ModalPoint, Mode, Modes, Quaternion,
-    Spacecraft, State,
+    BuiltInKind, FixedModes, Flexible, Gravity, Hub, HubMode, Inputs, ListedModes, LoadAxes,
+    ModalInputs, ModalMount, ModalPoint, ModalState, Mode, Modes, Quaternion, Rigid, Spacecraft,
+    State,
 };
 use precess_tests::blocks::largest;
 use precess_tests::bounds::LIMITS;
@@ -37,8 +37,7 @@ impl EachKind<f64> for AsRigid {
         for devices in [[device; 2], drawn] {
             let rigid = Spacecraft::new(&hub(), &devices).expect("valid");
             let modes = no_modes(random.vector(1.0));
-            let bending =
-                FlexibleSpacecraft::new(&hub(), &modes, &devices, &[0; 2]).expect("valid");
+            let bending = Spacecraft::flexible(&hub(), &modes, &devices, &[0; 2]).expect("valid");
             let mut state: State<[K; 2], Quaternion> = State::at_rest();
             state.r_b_n_dot = random.vector(3.0);
             state.omega = random.vector(0.7);
@@ -62,7 +61,7 @@ impl EachKind<f64> for AsRigid {
 }
 
 /// A kind's spacecraft on a rigid hub, and on a structure without modes.
-type Both<'a, K> = (&'a Spacecraft<[K; 2]>, &'a FlexibleSpacecraft<[K; 2], FixedModes<0, 1>>);
+type Both<'a, K> = (&'a Spacecraft<[K; 2]>, &'a Spacecraft<[K; 2], Flexible<FixedModes<0, 1>>>);
 
 impl AsRigid {
     fn compare<K: Kind<Scalar = f64>>(
@@ -82,16 +81,16 @@ impl AsRigid {
                 },
             ] {
                 inputs.hub = mode;
-                let mut both = FlexibleState { rigid: state, eta: [], eta_dot: [] };
-                let mut given = FlexibleInputs::none_for(bending);
-                given.rigid = inputs;
+                let mut both = state.with_modal(ModalState { eta: [], eta_dot: [] });
+                let given = inputs.with_modal(Inputs::none_for(bending).modal);
                 let list = |a: &precess_dynamics::Accelerations<[K; 2]>| -> Vec<f64> {
                     let hub = a.r_b_n_ddot.iter().chain(&a.omega_dot).copied();
                     hub.chain(a.devices.values()).collect()
                 };
                 let expected = list(&rigid.accelerations(&state, &inputs).expect(name));
                 let accelerations = bending.accelerations(&both, &given).expect(name);
-                let found = list(&accelerations.rigid);
+                let of_hub = accelerations.with_modal(());
+                let found = list(&of_hub);
                 let error = block_error(&found, &expected, 0);
                 self.worst = self.worst.max(error);
                 assert!(error <= LIMITS, "{name}: {error:e}");
@@ -107,17 +106,16 @@ impl AsRigid {
                 assert!(difference <= LIMITS, "{name}: {difference:e}");
 
                 let loads = bending.loads(&both, &given, &accelerations, LoadAxes::Inertial);
-                let loads = loads.expect(name).rigid.devices.map(|of| of.mount);
-                let expected =
-                    rigid.loads(&state, &inputs, &accelerations.rigid, LoadAxes::Inertial);
+                let loads = loads.expect(name).devices.map(|of| of.mount);
+                let expected = rigid.loads(&state, &inputs, &of_hub, LoadAxes::Inertial);
                 for (own, other) in loads.iter().zip(expected.expect(name).devices) {
                     let (force, moment) = (other.mount.force, other.mount.moment);
                     let unit = force.norm() + moment.norm();
                     assert!((own.force - force).norm() <= LIMITS * unit, "{name}: force");
                     assert!((own.moment - moment).norm() <= LIMITS * unit, "{name}: moment");
                 }
-                let ledger = bending.ledger(&both, &given, &accelerations).expect(name).whole;
-                let other = rigid.ledger(&state, &inputs, &accelerations.rigid).expect(name);
+                let ledger = bending.ledger(&both, &given, &accelerations).expect(name);
+                let other = rigid.ledger(&state, &inputs, &of_hub).expect(name);
                 let pairs = [
                     (ledger.gravity, other.gravity, other.gravity.abs()),
                     (ledger.power.gravity, other.power.gravity, other.magnitude),
@@ -131,12 +129,12 @@ impl AsRigid {
                 if let Some(first) = brake.modes[0].values_mut().next() {
                     *first = Mode::Locked;
                 }
-                brake_given.rigid.modes = brake.modes;
+                brake_given.modes = brake.modes;
                 match rigid.stop(&state, &brake) {
                     Ok(stopped) => {
                         let own = bending.stop(&both, &brake_given).expect(name);
                         let omega = stopped.state.omega;
-                        assert!((own.state.rigid.omega - omega).norm() <= LIMITS * omega.norm());
+                        assert!((own.state.omega - omega).norm() <= LIMITS * omega.norm());
                         let unit = rigid.energy(&state).expect(name);
                         let difference = own.energy_lost - stopped.energy_lost;
                         assert!(difference.abs() <= LIMITS * unit, "{name}: {difference:e}");
@@ -148,8 +146,8 @@ impl AsRigid {
 
                 both = bending.step(&both, &given, 1e-3).expect(name);
                 let next = rigid.step(&state, &inputs, 1e-3).expect(name);
-                assert!((both.rigid.omega - next.omega).norm() <= LIMITS * next.omega.norm());
-                let pairs = both.rigid.devices.states().zip(next.devices.states());
+                assert!((both.omega - next.omega).norm() <= LIMITS * next.omega.norm());
+                let pairs = both.devices.states().zip(next.devices.states());
                 for ([q, rate], [p, other]) in pairs {
                     assert!((q - p).abs() <= LIMITS && (rate - other).abs() <= LIMITS * 4.0);
                 }
@@ -181,15 +179,15 @@ fn directions_of_the_mounts_are_all_that_devices_meet() {
             modes.mounts.push(ModalMount { point, contained: None });
         }
         let dense =
-            FlexibleSpacecraft::new(&case.hub, &modes, &case.devices, &craft::ON_MOUNT).unwrap();
+            Spacecraft::flexible(&case.hub, &modes, &case.devices, &craft::ON_MOUNT).unwrap();
         let mut inputs = case.inputs.clone();
-        inputs.mounts.resize(15, precess_dynamics::Wrench::none());
+        inputs.modal.mounts.resize(15, precess_dynamics::Wrench::none());
         let expected = dense.accelerations(&case.state, &inputs).expect("a solution");
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
-        let list = |a: &precess_dynamics::FlexibleAccelerations<_, ListedModes>| -> Vec<f64> {
-            let a: &precess_dynamics::FlexibleAccelerations<craft::Mixed, ListedModes> = a;
-            let hub = a.rigid.r_b_n_ddot.iter().chain(&a.rigid.omega_dot).copied();
-            hub.chain(a.eta_ddot.iter().copied()).chain(a.rigid.devices.values()).collect()
+        let list = |a: &precess_dynamics::Accelerations<_, Flexible<ListedModes>>| -> Vec<f64> {
+            let a: &precess_dynamics::Accelerations<craft::Mixed, Flexible<ListedModes>> = a;
+            let hub = a.r_b_n_ddot.iter().chain(&a.omega_dot).copied();
+            hub.chain(a.modal.eta_ddot.iter().copied()).chain(a.devices.values()).collect()
         };
         worst = worst.max(block_error(&list(&found), &list(&expected), 60));
     }
@@ -219,21 +217,20 @@ fn fixed_and_listed_modes_give_the_same_bits() {
         mounts: [mount(0), mount(1), mount(2)],
     };
     let hub: Hub = case.hub;
-    let craft = FlexibleSpacecraft::new(&hub, &modes, &case.devices, &craft::ON_MOUNT).unwrap();
-    let state: FlexibleState<craft::Mixed, FixedModes<4, 3>> = FlexibleState {
-        rigid: case.state.rigid,
-        eta: fixed(&case.state.eta),
-        eta_dot: fixed(&case.state.eta_dot),
-    };
-    let mut inputs = FlexibleInputs::none_for(&craft);
-    inputs.rigid = case.inputs.rigid;
-    inputs.modal = fixed(&case.inputs.modal);
-    inputs.mounts = [case.inputs.mounts[0], case.inputs.mounts[1], case.inputs.mounts[2]];
+    let craft = Spacecraft::flexible(&hub, &modes, &case.devices, &craft::ON_MOUNT).unwrap();
+    let state: State<craft::Mixed, Quaternion, Flexible<FixedModes<4, 3>>> =
+        case.state.clone().with_modal(ModalState {
+            eta: fixed(&case.state.modal.eta),
+            eta_dot: fixed(&case.state.modal.eta_dot),
+        });
+    let forces = fixed(&case.inputs.modal.forces);
+    let mounts = core::array::from_fn(|mount| case.inputs.modal.mounts[mount]);
+    let inputs = case.inputs.clone().with_modal(ModalInputs { forces, mounts });
     let found = craft.step(&state, &inputs, 1e-3).unwrap();
     let expected = case.craft.step(&case.state, &case.inputs, 1e-3).unwrap();
-    assert_eq!(found.rigid, expected.rigid);
-    assert_eq!(found.eta.as_slice(), expected.eta.as_slice());
-    assert_eq!(found.eta_dot.as_slice(), expected.eta_dot.as_slice());
+    assert_eq!(found.with_modal::<Rigid>(()), expected.clone().with_modal(()));
+    assert_eq!(found.modal.eta.as_slice(), expected.modal.eta.as_slice());
+    assert_eq!(found.modal.eta_dot.as_slice(), expected.modal.eta_dot.as_slice());
 }
 
 /// In the frame that falls with a uniform field there is none.
@@ -243,13 +240,13 @@ fn uniform_gravity_adds_itself_to_the_acceleration_of_b() {
     let mut case = Case::new(SEED + 300, size);
     let without = case.craft.accelerations(&case.state, &case.inputs).unwrap();
     let g = Vector3::new(1.0, -2.0, 9.0);
-    case.inputs.rigid.gravity = Gravity::Uniform(g);
+    case.inputs.gravity = Gravity::Uniform(g);
     let with = case.craft.accelerations(&case.state, &case.inputs).unwrap();
-    let at_b = precess_dynamics::Attitude::dcm(&case.state.rigid.attitude) * g;
+    let at_b = precess_dynamics::Attitude::dcm(&case.state.attitude) * g;
     assert_eq!(
-        (with.rigid.omega_dot, &with.eta_ddot),
-        (without.rigid.omega_dot, &without.eta_ddot)
+        (with.omega_dot, &with.modal.eta_ddot),
+        (without.omega_dot, &without.modal.eta_ddot)
     );
-    let difference = with.rigid.r_b_n_ddot - without.rigid.r_b_n_ddot - at_b;
+    let difference = with.r_b_n_ddot - without.r_b_n_ddot - at_b;
     assert!(largest(difference.iter().map(|d| d.abs())) <= LIMITS * g.norm());
 }

@@ -4,8 +4,8 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
-    Attitude, DeviceLoads, FlexibleAccelerations, FlexibleLoads, Gravity, ListedModes, LoadAxes,
-    Real, Scalar, Wrench,
+    Accelerations, Attitude, DeviceLoads, Flexible, Gravity, ListedModes, LoadAxes, Loads, Real,
+    Scalar, Wrench,
 };
 use precess_tests::bounds::LIMITS;
 use precess_tests::double_double::DoubleDouble as DD;
@@ -32,8 +32,8 @@ fn of_device<W: Each<Wrench>, U: Each<f64>, P>(loads: &DeviceLoads<W, U, P, f64>
     OfDevice { mount: loads.mount, joints, motors }
 }
 
-fn of_devices(loads: &FlexibleLoads<Mixed, ListedModes>) -> [OfDevice; 4] {
-    let (a, b, c, d) = &loads.rigid.devices;
+fn of_devices(loads: &Loads<Mixed, Flexible<ListedModes>>) -> [OfDevice; 4] {
+    let (a, b, c, d) = &loads.devices;
     [of_device(a), of_device(b), of_device(c), of_device(d)]
 }
 
@@ -41,8 +41,8 @@ fn case(seed: u64, contained: bool) -> Case {
     let modes = usize::try_from(1 + seed % 9).unwrap();
     let size = Size { modes, contained, rotation: 0.2, free: false };
     let mut case = Case::new(seed, size);
-    case.state.rigid.r_b_n = Vector3::new(6.0, -5.0, 7.0);
-    case.inputs.rigid.gravity = match seed % 3 {
+    case.state.r_b_n = Vector3::new(6.0, -5.0, 7.0);
+    case.inputs.gravity = match seed % 3 {
         0 => Gravity::None,
         1 => Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0)),
         _ => Gravity::Central { mu: 900.0 },
@@ -50,7 +50,7 @@ fn case(seed: u64, contained: bool) -> Case {
     case
 }
 
-fn found(case: &Case) -> FlexibleAccelerations<Mixed, ListedModes> {
+fn found(case: &Case) -> Accelerations<Mixed, Flexible<ListedModes>> {
     case.craft.accelerations(&case.state, &case.inputs).expect("a solution")
 }
 
@@ -58,21 +58,22 @@ fn found(case: &Case) -> FlexibleAccelerations<Mixed, ListedModes> {
 /// order with the accelerations found.
 fn at_time(
     case: &Case,
-    found: &FlexibleAccelerations<Mixed, ListedModes>,
+    found: &Accelerations<Mixed, Flexible<ListedModes>>,
     time: f64,
 ) -> Vec<[Vector<DD>; 5]> {
     let (t, half) = (dd(time), dd(0.5 * time) * dd(time));
-    let rigid = &case.state.rigid;
+    let rigid = &case.state;
     let bn = tensor(&rigid.attitude.dcm());
-    let modes = case.state.eta.iter().zip(&case.state.eta_dot).zip(&found.eta_ddot);
+    let modes =
+        case.state.modal.eta.iter().zip(&case.state.modal.eta_dot).zip(&found.modal.eta_ddot);
     let modes = modes.map(|((eta, rate), a)| dd(*eta) + dd(*rate) * t + dd(*a) * half);
-    let joints = rigid.devices.states().zip(found.rigid.devices.values());
+    let joints = rigid.devices.states().zip(found.devices.values());
     let joints = joints.map(|([q, rate], a)| dd(q) + dd(rate) * t + dd(a) * half);
     let x: Vec<DD> = modes.chain(joints).collect();
     // The angular velocity of exp(tilde(w t + ½ w' t²)) is w + w' t to first order.
-    let turn = exponential(vector(&rigid.omega) * t + vector(&found.rigid.omega_dot) * half);
+    let turn = exponential(vector(&rigid.omega) * t + vector(&found.omega_dot) * half);
     let axes = bn.transpose() * turn;
-    let a = bn.transpose() * vector(&found.rigid.r_b_n_ddot);
+    let a = bn.transpose() * vector(&found.r_b_n_ddot);
     let r = vector(&rigid.r_b_n) + vector(&rigid.r_b_n_dot) * t + a * half;
     let links: usize = case.chains.iter().map(|chain| chain.links.len()).sum();
     let poses = poses(case, &x).into_iter().take(links);
@@ -86,17 +87,20 @@ fn at_time(
 }
 
 /// What each body needs in N: force, and moment about its centre of mass; less gravity.
-fn needs(case: &Case, found: &FlexibleAccelerations<Mixed, ListedModes>) -> Vec<Pair<Vector<DD>>> {
+fn needs(
+    case: &Case,
+    found: &Accelerations<Mixed, Flexible<ListedModes>>,
+) -> Vec<Pair<Vector<DD>>> {
     let now = at_time(case, found, 0.0);
     let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at_time(case, found, k * STEP));
     let over = (dd(12.0) * dd(STEP)).recip();
     let over_square = (dd(12.0) * dd(STEP) * dd(STEP)).recip();
-    let field = |r: Vector<DD>| match case.inputs.rigid.gravity {
+    let field = |r: Vector<DD>| match case.inputs.gravity {
         Gravity::None => Vector::zero(),
         Gravity::Uniform(g) => vector(&g),
         Gravity::Central { mu } => {
             // g + G (r - r_B), about B.
-            let of = vector(&case.state.rigid.r_b_n);
+            let of = vector(&case.state.r_b_n);
             let square = dot(of, of);
             let per_cube = dd(mu) * (square * square.sqrt()).recip();
             let arm = r - of;
@@ -122,8 +126,8 @@ fn needs(case: &Case, found: &FlexibleAccelerations<Mixed, ListedModes>) -> Vec<
             let (omega, alpha) = (sum(&first), sum(&second));
             let inertia = body.inertia.resolved_from(axes);
             let mut moment = inertia * alpha + cross(omega, inertia * omega);
-            if let Gravity::Central { mu } = case.inputs.rigid.gravity {
-                let of = vector(&case.state.rigid.r_b_n);
+            if let Gravity::Central { mu } = case.inputs.gravity {
+                let of = vector(&case.state.r_b_n);
                 let square = dot(of, of);
                 let size = dd(3.0 * mu) * (square * square * square.sqrt()).recip();
                 moment = moment - cross(of, inertia * of) * size;
@@ -136,7 +140,7 @@ fn needs(case: &Case, found: &FlexibleAccelerations<Mixed, ListedModes>) -> Vec<
 /// Loads of all joints in N about their origins, and the sum of the magnitudes of their terms.
 fn expected(
     case: &Case,
-    found: &FlexibleAccelerations<Mixed, ListedModes>,
+    found: &Accelerations<Mixed, Flexible<ListedModes>>,
 ) -> Vec<Vec<(Pair<Vector3<f64>>, f64)>> {
     let (needs, now) = (needs(case, found), at_time(case, found, 0.0));
     let mut first = 0;
@@ -171,8 +175,8 @@ fn loads_are_newton_and_euler_of_every_body() {
         let of_n = of_devices(&loads(LoadAxes::Inertial));
         let of_b = of_devices(&loads(LoadAxes::Hub));
         let of_bodies = of_devices(&loads(LoadAxes::Body));
-        let bn = case.state.rigid.attitude.dcm();
-        let mut states = case.state.rigid.devices.states();
+        let bn = case.state.attitude.dcm();
+        let mut states = case.state.devices.states();
         for (device, joints) in expected.iter().enumerate() {
             for (k, ([force, moment], size)) in joints.iter().enumerate() {
                 let load = of_n[device].joints[k];
@@ -221,7 +225,7 @@ fn place(case: &Case, device: usize) -> Vector3<f64> {
 fn first_joint(case: &Case, device: usize) -> Vector3<f64> {
     let chain = &case.chains[device];
     let link = &chain.links[0];
-    let states: Vec<_> = case.state.rigid.devices.states().collect();
+    let states: Vec<_> = case.state.devices.states().collect();
     let before: usize = case.chains[..device].iter().map(|chain| chain.links.len()).sum();
     let origin = Vector3::from(link.origin);
     if link.info.slides {
@@ -241,41 +245,44 @@ fn structure_moves_as_the_reactions_of_the_devices_make_it() {
         let found = found(&case);
         let loads =
             case.craft.loads(&case.state, &case.inputs, &found, LoadAxes::Body).expect("finite");
-        let rigid = &case.state.rigid;
+        let rigid = &case.state;
         let bn = rigid.attitude.dcm();
-        let gravity = match case.inputs.rigid.gravity {
+        let gravity = match case.inputs.gravity {
             Gravity::Uniform(g) => bn * g,
             _ => Vector3::zeros(),
         };
-        let (a, alpha) = (found.rigid.r_b_n_ddot - gravity, found.rigid.omega_dot);
+        let (a, alpha) = (found.r_b_n_ddot - gravity, found.omega_dot);
         let (omega, modes) = (rigid.omega, &case.modes);
         let sum = |shapes: &[Vector3<f64>], numbers: &[f64]| {
             shapes.iter().zip(numbers).fold(Vector3::zeros(), |sum, (shape, x)| sum + shape * *x)
         };
         let (m, c) = (case.hub.m_b, case.hub.r_bc_b);
-        let s = c * m + sum(&modes.linear, &case.state.eta);
-        let (p, h) =
-            (sum(&modes.linear, &case.state.eta_dot), sum(&modes.angular, &case.state.eta_dot));
+        let s = c * m + sum(&modes.linear, &case.state.modal.eta);
+        let (p, h) = (
+            sum(&modes.linear, &case.state.modal.eta_dot),
+            sum(&modes.angular, &case.state.modal.eta_dot),
+        );
         let inertia =
             case.hub.i_b_bc + (Matrix3::identity() * c.norm_squared() - c * c.transpose()) * m;
         let force = a * m
             + alpha.cross(&s)
-            + sum(&modes.linear, &found.eta_ddot)
+            + sum(&modes.linear, &found.modal.eta_ddot)
             + omega.cross(&omega.cross(&s))
             + omega.cross(&p) * 2.0;
         let moment = s.cross(&a)
             + inertia * alpha
-            + sum(&modes.angular, &found.eta_ddot)
+            + sum(&modes.angular, &found.modal.eta_ddot)
             + omega.cross(&(inertia * omega))
             + omega.cross(&h);
-        let mut off = [force - case.inputs.rigid.force, moment - case.inputs.rigid.torque_b];
+        let mut off = [force - case.inputs.force, moment - case.inputs.torque_b];
         let mut modal: Vec<f64> = (0..modes.frequencies.len())
             .map(|i| {
                 let (w, zeta) = (modes.frequencies[i], modes.damping[i]);
-                let own = found.eta_ddot[i]
-                    + w * w * case.state.eta[i]
-                    + 2.0 * zeta * w * case.state.eta_dot[i];
-                modes.linear[i].dot(&a) + modes.angular[i].dot(&alpha) + own - case.inputs.modal[i]
+                let own = found.modal.eta_ddot[i]
+                    + w * w * case.state.modal.eta[i]
+                    + 2.0 * zeta * w * case.state.modal.eta_dot[i];
+                modes.linear[i].dot(&a) + modes.angular[i].dot(&alpha) + own
+                    - case.inputs.modal.forces[i]
             })
             .collect();
         let mut sizes = [force.norm(), moment.norm()];
@@ -290,13 +297,13 @@ fn structure_moves_as_the_reactions_of_the_devices_make_it() {
                 }
             }
             let scale = total.force.norm() * 3.0 + total.moment.norm();
-            let off_force = (total.force - loads.mounts[k].force).norm();
-            let off_moment = (total.moment - loads.mounts[k].moment).norm();
+            let off_force = (total.force - loads.modal.mounts[k].force).norm();
+            let off_moment = (total.moment - loads.modal.mounts[k].moment).norm();
             assert!(off_force + off_moment <= LIMITS * scale, "seed {seed:#x}, mount {k}");
 
             let in_mount = |v: Vector3<f64>| motion.axes.transpose() * v;
             let own = Wrench { force: in_mount(total.force), moment: in_mount(total.moment) };
-            let net = own.minus(&case.inputs.mounts[k]);
+            let net = own.minus(&case.inputs.modal.mounts[k]);
             let (force, moment) = (motion.axes * net.force, motion.axes * net.moment);
             let place = mount.point.position + motion.displacement;
             off = [off[0] + force, off[1] + moment + place.cross(&force)];
@@ -319,12 +326,13 @@ fn structure_moves_as_the_reactions_of_the_devices_make_it() {
         }
         for (i, off) in modal.iter().enumerate() {
             let w = modes.frequencies[i];
-            let size = (w * w * case.state.eta[i]).abs() + found.eta_ddot[i].abs() + sizes[0];
+            let size =
+                (w * w * case.state.modal.eta[i]).abs() + found.modal.eta_ddot[i].abs() + sizes[0];
             worst = worst.max(off.abs() / size);
             assert!(off.abs() <= LIMITS * size, "seed {seed:#x}, mode {i}: {off:e}");
         }
         // What the solver says of it is rounding, too.
-        let hub = loads.rigid.hub;
+        let hub = loads.hub;
         assert!(hub.force.norm() <= LIMITS * sizes[0] && hub.moment.norm() <= LIMITS * sizes[1]);
     }
     println!("worst {worst:.1e}");
@@ -337,30 +345,30 @@ fn desired_accelerations_come_back_with_the_loads_as_inputs() {
     for seed in SEED + 950..SEED + 959 {
         let mut case = case(seed, seed % 2 == 1);
         let mut desired = found(&case);
-        desired.rigid.r_b_n_ddot += Vector3::new(0.3, -0.2, 0.5);
-        desired.rigid.omega_dot += Vector3::new(-0.1, 0.4, 0.2);
-        desired.eta_ddot.iter_mut().for_each(|a| *a += 0.7);
-        desired.rigid.devices.values_mut().for_each(|a| *a += 0.6);
+        desired.r_b_n_ddot += Vector3::new(0.3, -0.2, 0.5);
+        desired.omega_dot += Vector3::new(-0.1, 0.4, 0.2);
+        desired.modal.eta_ddot.iter_mut().for_each(|a| *a += 0.7);
+        desired.devices.values_mut().for_each(|a| *a += 0.6);
         let loads = case
             .craft
             .loads(&case.state, &case.inputs, &desired, LoadAxes::Parent)
             .expect("finite");
-        case.inputs.rigid.force += loads.rigid.hub.force;
-        case.inputs.rigid.torque_b += loads.rigid.hub.moment;
-        for (force, more) in case.inputs.modal.iter_mut().zip(&loads.modal) {
+        case.inputs.force += loads.hub.force;
+        case.inputs.torque_b += loads.hub.moment;
+        for (force, more) in case.inputs.modal.forces.iter_mut().zip(&loads.modal.forces) {
             *force += more;
         }
         let devices = of_devices(&loads);
         let motors = devices.iter().flat_map(|device| device.motors.iter().copied());
-        for (motor, torque) in case.inputs.rigid.motors.values_mut().zip(motors) {
+        for (motor, torque) in case.inputs.motors.values_mut().zip(motors) {
             *motor = torque;
         }
         let again = found(&case);
-        let list = |a: &FlexibleAccelerations<Mixed, ListedModes>| -> Vec<f64> {
-            let hub = a.rigid.r_b_n_ddot.iter().chain(&a.rigid.omega_dot).copied();
-            hub.chain(a.eta_ddot.iter().copied()).chain(a.rigid.devices.values()).collect()
+        let list = |a: &Accelerations<Mixed, Flexible<ListedModes>>| -> Vec<f64> {
+            let hub = a.r_b_n_ddot.iter().chain(&a.omega_dot).copied();
+            hub.chain(a.modal.eta_ddot.iter().copied()).chain(a.devices.values()).collect()
         };
-        let modes = case.state.eta.len();
+        let modes = case.state.modal.eta.len();
         let error = crate::accelerations::block_error(&list(&again), &list(&desired), modes);
         // Accelerations of a joint of little inertia, 1e-2 of the rest, from torques: A2.
         assert!(error <= precess_tests::bounds::ACCELERATIONS_WORST, "seed {seed:#x}: {error:e}");

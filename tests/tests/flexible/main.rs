@@ -1,4 +1,4 @@
-//! A flexible structure, `FlexibleSpacecraft`: against its kinetic energy differentiated in
+//! A flexible structure, `Spacecraft`: against its kinetic energy differentiated in
 //! double-double, against the rigid hub, conservation laws, closed forms.
 
 mod accelerations;

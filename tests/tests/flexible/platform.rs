@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::set::OnMount;
 use precess_dynamics::{
-    About, Coupled, DeviceSet, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Gravity, HubMode,
-    Inputs, Isolated, ListedModes, LoadAxes, Mode, Platform, ReactionWheel, Spacecraft, Strut,
-    Suspension, Vscmg, Wrench, platform,
+    About, Accelerations, Coupled, DeviceSet, Flexible, Gravity, HubMode, Inputs, Isolated,
+    ListedModes, LoadAxes, Mode, Platform, ReactionWheel, Spacecraft, State, Strut, Suspension,
+    Vscmg, Wrench, platform,
 };
 use precess_tests::blocks::largest;
 use precess_tests::bounds::{
@@ -35,16 +35,16 @@ fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
     let carried = mounted(random, 6.0, &Matrix3::identity());
     let devices = (wheel, Isolated { platform, suspension: *suspension, carried });
     let (hub, modes) = structure(random, size, &[6.0, 14.0, 20.0]);
-    let craft = FlexibleSpacecraft::new(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
+    let craft = Spacecraft::flexible(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
     let (mut on_platform, gyro) = (chain(&devices.1.platform, 2), chain(&devices.1.carried, 2));
     on_platform.links.extend(gyro.links);
     let chains = vec![chain(&devices.0, 1), on_platform];
-    let mut state = FlexibleState::at_rest(&craft);
-    let mut inputs = FlexibleInputs::none_for(&craft);
+    let mut state = State::at_rest_for(&craft);
+    let mut inputs = Inputs::none_for(&craft);
     draw_motion(random, size, &mut state);
     draw_inputs(random, &mut inputs);
     // Its second turn is far from a right angle.
-    for [coordinate, _] in state.rigid.devices.1.platform.states_mut() {
+    for [coordinate, _] in state.devices.1.platform.states_mut() {
         *coordinate *= 0.4;
     }
     Case { seed, hub, modes, devices, craft, chains, state, inputs }
@@ -77,7 +77,7 @@ fn accelerations_are_those_of_the_kinetic_energy() {
         let size = Size { modes, contained: number % 2 == 1, rotation, free: false };
         let mut case = case(SEED + 1100 + number, size, &Suspension::none());
         if number % 4 == 3 {
-            case.inputs.rigid.gravity = Gravity::Central { mu: 900.0 };
+            case.inputs.gravity = Gravity::Central { mu: 900.0 };
         }
         let [error, residual] = errors(&case);
         println!("seed {:#x}, {size:?}: {error:.1e}, {residual:.1e}", case.seed);
@@ -93,8 +93,8 @@ fn impulses_act_at_the_locked_joints_only() {
     for seed in SEED + 1120..SEED + 1124 {
         let size = Size { modes: 3, contained: seed % 2 == 1, rotation: 0.3, free: false };
         let mut case = case(seed, size, &suspension(0.0));
-        case.inputs.rigid.modes.1.platform.y_slide = Mode::Locked;
-        case.inputs.rigid.modes.1.carried.gimbal = Mode::Locked;
+        case.inputs.modes.1.platform.y_slide = Mode::Locked;
+        case.inputs.modes.1.carried.gimbal = Mode::Locked;
         let momentum = |case: &Case<Carried>| {
             case.craft.momentum(&case.state, About::InertialOrigin).expect("a momentum")
         };
@@ -105,7 +105,7 @@ fn impulses_act_at_the_locked_joints_only() {
         let drift = (after.1.angular - before.1.angular).norm() / before.1.angular.norm();
         assert!(drift <= LIMITS, "seed {seed:#x}: {drift:e}");
         // The wheel's joint, the platform's six, the gyro's two.
-        let first = 6 + case.state.eta.len();
+        let first = 6 + case.state.modal.eta.len();
         for (index, row) in mass.iter().enumerate() {
             let terms = row.iter().zip(after.0.iter().zip(&before.0));
             let terms = terms.map(|(m, (a, b))| {
@@ -131,34 +131,34 @@ fn power_balances_and_nothing_is_needed_beside_the_inputs() {
         let modes = usize::try_from(1 + seed % 30).expect("small");
         let size = Size { modes, contained: seed % 2 == 1, rotation: 0.2, free: false };
         let mut case = case(seed, size, &suspension(2.0));
-        case.inputs.rigid.gravity = match seed % 3 {
+        case.inputs.gravity = match seed % 3 {
             0 => Gravity::Central { mu: 900.0 },
             _ => Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0)),
         };
-        let mut bodies = Inputs::no_wrenches_for(case.craft.rigid());
+        let mut bodies = Inputs::no_wrenches_for(&case.craft);
         let pull =
             Wrench { force: Vector3::new(0.3, 0.1, -0.2), moment: Vector3::new(0.1, 0.2, 0.3) };
         bodies.values_mut().for_each(|wrench| *wrench = pull);
-        case.inputs.rigid.bodies = Some(bodies);
+        case.inputs.bodies = Some(bodies);
         if seed % 5 == 0 {
-            case.inputs.rigid.hub = HubMode::Prescribed {
+            case.inputs.hub = HubMode::Prescribed {
                 r_b_n_ddot: Vector3::new(0.2, -0.1, 0.3),
                 omega_dot: Vector3::new(0.1, 0.3, -0.2),
             };
         }
-        case.inputs.rigid.modes.1.platform.z_slide = Mode::Prescribed(0.4);
+        case.inputs.modes.1.platform.z_slide = Mode::Prescribed(0.4);
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
-        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger").whole;
+        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
         let balance = ledger.residual.abs() / ledger.magnitude;
         worst = worst.max(balance / f64::EPSILON);
         assert!(balance <= POWER_EPSILONS * f64::EPSILON, "seed {seed:#x}: {balance:e}");
 
         let loads = case.craft.loads(&case.state, &case.inputs, &found, LoadAxes::Hub);
         let loads = loads.expect("loads");
-        let unit = largest(loads.mounts.iter().map(|wrench| wrench.force.norm()));
-        let mut rest = largest(loads.modal.iter().map(|force| force.abs())) / unit;
-        if case.inputs.rigid.hub == HubMode::Free {
-            let hub = loads.rigid.hub;
+        let unit = largest(loads.modal.mounts.iter().map(|wrench| wrench.force.norm()));
+        let mut rest = largest(loads.modal.forces.iter().map(|force| force.abs())) / unit;
+        if case.inputs.hub == HubMode::Free {
+            let hub = loads.hub;
             rest = rest.max(hub.force.norm().max(hub.moment.norm()) / unit);
         }
         needed = needed.max(rest);
@@ -177,8 +177,8 @@ fn closed(seed: u64) -> Case<Carried> {
     let joints = wheel.passive.values_mut().chain(isolated.platform.passive.values_mut());
     joints.chain(isolated.carried.passive.values_mut()).for_each(|joint| joint.viscous = 0.0);
     case.craft =
-        FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect("valid");
-    case.inputs = FlexibleInputs::none_for(&case.craft);
+        Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect("valid");
+    case.inputs = Inputs::none_for(&case.craft);
     case
 }
 
@@ -218,27 +218,28 @@ fn no_modes_are_the_rigid_hub() {
             carried: (platform::Data { platform: 7, carried: 7 }, 7),
         };
         let rigid = Spacecraft::new(&hub, &devices).expect("valid");
-        let bending: FlexibleSpacecraft<Stacked, ListedModes> =
-            FlexibleSpacecraft::new(&hub, &modes, &devices, &on_mount).expect("valid");
-        let mut state = FlexibleState::at_rest(&bending);
-        let mut inputs = FlexibleInputs::none_for(&bending);
+        let bending: Spacecraft<Stacked, Flexible<ListedModes>> =
+            Spacecraft::flexible(&hub, &modes, &devices, &on_mount).expect("valid");
+        let mut state = State::at_rest_for(&bending);
+        let mut inputs = Inputs::none_for(&bending);
         draw_motion(random, size, &mut state);
         draw_inputs(random, &mut inputs);
-        inputs.mounts[0] = Wrench::none();
-        for [coordinate, _] in state.rigid.devices.states_mut() {
+        inputs.modal.mounts[0] = Wrench::none();
+        for [coordinate, _] in state.devices.states_mut() {
             *coordinate *= 0.4;
         }
-        inputs.rigid.gravity = Gravity::Central { mu: 900.0 };
-        let expected = rigid.accelerations(&state.rigid, &inputs.rigid).expect("a solution");
+        inputs.gravity = Gravity::Central { mu: 900.0 };
+        let (motion, acting) = (state.clone().with_modal(()), inputs.clone().with_modal(()));
+        let expected = rigid.accelerations(&motion, &acting).expect("a solution");
         let found = bending.accelerations(&state, &inputs).expect("a solution");
-        let list = |of: &precess_dynamics::Accelerations<Stacked>| -> Vec<f64> {
+        let list = |of: &Accelerations<Stacked>| -> Vec<f64> {
             let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
             hub.chain(of.devices.values()).collect()
         };
-        worst = worst.max(block_error(&list(&found.rigid), &list(&expected), 0));
+        worst = worst.max(block_error(&list(&found.clone().with_modal(())), &list(&expected), 0));
 
-        let other = rigid.ledger(&state.rigid, &inputs.rigid, &expected).expect("a ledger");
-        let own = bending.ledger(&state, &inputs, &found).expect("a ledger").whole;
+        let other = rigid.ledger(&motion, &acting, &expected).expect("a ledger");
+        let own = bending.ledger(&state, &inputs, &found).expect("a ledger");
         for (own, other, unit) in [
             (own.kinetic, other.kinetic, other.kinetic),
             (own.gravity, other.gravity, other.gravity.abs()),
@@ -287,8 +288,8 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
         };
         let on_mount = platform::Data { platform: 0, carried: 0 };
         isolated.platform.r_p_b = place + random.vector(0.2);
-        let bending: FlexibleSpacecraft<_, ListedModes> =
-            FlexibleSpacecraft::new(&hub, &modes, &isolated, &on_mount).expect("valid");
+        let bending: Spacecraft<_, Flexible<ListedModes>> =
+            Spacecraft::flexible(&hub, &modes, &isolated, &on_mount).expect("valid");
         // The same from the outer platform's origin, at the mount.
         let mut carried = isolated;
         carried.platform.r_p_b -= place;
@@ -299,35 +300,35 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
         let rigid = Spacecraft::new(&hub, &nested).expect("valid");
 
         let size = Size { modes: 1, contained: false, rotation: 0.05, free: false };
-        let mut state = FlexibleState::at_rest(&bending);
-        let mut inputs = FlexibleInputs::none_for(&bending);
+        let mut state = State::at_rest_for(&bending);
+        let mut inputs = Inputs::none_for(&bending);
         draw_motion(random, size, &mut state);
         draw_inputs(random, &mut inputs);
-        (state.rigid.omega, state.rigid.r_b_n_dot) = (Vector3::zeros(), Vector3::zeros());
-        (inputs.modal[0], inputs.mounts[0]) = (0.0, Wrench::none());
-        inputs.rigid.hub = HubMode::Fixed;
-        inputs.rigid.gravity = Gravity::None;
-        for [coordinate, _] in state.rigid.devices.states_mut() {
+        (state.omega, state.r_b_n_dot) = (Vector3::zeros(), Vector3::zeros());
+        (inputs.modal.forces[0], inputs.modal.mounts[0]) = (0.0, Wrench::none());
+        inputs.hub = HubMode::Fixed;
+        inputs.gravity = Gravity::None;
+        for [coordinate, _] in state.devices.states_mut() {
             *coordinate *= 0.4;
         }
         let found = bending.accelerations(&state, &inputs).expect("a solution");
 
-        let mut same = precess_dynamics::State::at_rest_for(&rigid);
-        same.attitude = state.rigid.attitude;
+        let mut same = State::at_rest_for(&rigid);
+        same.attitude = state.attitude;
         let root = mass.sqrt();
-        same.devices.platform.x = state.eta[0] / root;
-        same.devices.platform.x_dot = state.eta_dot[0] / root;
-        same.devices.carried = state.rigid.devices;
+        same.devices.platform.x = state.modal.eta[0] / root;
+        same.devices.platform.x_dot = state.modal.eta_dot[0] / root;
+        same.devices.carried = state.devices;
         let mut given = Inputs::none_for(&rigid);
         given.hub = HubMode::Fixed;
-        given.motors.carried = inputs.rigid.motors;
+        given.motors.carried = inputs.motors;
         let held = &mut given.modes.platform;
         held.values_mut().skip(1).for_each(|mode| *mode = Mode::Locked);
         let expected = rigid.accelerations(&same, &given).expect("a solution");
         let list = |slide: f64, joints: Vec<f64>| -> Vec<f64> {
             std::iter::once(slide).chain(joints).collect()
         };
-        let found = list(found.eta_ddot[0] / root, found.rigid.devices.values().collect());
+        let found = list(found.modal.eta_ddot[0] / root, found.devices.values().collect());
         let expected =
             list(expected.devices.platform.x_ddot, expected.devices.carried.values().collect());
         let unit = largest(expected.iter().map(|a| a.abs()));

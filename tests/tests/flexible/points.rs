@@ -1,7 +1,7 @@
 //! Points of the structure, and forces on them.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Attitude, FlexibleInputs, FlexibleState, Wrench};
+use precess_dynamics::{Attitude, Inputs, State, Wrench};
 use precess_tests::bounds::LIMITS;
 
 use crate::accelerations::{block_error, listed};
@@ -11,7 +11,7 @@ use crate::craft::{Case, SEED, Size};
 fn pose(case: &Case, k: usize) -> (Vector3<f64>, Matrix3<f64>) {
     let point = &case.modes.mounts[k].point;
     let motion = case.craft.point_motion(point, &case.state).unwrap();
-    let rigid = &case.state.rigid;
+    let rigid = &case.state;
     let nb = rigid.attitude.dcm().transpose();
     (rigid.r_b_n + nb * (point.position + motion.displacement), nb * motion.axes)
 }
@@ -19,7 +19,7 @@ fn pose(case: &Case, k: usize) -> (Vector3<f64>, Matrix3<f64>) {
 /// Inertial velocity and angular velocity of a point, expressed in N.
 fn rates(case: &Case, k: usize) -> (Vector3<f64>, Vector3<f64>) {
     let motion = case.craft.point_motion(&case.modes.mounts[k].point, &case.state).unwrap();
-    let nb = case.state.rigid.attitude.dcm().transpose();
+    let nb = case.state.attitude.dcm().transpose();
     (nb * motion.velocity, nb * motion.omega)
 }
 
@@ -47,7 +47,7 @@ fn velocities_and_accelerations_of_points_are_derivatives() {
             let ((v, w), (u, x)) = (rates(&ahead, k), rates(&behind, k));
             let point = &case.modes.mounts[k].point;
             let acceleration = case.craft.point_acceleration(point, &case.state, &found).unwrap();
-            let nb = case.state.rigid.attitude.dcm().transpose();
+            let nb = case.state.attitude.dcm().transpose();
             let linear = nb * acceleration.acceleration;
             let angular = nb * acceleration.omega_dot;
             assert!(((v - u) / (2.0 * h) - linear).norm() <= 1e-4 * linear.norm());
@@ -61,12 +61,12 @@ fn velocities_and_accelerations_of_points_are_derivatives() {
 fn wrench_at_a_point_is_the_wrench_at_the_mount_there() {
     let size = Size { modes: 6, contained: true, rotation: 0.1, free: false };
     let mut case = Case::new(SEED + 610, size);
-    case.state = FlexibleState::at_rest(&case.craft);
-    case.inputs = FlexibleInputs::none_for(&case.craft);
+    case.state = State::at_rest_for(&case.craft);
+    case.inputs = Inputs::none_for(&case.craft);
     let wrench =
         Wrench { force: Vector3::new(1.0, -2.0, 0.5), moment: Vector3::new(0.3, 0.1, -0.4) };
     let mut other = case.clone();
-    case.inputs.mounts[1] = wrench;
+    case.inputs.modal.mounts[1] = wrench;
     other.inputs.add_wrench(&case.modes.mounts[1].point, &wrench.force, &wrench.moment);
     let error = block_error(&listed(&case), &listed(&other), 6);
     assert!(error <= LIMITS, "{error:e}");

@@ -140,7 +140,7 @@ pub(crate) fn bodies<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<Body> {
         let (mass, inertia) = (dd(link.mass), tensor(&link.inertia));
         bodies.push(Body { mass, inertia, wrench: None });
     }
-    for (mount, wrench) in case.modes.mounts.iter().zip(&case.inputs.mounts) {
+    for (mount, wrench) in case.modes.mounts.iter().zip(&case.inputs.modal.mounts) {
         if let Some(body) = &mount.contained {
             let (mass, inertia) = (-dd(body.mass), tensor(&body.inertia) * dd(-1.0));
             bodies.push(Body { mass, inertia, wrench: None });
@@ -249,7 +249,7 @@ fn mass_matrix<D: Devices<Scalar = f64>>(case: &Case<D>, x: &[DD]) -> Matrix {
             }
         }
     }
-    // T = ½ m v.v + v.(omega x s) + v.P eta' + ½ omega.I omega + omega.H eta' + ½ eta'.eta'
+    // T = ½ m v.v + v.(omega x s) + v.P eta' + ½ omega.I omega + omega.H eta' + ½ eta'.modal.eta'
     let (m, c) = (dd(case.hub.m_b), vector(&case.hub.r_bc_b));
     let linear = case.modes.linear.iter().zip(x);
     let s = linear.fold(c * m, |sum, (p, eta)| sum + vector(p) * *eta);
@@ -278,11 +278,11 @@ fn mass_matrix<D: Devices<Scalar = f64>>(case: &Case<D>, x: &[DD]) -> Matrix {
 
 /// Accelerations of a case.
 pub(crate) fn reference<D: Devices<Scalar = f64>>(case: &Case<D>) -> Reference {
-    let rigid = &case.state.rigid;
+    let rigid = &case.state;
     let joints: Vec<_> = rigid.devices.states().collect();
     let x: Vec<DD> =
-        case.state.eta.iter().copied().chain(joints.iter().map(|q| q[0])).map(dd).collect();
-    let rates = case.state.eta_dot.iter().copied().chain(joints.iter().map(|q| q[1]));
+        case.state.modal.eta.iter().copied().chain(joints.iter().map(|q| q[0])).map(dd).collect();
+    let rates = case.state.modal.eta_dot.iter().copied().chain(joints.iter().map(|q| q[1]));
     let omega = vector(&rigid.omega);
     // Quaternions of the suites have length one to rounding; so has the solver's matrix.
     let v = Tensor::from(&precess_dynamics::Attitude::dcm(&rigid.attitude).map(dd))
@@ -319,12 +319,12 @@ pub(crate) fn reference<D: Devices<Scalar = f64>>(case: &Case<D>) -> Reference {
     let momentum = times(&mass, &velocities);
     let p = Vector([momentum[0], momentum[1], momentum[2]]);
     let h = Vector([momentum[3], momentum[4], momentum[5]]);
-    let linear = vector(&case.inputs.rigid.force) - cross(omega, p);
-    let angular = vector(&case.inputs.rigid.torque_b) - cross(omega, h) - cross(v, p);
+    let linear = vector(&case.inputs.force) - cross(omega, p);
+    let angular = vector(&case.inputs.torque_b) - cross(omega, h) - cross(v, p);
     let generalised = generalised_forces(case);
     let mut generalised: Vec<DD> = generalised.into_iter().map(dd).collect();
     let mut field = [Vector::zero(); 2];
-    if let Gravity::Central { mu } = case.inputs.rigid.gravity {
+    if let Gravity::Central { mu } = case.inputs.gravity {
         let found = crate::field::forces(case, dd(mu), &x);
         field = [found.force, found.torque];
         for (sum, force) in generalised.iter_mut().zip(found.generalised) {
@@ -358,11 +358,11 @@ fn generalised_forces<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
     let mut forces: Vec<f64> = (0..modes.frequencies.len())
         .map(|k| {
             let (w, zeta) = (dd(modes.frequencies[k]), dd(modes.damping[k]));
-            let (eta, rate) = (dd(case.state.eta[k]), dd(case.state.eta_dot[k]));
-            (dd(case.inputs.modal[k]) - w * w * eta - dd(2.0) * zeta * w * rate).to_f64()
+            let (eta, rate) = (dd(case.state.modal.eta[k]), dd(case.state.modal.eta_dot[k]));
+            (dd(case.inputs.modal.forces[k]) - w * w * eta - dd(2.0) * zeta * w * rate).to_f64()
         })
         .collect();
-    let joints = case.state.rigid.devices.states().zip(case.inputs.rigid.motors.values());
+    let joints = case.state.devices.states().zip(case.inputs.motors.values());
     // As `craft::device` gives every joint: 3 N m/rad about 0.1 rad, 0.2 N m s/rad.
     forces.extend(joints.map(|([q, rate], motor)| motor - 3.0 * (q - 0.1) - 0.2 * rate));
     forces

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Gravity, Hub, HubMode,
-    ListedModes, ModalMount, ModalPoint, Mode, Modes, ModesError, ReactionWheel, ResidualFault,
-    SloshMass, SolveError,
+    FixedModes, Flexible, Gravity, Hub, HubMode, Inputs, ListedModes, ModalMount, ModalPoint, Mode,
+    Modes, ModesError, Quaternion, ReactionWheel, ResidualFault, SloshMass, SolveError, Spacecraft,
+    State,
 };
 use precess_tests::bounds::{ACCELERATIONS_WORST, BACKWARD_EPSILONS, LIMITS, POWER_EPSILONS};
 use precess_tests::random::Random;
@@ -29,9 +29,9 @@ fn case(seed: u64, modes: usize, residual: usize) -> Case {
             mount.point.translation.push(random.vector(0.1));
             mount.point.rotation.push(random.vector(0.1));
         }
-        case.state.eta.push(random.within(-1.0, 1.0));
-        case.state.eta_dot.push(random.within(-10.0, 10.0));
-        case.inputs.modal.push(random.within(-1.0, 1.0));
+        case.state.modal.eta.push(random.within(-1.0, 1.0));
+        case.state.modal.eta_dot.push(random.within(-10.0, 10.0));
+        case.inputs.modal.forces.push(random.within(-1.0, 1.0));
     }
     case.craft = craft_of(&case, residual).expect("valid");
     case
@@ -41,9 +41,9 @@ fn case(seed: u64, modes: usize, residual: usize) -> Case {
 fn craft_of(
     case: &Case,
     residual: usize,
-) -> Result<FlexibleSpacecraft<craft::Mixed, ListedModes>, ModesError> {
+) -> Result<Spacecraft<craft::Mixed, Flexible<ListedModes>>, ModesError> {
     let (hub, modes) = (&case.hub, &case.modes);
-    FlexibleSpacecraft::with_residual(hub, modes, residual, &case.devices, &craft::ON_MOUNT)
+    Spacecraft::flexible_with_residual(hub, modes, residual, &case.devices, &craft::ON_MOUNT)
 }
 
 /// The mass matrix has a zero for each of them; all else is that of the kinetic energy.
@@ -71,7 +71,7 @@ fn residual_coordinates_are_directions_of_their_own() {
         let ModalMount { point, .. } = dense.modes.mounts[0].clone();
         dense.modes.mounts.push(ModalMount { point, contained: None });
     }
-    dense.inputs.mounts.resize(15, precess_dynamics::Wrench::none());
+    dense.inputs.modal.mounts.resize(15, precess_dynamics::Wrench::none());
     dense.craft = craft_of(&dense, 5).expect("valid");
     let error = block_error(&listed(&case), &listed(&dense), 65);
     assert!(error <= LIMITS, "{error:e}");
@@ -87,18 +87,18 @@ fn power_balances_with_residual_coordinates() {
         let mut case = case(seed, 20, 6);
         case.modes.damping[22] = 0.3;
         case.craft = craft_of(&case, 6).expect("valid");
-        case.inputs.rigid.gravity = gravity;
+        case.inputs.gravity = gravity;
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
         let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
-        let balance = ledger.whole.residual.abs() / ledger.whole.magnitude;
+        let balance = ledger.residual.abs() / ledger.magnitude;
         assert!(balance <= POWER_EPSILONS * f64::EPSILON, "seed {seed:#x}: {balance:e}");
-        assert!(ledger.damping < 0.0);
+        assert!(ledger.modal.damping < 0.0);
         // Loads close, too: what hub and modes need beside the inputs is rounding.
         let axes = precess_dynamics::LoadAxes::Body;
         let loads = case.craft.loads(&case.state, &case.inputs, &found, axes).expect("finite");
-        let size = case.craft.mass() * found.rigid.r_b_n_ddot.norm();
-        assert!(loads.rigid.hub.force.norm() <= LIMITS * size);
-        assert!(loads.modal.iter().all(|force| force.abs() <= LIMITS * size));
+        let size = case.craft.mass() * found.r_b_n_ddot.norm();
+        assert!(loads.hub.force.norm() <= LIMITS * size);
+        assert!(loads.modal.forces.iter().all(|force| force.abs() <= LIMITS * size));
     }
 }
 
@@ -153,20 +153,21 @@ fn mass_on_a_residual_coordinate_is_a_damped_oscillator() {
     };
     let hub = Hub { m_b: 20.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
     let device = SloshMass { r_s_b: place, ..SloshMass::bare_slosh_mass(MASS) };
-    let craft = FlexibleSpacecraft::with_residual(&hub, &modes, 1, &device, &0).expect("valid");
+    let craft = Spacecraft::flexible_with_residual(&hub, &modes, 1, &device, &0).expect("valid");
     assert_eq!((craft.modes(), craft.massive()), (1, 0));
-    let mut state: FlexibleState<SloshMass, FixedModes<1, 1>> = FlexibleState::at_rest(&craft);
-    (state.eta, state.eta_dot) = ([0.02], [0.7]);
-    let mut inputs = FlexibleInputs::none_for(&craft);
-    inputs.rigid.hub = HubMode::Fixed;
-    inputs.rigid.modes.values_mut().for_each(|mode| *mode = Mode::Locked);
-    let found = craft.accelerations(&state, &inputs).expect("a solution").eta_ddot[0];
+    let mut state: State<SloshMass, Quaternion, Flexible<FixedModes<1, 1>>> =
+        State::at_rest_for(&craft);
+    (state.modal.eta, state.modal.eta_dot) = ([0.02], [0.7]);
+    let mut inputs = Inputs::none_for(&craft);
+    inputs.hub = HubMode::Fixed;
+    inputs.modes.values_mut().for_each(|mode| *mode = Mode::Locked);
+    let found = craft.accelerations(&state, &inputs).expect("a solution").modal.eta_ddot[0];
     let w = (1.0 / (MASS * COMPLIANCE)).sqrt();
-    let expected = -w * w * state.eta[0] - 2.0 * RATIO * w * state.eta_dot[0];
+    let expected = -w * w * state.modal.eta[0] - 2.0 * RATIO * w * state.modal.eta_dot[0];
     assert!((found / expected - 1.0).abs() <= LIMITS, "{found} {expected}");
     let point = &modes.mounts[0].point;
     let moved = craft.point_motion(point, &state).expect("finite").displacement.z;
-    assert!((moved - COMPLIANCE.sqrt() * state.eta[0]).abs() <= LIMITS * moved);
+    assert!((moved - COMPLIANCE.sqrt() * state.modal.eta[0]).abs() <= LIMITS * moved);
     match craft.step(&state, &inputs, 1.0) {
         Err(SolveError::UnstableModes { longest, .. }) => {
             assert!((longest * w / 8.0_f64.sqrt() - 1.0).abs() < 1e-9, "{longest}");
@@ -297,21 +298,21 @@ fn mount_without_inertia_about_a_free_spin_axis_is_rejected_in_every_orientation
         }
         let residual = modes.add_residual(&mut [], &compliance).expect("a compliance");
         let craft =
-            FlexibleSpacecraft::with_residual(&hub, &modes, residual, &vec![wheel], &vec![0])
+            Spacecraft::flexible_with_residual(&hub, &modes, residual, &vec![wheel], &vec![0])
                 .expect("valid");
-        let mut inputs: FlexibleInputs<Vec<ReactionWheel>, ListedModes> =
-            FlexibleInputs::none_for(&craft);
-        inputs.rigid.motors[0].u_w = 0.1;
-        let mut state: FlexibleState<Vec<ReactionWheel>, ListedModes> =
-            FlexibleState::at_rest_for(&craft);
-        state.rigid.devices[0].spin = 100.0;
+        let mut inputs: Inputs<Vec<ReactionWheel>, Flexible<ListedModes>> =
+            Inputs::none_for(&craft);
+        inputs.motors[0].u_w = 0.1;
+        let mut state: State<Vec<ReactionWheel>, Quaternion, Flexible<ListedModes>> =
+            State::at_rest_for(&craft);
+        state.devices[0].spin = 100.0;
         let found = craft.accelerations(&state, &inputs);
         let Err(SolveError::ModalMass { pivot, bound }) = found else { panic!("{k}: {found:?}") };
         assert!(pivot <= bound && bound < 1e-16, "{k}: {pivot} {bound}");
         // The wheel locked, every direction has its inertia.
-        inputs.rigid.modes[0] = precess_dynamics::reaction_wheel::PerJoint::all(Mode::Locked);
-        state.rigid.devices[0].spin = 0.0;
+        inputs.modes[0] = precess_dynamics::reaction_wheel::PerJoint::all(Mode::Locked);
+        state.devices[0].spin = 0.0;
         let found = craft.accelerations(&state, &inputs).expect("a solution");
-        assert!(found.eta_ddot.iter().all(|eta| eta.abs() < 1e-9), "{k}: {found:?}");
+        assert!(found.modal.eta_ddot.iter().all(|eta| eta.abs() < 1e-9), "{k}: {found:?}");
     }
 }

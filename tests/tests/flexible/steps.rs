@@ -4,9 +4,9 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
-    Devices, FixedModes, FlexibleInputs, FlexibleSpacecraft, FlexibleState, FlexibleVscmg, Hub,
-    HubMode, ListedModes, ModalMount, ModalPoint, ModalStorage, Mode, Modes, Passive, Platform,
-    Quantity, Quaternion, ReactionWheel, SolveError, flexible_vscmg, platform,
+    Devices, FixedModes, Flexible, FlexibleVscmg, Hub, HubMode, Inputs, ListedModes, ModalMount,
+    ModalPoint, ModalStorage, Mode, Modes, Passive, Platform, Quantity, Quaternion, ReactionWheel,
+    SolveError, Spacecraft, State, flexible_vscmg, platform,
 };
 use precess_tests::random::Random;
 use precess_tests::vibrations::longest_step;
@@ -14,7 +14,7 @@ use precess_tests::vibrations::longest_step;
 use crate::craft::{Case, Mixed, ON_MOUNT, SEED, Size};
 
 /// The state of a set on modes that are kept so.
-type Motion<D, S> = FlexibleState<D, S, Quaternion>;
+type Motion<D, S> = State<D, Quaternion, Flexible<S>>;
 
 fn diagonal(x: f64, y: f64, z: f64) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::new(x, y, z))
@@ -22,9 +22,9 @@ fn diagonal(x: f64, y: f64, z: f64) -> Matrix3<f64> {
 
 /// The longest step that the error names, and its joint; none if it names the modes.
 fn named<D: Devices<Scalar = f64>, S: ModalStorage>(
-    craft: &FlexibleSpacecraft<D, S>,
+    craft: &Spacecraft<D, Flexible<S>>,
     state: &Motion<D, S>,
-    inputs: &FlexibleInputs<D, S>,
+    inputs: &Inputs<D, Flexible<S>>,
 ) -> (Option<&'static str>, f64) {
     match craft.step(state, inputs, 10.0).expect_err("too long") {
         SolveError::Unstable { joint, dt: 10.0, longest, .. } => (Some(joint), longest),
@@ -34,20 +34,20 @@ fn named<D: Devices<Scalar = f64>, S: ModalStorage>(
 }
 
 fn energy<D: Devices<Scalar = f64>, S: ModalStorage>(
-    craft: &FlexibleSpacecraft<D, S>,
+    craft: &Spacecraft<D, Flexible<S>>,
     state: &Motion<D, S>,
-    inputs: &FlexibleInputs<D, S>,
+    inputs: &Inputs<D, Flexible<S>>,
 ) -> f64 {
     let found = craft.accelerations(state, inputs).expect("accelerations");
-    craft.ledger(state, inputs, &found).expect("a ledger").whole.energy()
+    craft.ledger(state, inputs, &found).expect("a ledger").energy()
 }
 
 /// Asserts that a step just below the named one is accepted and makes no energy, and one just above
 /// is rejected.
 fn holds<D: Devices<Scalar = f64>, S: ModalStorage>(
-    craft: &FlexibleSpacecraft<D, S>,
+    craft: &Spacecraft<D, Flexible<S>>,
     start: &Motion<D, S>,
-    inputs: &FlexibleInputs<D, S>,
+    inputs: &Inputs<D, Flexible<S>>,
     longest: f64,
 ) {
     assert!(craft.step(start, inputs, 1.001 * longest).is_err());
@@ -83,10 +83,10 @@ fn antisymmetric_vibration_of_two_equal_panels_limits_the_step() {
         angular: [Vector3::new(p * arm, 0.0, 0.0), Vector3::new(-p * arm, 0.0, 0.0)],
         mounts: [still()],
     };
-    let craft = FlexibleSpacecraft::new(&hub, &modes, &([] as [ReactionWheel; 0]), &[]).unwrap();
-    let inputs = FlexibleInputs::none_for(&craft);
-    let mut state = Motion::at_rest(&craft);
-    state.eta[0] = 1e-3;
+    let craft = Spacecraft::flexible(&hub, &modes, &([] as [ReactionWheel; 0]), &[]).unwrap();
+    let inputs = Inputs::none_for(&craft);
+    let mut state = Motion::at_rest_for(&craft);
+    state.modal.eta[0] = 1e-3;
     let fastest = w / (1.0 - 2.0 * p * p * arm * arm / 200.0_f64).sqrt();
     let (joint, longest) = named(&craft, &state, &inputs);
     assert_eq!(joint, None);
@@ -117,10 +117,10 @@ fn isolator_on_a_bending_panel_is_faster_than_either() {
             passive: platform::PerJoint::of([slide, slide, slide, turn, turn, turn]),
             ..Platform::bare(10.0, Matrix3::identity() * 0.1)
         };
-        let craft = FlexibleSpacecraft::new(&hub, &modes, &set, &0).unwrap();
-        let inputs = FlexibleInputs::none_for(&craft);
-        let mut state: Motion<Platform, Storage> = Motion::at_rest(&craft);
-        state.rigid.devices.z = 1e-6;
+        let craft = Spacecraft::flexible(&hub, &modes, &set, &0).unwrap();
+        let inputs = Inputs::none_for(&craft);
+        let mut state: Motion<Platform, Storage> = Motion::at_rest_for(&craft);
+        state.devices.z = 1e-6;
         let (joint, longest) = named(&craft, &state, &inputs);
         // Along z, of hub, platform and mode: compliance of the mount 1 / m_hub + phi².
         let upper = 200.0 * (1.0 + 10.0 * (0.01 + phi * phi)).sqrt();
@@ -158,11 +158,11 @@ fn massless_gimbal_that_is_locked_changes_no_limit() {
         let bare = FlexibleVscmg::bare_wheel(3.0, diagonal(0.02, 0.012, 0.012));
         let i_g_gc = Matrix3::identity() * (0.002 * m_g);
         let device = FlexibleVscmg { m_g, i_g_gc, passive, ..bare };
-        let craft = FlexibleSpacecraft::new(&hub, &modes, &[device], &[0]).unwrap();
-        let mut inputs: FlexibleInputs<Set, Storage> = FlexibleInputs::none_for(&craft);
-        inputs.rigid.modes = [flexible_vscmg::PerJoint::all(Mode::Locked)];
-        let mut state: Motion<Set, Storage> = Motion::at_rest(&craft);
-        state.eta[0] = 1e-3;
+        let craft = Spacecraft::flexible(&hub, &modes, &[device], &[0]).unwrap();
+        let mut inputs: Inputs<Set, Flexible<Storage>> = Inputs::none_for(&craft);
+        inputs.modes = [flexible_vscmg::PerJoint::all(Mode::Locked)];
+        let mut state: Motion<Set, Storage> = Motion::at_rest_for(&craft);
+        state.modal.eta[0] = 1e-3;
         let (joint, longest) = named(&craft, &state, &inputs);
         assert_eq!(joint, None);
         holds(&craft, &state, &inputs, longest);
@@ -186,12 +186,12 @@ fn limit_is_that_of_the_eigenvalues_of_structure_and_devices() {
         let random = &mut Random::new(SEED + 3500 + seed);
         let damped = seed % 2 == 1;
         let size = if seed % 4 < 2 { 1e5 } else { 10.0 };
-        let mut state = Motion::at_rest(&case.craft);
-        for [coordinate, _] in state.rigid.devices.states_mut() {
+        let mut state = Motion::at_rest_for(&case.craft);
+        for [coordinate, _] in state.devices.states_mut() {
             *coordinate = random.within(-0.5, 0.5);
         }
-        state.eta.iter_mut().for_each(|eta| *eta = random.within(-0.02, 0.02));
-        let coordinates: Vec<_> = state.rigid.devices.states().map(|[q, _]| q).collect();
+        state.modal.eta.iter_mut().for_each(|eta| *eta = random.within(-0.02, 0.02));
+        let coordinates: Vec<_> = state.devices.states().map(|[q, _]| q).collect();
         let spring = |random: &mut Random, rest: f64| Passive {
             rest,
             stiffness: random.log_within(0.01 * size, size),
@@ -207,11 +207,10 @@ fn limit_is_that_of_the_eigenvalues_of_structure_and_devices() {
         if !damped {
             case.modes.damping.fill(0.0);
         }
-        let craft =
-            FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
-        let mut inputs: FlexibleInputs<Mixed, ListedModes> = FlexibleInputs::none_for(&craft);
+        let craft = Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).unwrap();
+        let mut inputs: Inputs<Mixed, Flexible<ListedModes>> = Inputs::none_for(&craft);
         let mut driven = Vec::new();
-        for (index, mode) in inputs.rigid.modes.values_mut().enumerate() {
+        for (index, mode) in inputs.modes.values_mut().enumerate() {
             match random.within(0.0, 1.0) {
                 x if x < 0.15 => *mode = Mode::Locked,
                 x if x < 0.3 => *mode = Mode::Prescribed(0.0),
@@ -219,23 +218,23 @@ fn limit_is_that_of_the_eigenvalues_of_structure_and_devices() {
             }
         }
         if seed % 5 == 4 {
-            inputs.rigid.hub = HubMode::Fixed;
+            inputs.hub = HubMode::Fixed;
         }
 
         let count = driven.len() + modes;
         let mut responses = DMatrix::zeros(count, count);
         // The modes are bent: what their own springs do is subtracted.
-        let list = |inputs: &FlexibleInputs<Mixed, ListedModes>| -> Vec<f64> {
+        let list = |inputs: &Inputs<Mixed, Flexible<ListedModes>>| -> Vec<f64> {
             let found = craft.accelerations(&state, inputs).unwrap();
-            let joints: Vec<_> = found.rigid.devices.values().collect();
-            driven.iter().map(|joint| joints[*joint]).chain(found.eta_ddot).collect()
+            let joints: Vec<_> = found.devices.values().collect();
+            driven.iter().map(|joint| joints[*joint]).chain(found.modal.eta_ddot).collect()
         };
         let none = list(&inputs);
         for column in 0..count {
             let mut forced = inputs.clone();
             match driven.get(column) {
-                Some(joint) => *forced.rigid.motors.values_mut().nth(*joint).unwrap() = 1e3,
-                None => forced.modal[column - driven.len()] = 1e3,
+                Some(joint) => *forced.motors.values_mut().nth(*joint).unwrap() = 1e3,
+                None => forced.modal.forces[column - driven.len()] = 1e3,
             }
             for (row, (with, without)) in list(&forced).iter().zip(&none).enumerate() {
                 responses[(row, column)] = 1e-3 * (with - without);
@@ -267,7 +266,7 @@ fn limit_is_that_of_the_eigenvalues_of_structure_and_devices() {
 }
 
 /// One mode of this damping ratio on an empty mount.
-fn single(damping: f64) -> FlexibleSpacecraft<[ReactionWheel; 0], FixedModes<1, 1>> {
+fn single(damping: f64) -> Spacecraft<[ReactionWheel; 0], Flexible<FixedModes<1, 1>>> {
     let hub = Hub { m_b: 100.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 20.0 };
     let modes: Modes<FixedModes<1, 1>> = Modes {
         frequencies: [20.0],
@@ -276,15 +275,15 @@ fn single(damping: f64) -> FlexibleSpacecraft<[ReactionWheel; 0], FixedModes<1, 
         angular: [Vector3::zeros()],
         mounts: [still()],
     };
-    FlexibleSpacecraft::new(&hub, &modes, &[], &[]).expect("valid")
+    Spacecraft::flexible(&hub, &modes, &[], &[]).expect("valid")
 }
 
 #[test]
 fn input_that_is_not_finite_is_named_before_the_step() {
     let craft = single(0.01);
-    let inputs = FlexibleInputs::none_for(&craft);
-    let mut state = Motion::at_rest(&craft);
-    state.rigid.omega.x = f64::INFINITY;
+    let inputs = Inputs::none_for(&craft);
+    let mut state = Motion::at_rest_for(&craft);
+    state.omega.x = f64::INFINITY;
     for dt in [1e-3, 1.0, 1e300] {
         let found = craft.step(&state, &inputs, dt).expect_err("not finite");
         let value = f64::INFINITY;
@@ -297,7 +296,7 @@ fn input_that_is_not_finite_is_named_before_the_step() {
 fn step_of_no_length_is_never_too_long() {
     for damping in [0.0, 1e3, 1e308] {
         let craft = single(damping);
-        let found = craft.step(&Motion::at_rest(&craft), &FlexibleInputs::none_for(&craft), 0.0);
+        let found = craft.step(&Motion::at_rest_for(&craft), &Inputs::none_for(&craft), 0.0);
         let overflows = matches!(found, Err(SolveError::Overflow { .. }));
         assert!(found.is_ok() || (damping == 1e308 && overflows), "{damping}: {found:?}");
     }
@@ -310,11 +309,14 @@ fn step_that_overflows_names_no_finite_input() {
     let hub = Hub { m_b: 100.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 20.0 };
     let none: Modes<Storage> =
         Modes { frequencies: [], damping: [], linear: [], angular: [], mounts: [still()] };
-    let craft = FlexibleSpacecraft::new(&hub, &none, &([] as [ReactionWheel; 0]), &[]).unwrap();
-    let mut state: Motion<[ReactionWheel; 0], Storage> = Motion::at_rest(&craft);
-    state.rigid.r_b_n_dot.x = 1e10;
-    let inputs = FlexibleInputs::none_for(&craft);
-    let rigid = craft.rigid().step_with_work(&state.rigid, &inputs.rigid, 1e300).map(|_| ());
+    let craft = Spacecraft::flexible(&hub, &none, &([] as [ReactionWheel; 0]), &[]).unwrap();
+    let mut state: Motion<[ReactionWheel; 0], Storage> = Motion::at_rest_for(&craft);
+    state.r_b_n_dot.x = 1e10;
+    let inputs = Inputs::none_for(&craft);
+    let rigid = craft
+        .undeformed()
+        .step_with_work(&state.with_modal(()), &inputs.with_modal(()), 1e300)
+        .map(|_| ());
     let rigid = rigid.expect_err("overflow");
     let found = craft.step_with_work(&state, &inputs, 1e300).map(|_| ()).expect_err("overflow");
     assert!(matches!(found, SolveError::Overflow { .. }), "{found:?}");

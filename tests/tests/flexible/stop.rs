@@ -12,18 +12,18 @@ fn case(seed: u64) -> Case {
     let modes = usize::try_from(1 + seed % 5).unwrap();
     let size = Size { modes, contained: seed % 2 == 1, rotation: 0.3, free: false };
     let mut case = Case::new(seed, size);
-    case.inputs.rigid.modes.0.inner_gimbal = Mode::Locked;
-    case.inputs.rigid.modes.2.panel = Mode::Locked;
+    case.inputs.modes.0.inner_gimbal = Mode::Locked;
+    case.inputs.modes.2.panel = Mode::Locked;
     case
 }
 
 /// Velocities `v, omega, eta', q'`, those of B expressed in B.
 pub(crate) fn velocities<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
-    let rigid = &case.state.rigid;
+    let rigid = &case.state;
     let v = rigid.attitude.dcm() * rigid.r_b_n_dot;
     let hub = v.iter().chain(&rigid.omega).copied().collect::<Vec<_>>();
     let joints = rigid.devices.states().map(|[_, rate]| rate);
-    hub.into_iter().chain(case.state.eta_dot.iter().copied()).chain(joints).collect()
+    hub.into_iter().chain(case.state.modal.eta_dot.iter().copied()).chain(joints).collect()
 }
 
 /// `M Δ` has an impulse at the locked joints and nowhere else: rows of the mass matrix that is
@@ -37,9 +37,9 @@ fn impulses_act_at_the_locked_joints_only() {
         let mass = reference(&case).mass;
         let stopped = case.craft.stop(&case.state, &case.inputs).expect("a solution");
         case.state = stopped.state;
-        assert_eq!(case.state.rigid.devices.0.gamma_i_dot, 0.0);
+        assert_eq!(case.state.devices.0.gamma_i_dot, 0.0);
         let after = velocities(&case);
-        let first = 6 + case.state.eta.len();
+        let first = 6 + case.state.modal.eta.len();
         for (index, row) in mass.iter().enumerate() {
             let terms = row.iter().zip(after.iter().zip(&before));
             let start = [dd(0.0); 3];
@@ -79,7 +79,10 @@ fn stop_conserves_momentum_and_loses_energy() {
         let lost = energy(&case.state) - energy(&stopped.state);
         // That of the orbit is counted here.
         assert!((lost - stopped.energy_lost).abs() <= LIMITS * energy(&case.state));
-        assert!(stopped.state.eta == case.state.eta && stopped.state.eta_dot != case.state.eta_dot);
+        assert!(
+            stopped.state.modal.eta == case.state.modal.eta
+                && stopped.state.modal.eta_dot != case.state.modal.eta_dot
+        );
         // What is at rest is stopped without an impulse.
         let again = case.craft.stop(&stopped.state, &case.inputs).unwrap();
         assert!(again.energy_lost.abs() <= LIMITS * energy(&case.state));
@@ -91,18 +94,18 @@ fn stop_conserves_momentum_and_loses_energy() {
 #[test]
 fn fixed_frame_stops_and_the_modes_take_the_impulse() {
     let mut case = case(SEED + 840);
-    case.inputs.rigid.hub = HubMode::Fixed;
+    case.inputs.hub = HubMode::Fixed;
     let stopped = case.craft.stop(&case.state, &case.inputs).expect("a solution");
-    let rigid = &stopped.state.rigid;
+    let rigid = &stopped.state;
     assert!(rigid.omega.norm() == 0.0 && rigid.r_b_n_dot.norm() == 0.0);
     assert!(stopped.energy_lost > 0.0);
-    assert_ne!(stopped.state.eta_dot, case.state.eta_dot);
+    assert_ne!(stopped.state.modal.eta_dot, case.state.modal.eta_dot);
     // Rows of the modes: M Δ = 0, the momentum of each mode stays.
     let mass = reference(&case).mass;
     let before = velocities(&case);
     let state = stopped.state.clone();
     let after = velocities(&Case { state, ..case.clone() });
-    for row in mass.iter().skip(6).take(case.state.eta.len()) {
+    for row in mass.iter().skip(6).take(case.state.modal.eta.len()) {
         let terms = row.iter().zip(after.iter().zip(&before));
         let terms: Vec<DD> = terms.map(|(m, (a, b))| *m * (dd(*a) - dd(*b))).collect();
         let sum = terms.iter().fold(dd(0.0), |sum, term| sum + *term).abs().to_f64();

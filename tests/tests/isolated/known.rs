@@ -96,6 +96,7 @@ fn platform_that_nothing_holds_leaves_the_hub_as_if_it_were_alone() {
             attitude: of.state.attitude,
             omega: of.state.omega,
             devices: [],
+            modal: (),
         };
         let inputs = Inputs { force: of.inputs.force, ..Inputs::none() };
         let expected = alone.accelerations(&state, &inputs).expect("regular");
@@ -162,6 +163,7 @@ fn locked_platform_is_part_of_the_hub() {
             attitude: of.state.attitude,
             omega: of.state.omega,
             devices: of.state.devices.carried,
+            modal: (),
         };
         let mut inputs: Inputs<([ReactionWheel; 2], Sgcmg)> = Inputs::none();
         (inputs.motors, inputs.modes) = (of.inputs.motors.carried, of.inputs.modes.carried);

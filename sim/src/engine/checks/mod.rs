@@ -68,6 +68,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
             attitude: Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 },
             omega: Vector3::zeros(),
             devices: Default::default(),
+            modal: (),
         },
         devices,
         hub_mode: HubMode::Free,

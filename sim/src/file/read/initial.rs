@@ -53,6 +53,7 @@ fn at_rest(devices: &[Device]) -> State<Set> {
             attitude: Quaternion::identity(),
             omega: Vector3::zeros(),
             devices: Default::default(),
+            modal: (),
         },
     }
 }

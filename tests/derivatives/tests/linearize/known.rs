@@ -122,8 +122,9 @@ fn the_tangent_is_that_of_every_parameterisation() {
     let drawn = Drawn::new(SEED + 1);
     let case = drawn.case::<f64>();
     let craft = case.craft();
-    let State { r_b_n, r_b_n_dot, attitude, omega, devices } = case.state.clone();
-    let state = State { attitude: Mrp::from(attitude), r_b_n, r_b_n_dot, omega, devices };
+    let State { r_b_n, r_b_n_dot, attitude, omega, devices, .. } = case.state.clone();
+    let state =
+        State { attitude: Mrp::from(attitude), r_b_n, r_b_n_dot, omega, devices, modal: () };
     let by_mrp = craft.linearize(&state, &case.inputs, &OUTPUTS).unwrap();
     let by_quaternion = craft.linearize(&case.state, &case.inputs, &OUTPUTS).unwrap();
     let unit = by_quaternion.a.amax();
@@ -152,7 +153,8 @@ fn derivatives_by_forces_are_symmetric() {
                 &outputs,
                 forces.iter().copied(),
                 |_, column| {
-                    let Accelerations { r_b_n_ddot, omega_dot, devices } = &column.accelerations;
+                    let Accelerations { r_b_n_ddot, omega_dot, devices, .. } =
+                        &column.accelerations;
                     let joints: Vec<_> = devices.values().collect();
                     let of = |force: &Variable| match *force {
                         Variable::Force(axis) => r_b_n_ddot[index(axis)],

@@ -137,7 +137,7 @@ fn gradient_turns_a_rigid_body_as_in_the_textbook_also_one_of_locked_devices() {
         let whole = Hub { r_bc_b: Vector3::zeros(), ..rigid(&case) };
         let craft = Spacecraft::<[Dgvscmg; 0]>::new(&whole, &[]).expect("a rigid body");
         let State { r_b_n, r_b_n_dot, attitude, omega, .. } = case.state;
-        let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [] };
+        let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [], modal: () };
         let inputs = Inputs { gravity: case.inputs.gravity, ..Inputs::none() };
         let jointed = craft.accelerations(&state, &inputs).expect("a solution");
         let locked = case.accelerations();
@@ -164,7 +164,7 @@ fn locked_devices_are_one_rigid_body_in_a_central_field() {
         case.inputs.gravity = Gravity::Central { mu: 9.8 * case.state.r_b_n.norm_squared() };
         let craft = Spacecraft::<[Dgvscmg; 0]>::new(&rigid(&case), &[]).expect("a rigid body");
         let State { r_b_n, r_b_n_dot, attitude, omega, .. } = case.state;
-        let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [] };
+        let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [], modal: () };
         let inputs = Inputs { gravity: case.inputs.gravity, ..Inputs::none() };
         let jointed = craft.accelerations(&state, &inputs).expect("a solution");
         let locked = case.accelerations();

@@ -4,8 +4,8 @@
 use std::hint::black_box;
 
 use precess_dynamics::{
-    Devices, FlexibleInputs, FlexibleReactionWheel, FlexibleSpacecraft, FlexibleState, Isolated,
-    ListedModes, ReactionWheel, Spacecraft, Suspension,
+    Devices, Flexible, FlexibleReactionWheel, Inputs, Isolated, ListedModes, Quaternion,
+    ReactionWheel, Spacecraft, State, Suspension,
 };
 use precess_tests::bending::{WHEELS, structure, swing};
 use serde_json::Value;
@@ -46,34 +46,33 @@ fn one<D: Devices<Scalar = f64>>(listed: &Listed, devices: &D) -> Result<One<D>,
 
 /// A structure with a wheel on each of four mounts.
 struct Bending {
-    craft: FlexibleSpacecraft<[ReactionWheel; WHEELS], ListedModes>,
-    state: FlexibleState<[ReactionWheel; WHEELS], ListedModes>,
-    inputs: FlexibleInputs<[ReactionWheel; WHEELS], ListedModes>,
+    craft: Spacecraft<[ReactionWheel; WHEELS], Flexible<ListedModes>>,
+    state: State<[ReactionWheel; WHEELS], Quaternion, Flexible<ListedModes>>,
+    inputs: Inputs<[ReactionWheel; WHEELS], Flexible<ListedModes>>,
 }
 
 impl Bending {
     fn open(listed: &Listed, wheels: &[ReactionWheel; WHEELS]) -> Result<Self, Rejected> {
         let rigid = one(listed, wheels)?;
         let modes = structure(listed.modes, &wheels.map(|wheel| wheel.r_w_b));
-        let craft = FlexibleSpacecraft::new(&listed.hub(), &modes, wheels, &[0, 1, 2, 3])?;
-        let mut state = FlexibleState::at_rest(&craft);
-        state.rigid = rigid.state;
-        swing(&mut state.eta);
-        let mut inputs = FlexibleInputs::none_for(&craft);
-        inputs.rigid = rigid.inputs;
+        let craft = Spacecraft::flexible(&listed.hub(), &modes, wheels, &[0, 1, 2, 3])?;
+        let mut state = State::at_rest_for(&craft);
+        state = rigid.state.with_modal(state.modal);
+        swing(&mut state.modal.eta);
+        let inputs = rigid.inputs.with_modal(Inputs::none_for(&craft).modal);
         Ok(Self { craft, state, inputs })
     }
 }
 
 impl Service for Bending {
     fn check(&mut self) -> Result<Value, Rejected> {
-        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?.rigid))
+        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
 
     fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
             let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
-            self.state.rigid.omega += black_box(&found).rigid.omega_dot * NUDGE;
+            self.state.omega += black_box(&found).omega_dot * NUDGE;
         }
         Ok(())
     }

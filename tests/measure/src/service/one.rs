@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State};
+use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State, StructureData};
 use precess_tests::stored::Stored;
 use serde_json::{Value, json};
 
@@ -48,7 +48,9 @@ impl<D: Devices<Scalar = f64>> Service for One<D> {
 }
 
 /// The accelerations in a row.
-pub(super) fn flat<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Value {
+pub(super) fn flat<D: Devices<Scalar = f64>, S: StructureData>(
+    found: &Accelerations<D, S>,
+) -> Value {
     let hub = found.r_b_n_ddot.iter().chain(&found.omega_dot).copied();
     json!({ "accelerations": hub.chain(found.devices.values()).collect::<Vec<_>>() })
 }

@@ -172,7 +172,7 @@ impl<D: Devices<Scalar = f64>> Case<D> {
 
     /// The solver's accelerations, joint by joint.
     pub(crate) fn solved(&self) -> Found {
-        let Accelerations { r_b_n_ddot, omega_dot, devices } = self.accelerations();
+        let Accelerations { r_b_n_ddot, omega_dot, devices, .. } = self.accelerations();
         let joints = self.craft.joints().zip(self.inputs.modes.values()).zip(devices.values());
         let moving = joints.filter(|((_, mode), _)| *mode != Mode::Locked);
         let joints = moving.map(|(((_, info), _), value)| (info.coordinate, value)).collect();

@@ -106,7 +106,7 @@ fn impulses(case: &Case<Mixed>, after: &State<Mixed>) -> (Vec<f64>, Wrench) {
     none.devices.values_mut().for_each(|jump| *jump = 0.0);
     let loads = |accelerations: &Accelerations<Mixed>| {
         let loads = case.craft.loads(&still, &Inputs::none(), accelerations, LoadAxes::Body);
-        let Loads { devices, hub } = case.expect_ok(loads);
+        let Loads { devices, hub, .. } = case.expect_ok(loads);
         let ([first, second], sgcmg, double, (panel, slosh)) = devices;
         let mut motors: Vec<f64> = first.motors.values().chain(second.motors.values()).collect();
         motors.extend(sgcmg.motors.values().chain(double.motors.values()));
