@@ -1,15 +1,14 @@
-//! [`Batch`]: many states of one spacecraft, in the lanes of the widest registers at hand.
+//! [`Batch`]: many states, in the lanes of the widest registers at hand.
 
-#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
-
+use std::sync::Arc;
 use std::vec::Vec;
 
 use super::batch_inputs::BatchInputs;
 use super::calls::{accelerations, run};
-use super::constants::{CraftBlocks, OwnLoads};
-use super::crafts::Crafts;
+use super::crafts::{EachCraft, SameCraft};
 use super::laned_set::LanedSet;
 use super::observers::{Observers, none};
+use super::part::Parts;
 use crate::equations::error::SolveError;
 use crate::model::parameters::Hub;
 use crate::solve::spacecraft::Spacecraft;
@@ -19,33 +18,47 @@ use crate::validation::parameter_error::ParameterError;
 /// What became of each state of a batch, in order.
 pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 
-/// A spacecraft that is evaluated at many states at a time.
+/// Many states at a time: of one spacecraft ([`Self::new`]), or each of its own
+/// ([`Self::from_spacecraft`]).
 ///
-/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit. A state
-/// falls back to the scalar path where it has what is [unsupported in lanes](crate::lanes), and where
-/// anything fails.
+/// A state has the result, or the error, that its [`Spacecraft`] gives it by itself, to the bit. A
+/// state falls back to the scalar path where it or its spacecraft has what is
+/// [unsupported in lanes](crate::lanes), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
-    craft: Spacecraft<D>,
-    own: OwnLoads,
+    pub(super) crafts: Arc<dyn Parts<D>>,
     #[cfg(feature = "threads")]
-    on_threads: bool,
+    pub(super) on_threads: bool,
 }
 
 impl<D: LanedSet> Batch<D> {
-    /// Checks the parameters and computes everything that depends only on them.
+    /// One spacecraft for all states: checks the parameters and computes everything that depends only
+    /// on them.
     ///
     /// # Errors
     ///
     /// As [`Spacecraft::new`].
     pub fn new(hub: &Hub, devices: &D) -> Result<Self, ParameterError<f64>> {
-        let craft = Spacecraft::new(hub, devices)?;
-        Ok(Self {
-            own: OwnLoads::of(&craft),
-            craft,
+        Ok(Self::of(Arc::new(SameCraft::new(Spacecraft::new(hub, devices)?))))
+    }
+
+    /// One spacecraft for each state, in their order: spacecraft of one shape whose parameters
+    /// differ, such as masses, offsets, imbalances, mounts and springs of a campaign.
+    ///
+    /// Vectors of devices may differ in length. As many spacecraft as there are lanes are evaluated
+    /// together where all of their vectors have the lengths of those of the first spacecraft of the
+    /// batch; others fall back to the scalar path.
+    #[must_use]
+    pub fn from_spacecraft(spacecraft: Vec<Spacecraft<D>>) -> Self {
+        Self::of(Arc::new(EachCraft::new(spacecraft)))
+    }
+
+    fn of(crafts: Arc<dyn Parts<D>>) -> Self {
+        Self {
+            crafts,
             #[cfg(feature = "threads")]
             on_threads: false,
-        })
+        }
     }
 
     /// The same on the threads of rayon's pool: that in which a call is made, by
@@ -58,18 +71,18 @@ impl<D: LanedSet> Batch<D> {
         Self { on_threads: true, ..self }
     }
 
-    /// The spacecraft, for everything that is asked of one state.
+    /// The spacecraft: one, or one for each state.
     #[must_use]
-    pub fn spacecraft(&self) -> &Spacecraft<D> {
-        &self.craft
+    pub fn spacecraft(&self) -> &[Spacecraft<D>] {
+        self.crafts.spacecraft()
     }
 
     /// All accelerations of each state, as [`Spacecraft::accelerations`]. `out` is cleared first.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Count`] where there are inputs for another number of states; a state that
-    /// cannot be evaluated has its own error in `out`.
+    /// [`SolveError::Count`] where there are spacecraft or inputs for another number of states; a
+    /// state that cannot be evaluated has its own error in `out`.
     pub fn accelerations<'a>(
         &self,
         states: &[State<D>],
@@ -121,33 +134,5 @@ impl<D: LanedSet> Batch<D> {
         D: 'a,
     {
         run(self, states, &inputs.into(), (dt, steps), Some(observers), out)
-    }
-}
-
-impl<D: LanedSet> Crafts<D> for Batch<D> {
-    const EACH: bool = false;
-
-    #[cfg(feature = "threads")]
-    fn are_on_threads(&self) -> bool {
-        self.on_threads
-    }
-
-    fn count(&self) -> Option<usize> {
-        None
-    }
-
-    #[inline(always)]
-    fn at(&self, _: usize) -> Option<&Spacecraft<D>> {
-        Some(&self.craft)
-    }
-
-    #[inline(always)]
-    fn blocks(&self, _: usize) -> Option<&CraftBlocks<D>> {
-        None
-    }
-
-    #[inline(always)]
-    fn own_loads(&self, _: usize) -> OwnLoads {
-        self.own
     }
 }

@@ -5,14 +5,11 @@
 
 use std::vec::Vec;
 
-use super::accelerations::Evaluation;
-use super::batch::BatchAccelerations;
+use super::batch::{Batch, BatchAccelerations};
 use super::batch_inputs::BatchInputs;
-use super::crafts::Crafts;
 use super::laned_set::LanedSet;
 use super::observers::Observers;
-use super::run::Runs;
-use super::width::widest;
+use super::part::{Part, Parts, See, Steps};
 use crate::equations::error::{Quantity, SolveError};
 use crate::numbers::laned::WIDEST;
 use crate::solve::state::State;
@@ -24,26 +21,24 @@ const PART: usize = 1024;
 pub(super) type Ends = Vec<Result<(), SolveError<f64>>>;
 
 /// All accelerations of each state, once the numbers of spacecraft, states and inputs agree.
-pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
+pub(super) fn accelerations<D: LanedSet>(
+    batch: &Batch<D>,
     states: &[State<D>],
     inputs: &BatchInputs<'_, D>,
     out: &mut BatchAccelerations<D>,
 ) -> Result<(), SolveError<f64>> {
+    let crafts = &*batch.crafts;
     fit(crafts, states, inputs)?;
     out.clear();
-    let Some(craft) = crafts.at(0) else { return Ok(()) };
+    let Some(craft) = crafts.spacecraft().first() else { return Ok(()) };
     // Filled in place: what was just put together number by number is slow to move.
     let still = Ok(craft.no_accelerations());
-    let evaluate = |start, states: &[State<D>], out: &mut [Result<_, _>]| {
-        let inputs = inputs.starting(start);
-        if let Err(work) = widest(Evaluation { crafts, start, states, inputs, out }) {
-            work.one_by_one();
-        }
+    let evaluate = |start, states, out: &mut [Result<_, _>]| {
+        crafts.accelerations(Part { start, states, out }, inputs.starting(start));
     };
     // Shorter parts would take longer to hand over than to evaluate.
     #[cfg(feature = "threads")]
-    if crafts.are_on_threads() && states.len() > PART {
+    if batch.on_threads && states.len() > PART {
         use rayon::prelude::*;
         out.par_extend(rayon::iter::repeat_n(still, states.len()));
         let parts = states.par_chunks(PART).zip(out.par_chunks_mut(PART)).enumerate();
@@ -63,14 +58,15 @@ pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
 
 /// Each state advanced by so many steps and observed on the way, once the numbers of spacecraft,
 /// states, inputs and records agree.
-pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
-    crafts: &C,
+pub(super) fn run<D: LanedSet, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
+    batch: &Batch<D>,
     states: &mut [State<D>],
     inputs: &BatchInputs<'_, D>,
     (dt, steps): (f64, usize),
     observers: Option<Observers<'_, R, F>>,
     out: &mut Ends,
 ) -> Result<(), SolveError<f64>> {
+    let crafts = &*batch.crafts;
     fit(crafts, states, inputs)?;
     let count = states.len();
     if let Some(Observers { records, .. }) = &observers
@@ -84,7 +80,7 @@ pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &Stat
     out.clear();
     out.resize(count, Ok(()));
     #[cfg(feature = "threads")]
-    let size = if crafts.are_on_threads() { part(count) } else { PART };
+    let size = if batch.on_threads { part(count) } else { PART };
     #[cfg(not(feature = "threads"))]
     let size = PART;
     let (records, observe) = match observers {
@@ -95,42 +91,28 @@ pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &Stat
     let states = states.chunks_mut(size).zip(out.chunks_mut(size)).enumerate();
     let parts = states.map(|(k, (states, out))| {
         let records = records.as_mut().and_then(Iterator::next);
-        Part { start: k * size, states, records: records.unwrap_or_default(), out }
+        (Part { start: k * size, states, out }, records.unwrap_or_default())
     });
     let parts: Vec<_> = parts.collect();
-    let run = |Part { start, states, records, out }: Part<'_, D, R>| {
+    let run = |(part, records): (Part<'_, &mut [State<D>], ()>, &mut [R])| {
         let mut see = |state: usize, steps: usize, now: &State<D>| {
             if let (Some(record), Some((_, observe))) = (records.get_mut(state), &observe) {
                 observe(record, steps, now);
             }
         };
-        let inputs = inputs.starting(start);
+        let inputs = inputs.starting(part.start);
         let every = observe.as_ref().map(|(every, _)| *every);
-        let see: &mut dyn FnMut(usize, usize, &State<D>) = &mut see;
-        if let Err(work) =
-            widest(Runs { crafts, start, states, inputs, dt, steps, every, see, out })
-        {
-            work.one_by_one();
-        }
+        let see: &mut See<'_, D> = &mut see;
+        crafts.run(part, inputs, Steps { dt, count: steps, every }, see);
     };
     #[cfg(feature = "threads")]
-    if crafts.are_on_threads() {
+    if batch.on_threads {
         use rayon::prelude::*;
         parts.into_par_iter().for_each(run);
         return Ok(());
     }
     parts.into_iter().for_each(run);
     Ok(())
-}
-
-/// Some states of a run, whole groups of lanes.
-struct Part<'a, D: LanedSet, R> {
-    /// The first of them.
-    start: usize,
-    states: &'a mut [State<D>],
-    /// A record of each, where they are observed.
-    records: &'a mut [R],
-    out: &'a mut [Result<(), SolveError<f64>>],
 }
 
 /// How many states a part of runs has: several parts for each thread, since one may take longer than
@@ -142,8 +124,8 @@ fn part(states: usize) -> usize {
 }
 
 /// Whether there are as many states as spacecraft, and as many inputs as states.
-fn fit<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
+fn fit<D: LanedSet>(
+    crafts: &dyn Parts<D>,
     states: &[State<D>],
     inputs: &BatchInputs<'_, D>,
 ) -> Result<(), SolveError<f64>> {

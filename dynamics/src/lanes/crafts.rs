@@ -1,24 +1,27 @@
-//! [`Crafts`]: the spacecraft of a batch, one for all states or one for each.
+//! [`Crafts`]: the spacecraft of a batch, one for all states ([`SameCraft`]) or one for each
+//! ([`EachCraft`]).
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use core::fmt::Debug;
+use core::slice;
+use std::vec::Vec;
 
 use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
 use super::laned_set::LanedSet;
 use super::slot::{SlotsOf, enter_constants};
+use super::width::widest_width;
 use crate::numbers::laned::Number;
 use crate::solve::spacecraft::Spacecraft;
 
 /// The spacecraft of a batch.
-pub(super) trait Crafts<D: LanedSet>: Sync {
+pub(super) trait Crafts<D: LanedSet>: Debug + Send + Sync {
     /// Whether each state has its own.
     const EACH: bool;
 
-    /// Whether the states are split over threads.
-    #[cfg(feature = "threads")]
-    fn are_on_threads(&self) -> bool;
-    /// The number of states that they are for; none where it is any.
-    fn count(&self) -> Option<usize>;
+    /// All of them.
+    fn all(&self) -> &[Spacecraft<D>];
     /// That of a state.
     fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
     /// Those of a group of lanes, where each state has its own; none where their lists differ in length.
@@ -29,6 +32,82 @@ pub(super) trait Crafts<D: LanedSet>: Sync {
     #[inline(always)]
     fn are_in_lanes(&self, group: usize) -> bool {
         !Self::EACH || self.blocks(group).is_some()
+    }
+}
+
+/// One spacecraft for all states.
+#[derive(Debug)]
+pub(super) struct SameCraft<D: LanedSet> {
+    craft: Spacecraft<D>,
+    own: OwnLoads,
+}
+
+impl<D: LanedSet> SameCraft<D> {
+    pub(super) fn new(craft: Spacecraft<D>) -> Self {
+        Self { own: OwnLoads::of(&craft), craft }
+    }
+}
+
+impl<D: LanedSet> Crafts<D> for SameCraft<D> {
+    const EACH: bool = false;
+
+    fn all(&self) -> &[Spacecraft<D>] {
+        slice::from_ref(&self.craft)
+    }
+
+    #[inline(always)]
+    fn at(&self, _: usize) -> Option<&Spacecraft<D>> {
+        Some(&self.craft)
+    }
+
+    #[inline(always)]
+    fn blocks(&self, _: usize) -> Option<&CraftBlocks<D>> {
+        None
+    }
+
+    #[inline(always)]
+    fn own_loads(&self, _: usize) -> OwnLoads {
+        self.own
+    }
+}
+
+/// One spacecraft for each state.
+#[derive(Debug)]
+pub(super) struct EachCraft<D: LanedSet> {
+    crafts: Vec<Spacecraft<D>>,
+    /// As many spacecraft as there are lanes, side by side; none where their lists differ in length.
+    groups: Vec<Option<CraftBlocks<D>>>,
+}
+
+impl<D: LanedSet> EachCraft<D> {
+    pub(super) fn new(crafts: Vec<Spacecraft<D>>) -> Self {
+        // The registers that every evaluation chooses.
+        let groups = crafts.chunks(widest_width());
+        let groups = groups.map(|group| CraftBlocks::new(group, crafts.first()?)).collect();
+        Self { crafts, groups }
+    }
+}
+
+impl<D: LanedSet> Crafts<D> for EachCraft<D> {
+    const EACH: bool = true;
+
+    fn all(&self) -> &[Spacecraft<D>] {
+        &self.crafts
+    }
+
+    #[inline(always)]
+    fn at(&self, state: usize) -> Option<&Spacecraft<D>> {
+        self.crafts.get(state)
+    }
+
+    #[inline(always)]
+    fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>> {
+        self.groups.get(group)?.as_ref()
+    }
+
+    #[inline(always)]
+    fn own_loads(&self, group: usize) -> OwnLoads {
+        self.blocks(group).map_or(OwnLoads { dry: false, lumped: false }, |group| group.own)
     }
 }
 

@@ -9,8 +9,9 @@ use std::vec::Vec;
 use nalgebra::{Matrix3, Vector3};
 
 use super::accelerations::Evaluation;
+use super::crafts::SameCraft;
 use super::run::Runs;
-use super::{AcrossDevices, Batch, Observers, ParameterBatch};
+use super::{AcrossDevices, Batch, Observers};
 use crate::{
     Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, Sgcmg, SloshMass,
     Spacecraft, State, Wrench,
@@ -77,7 +78,7 @@ fn of_batches(devices: &Set, change: fn(u32, &mut Inputs<Set>)) -> [usize; 4] {
     let craft = Spacecraft::new(&hub(), devices).unwrap();
     let others = Spacecraft::new(&hub(), &self::devices()).unwrap();
     let crafts = (0..COUNT).map(|k| if k.is_multiple_of(3) { others } else { craft }).collect();
-    let (batch, each) = (Batch::new(&hub(), devices).unwrap(), ParameterBatch::new(crafts));
+    let (batch, each) = (Batch::new(&hub(), devices).unwrap(), Batch::from_spacecraft(crafts));
     let (mut found, mut ends) = (Vec::new(), Vec::new());
     [
         fallbacks(|| batch.accelerations(&states, &inputs, &mut found).unwrap()),
@@ -176,8 +177,9 @@ fn a_cpu_without_wide_registers_gives_the_same_bits() {
     let start: Vec<_> = (0..COUNT).map(state).collect();
     let mut laned = Vec::new();
     batch.accelerations(&start, &inputs, &mut laned).unwrap();
-    let mut scalar = vec![Ok(batch.spacecraft().no_accelerations()); start.len()];
-    let (crafts, out) = (&batch, &mut scalar[..]);
+    let craft = Spacecraft::new(&hub(), &devices()).unwrap();
+    let mut scalar = vec![Ok(craft.no_accelerations()); start.len()];
+    let (crafts, out) = (&SameCraft::new(craft), &mut scalar[..]);
     Evaluation { crafts, start: 0, states: &start, inputs: (&inputs).into(), out }.one_by_one();
     assert_eq!(laned, scalar);
     // Seen after two and four of five steps.

@@ -13,7 +13,7 @@ use crate::sets::per_device::{self as data, PerDevice};
 ///
 /// Lanes evaluate the same devices at several states. Data of a vector with another number of members
 /// fall back to the scalar path, which returns the error; so do spacecraft of a
-/// [`ParameterBatch`](super::ParameterBatch) whose vectors have other numbers of members.
+/// [`Batch`](super::Batch) whose vectors have other numbers of members.
 pub trait LanedSet:
     Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
 {

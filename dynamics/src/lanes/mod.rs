@@ -4,8 +4,7 @@
 //! |---|---|
 //! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) |
 //! | one state after another, four or more devices of one kind | [`AcrossDevices`] |
-//! | many states of one spacecraft, or their runs | [`Batch`] |
-//! | many spacecraft of one shape, each at its state | [`ParameterBatch`] |
+//! | many states, or their runs, of one spacecraft or of one each | [`Batch`] |
 //! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] |
 //! | a batch on several threads, with the feature `threads` | `on_threads` |
 //!
@@ -53,7 +52,7 @@ mod laned_set;
 mod loads;
 mod motion;
 mod observers;
-mod parameter_batch;
+mod part;
 mod passive;
 mod run;
 mod scratch;
@@ -66,4 +65,3 @@ pub use batch::{Batch, BatchAccelerations};
 pub use batch_inputs::BatchInputs;
 pub use laned_set::LanedSet;
 pub use observers::Observers;
-pub use parameter_batch::ParameterBatch;

@@ -13,6 +13,7 @@ use super::group::{Group, NEAR_ONE};
 use super::laned_set::LanedSet;
 use super::loads::CheckFriction;
 use super::motion::Motion;
+use super::part::See;
 use super::slot::{EachSlot, Slot, each_slot, take_joints};
 use crate::attitude::quaternion::{bn, norm_squared, rate};
 use crate::equations::device::Device;
@@ -37,7 +38,7 @@ pub(super) struct Runs<'a, 's, 'o, D: LanedSet, C> {
     /// After how many steps the states are seen; none where they are not.
     pub(super) every: Option<usize>,
     /// Sees a state of the part, by its number there, after so many steps.
-    pub(super) see: &'o mut dyn FnMut(usize, usize, &State<D>),
+    pub(super) see: &'o mut See<'o, D>,
     /// One for each state.
     pub(super) out: &'o mut [Result<(), SolveError<f64>>],
 }

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let devices: Vec<Dgvscmg> = scenario.devices.0.iter().filter_map(gyro).collect();
     let batch = Batch::new(&scenario.hub, &devices)?;
-    let craft = batch.spacecraft();
+    let craft = batch.spacecraft().first().ok_or("no spacecraft")?;
     let mut state = State::at_rest_for(craft);
     state.omega = scenario.initial.omega;
     let rates = scenario.initial.devices.0.iter();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each as _, Kind};
-use precess_dynamics::lanes::{Batch, BatchInputs, Observers, ParameterBatch};
+use precess_dynamics::lanes::{Batch, BatchInputs, Observers};
 use precess_dynamics::{
     Accelerations, Attitude as _, Hub, Inputs, JointStates as _, ParameterError, Quaternion,
     SolveError, Spacecraft, State,
@@ -19,10 +19,10 @@ pub(crate) type Set<K> = Vec<K>;
 /// Accelerations of a state.
 type Found<K> = Result<Accelerations<Set<K>>, SolveError<f64>>;
 
-/// A batch: of one spacecraft, or part by part of one for each state.
-enum Crafts<K: Kind<Scalar = f64>> {
-    Same(Box<Batch<Set<K>>>),
-    Each(Vec<ParameterBatch<Set<K>>>),
+/// A batch of one spacecraft for every state, or of one for each, part by part.
+struct Crafts<K: Kind<Scalar = f64>> {
+    each: bool,
+    parts: Vec<Batch<Set<K>>>,
 }
 
 /// The batch, and what is wrong with each spacecraft: in its place stands the first sound one.
@@ -30,7 +30,7 @@ pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: boo
     if !each {
         let Some((hub, devices)) = crafts.first() else { return Made::Unsupported };
         return match Batch::new(hub, devices) {
-            Ok(batch) => Made::Lanes(Box::new(Crafts::Same(Box::new(batch))), vec![None]),
+            Ok(batch) => Made::Lanes(Box::new(Crafts { each, parts: vec![batch] }), vec![None]),
             Err(error) => failed(vec![Some(error)]),
         };
     }
@@ -40,8 +40,8 @@ pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: boo
         return failed(errors);
     };
     let sound: Vec<_> = made.into_iter().map(|of| of.unwrap_or_else(|_| sound.clone())).collect();
-    let parts = sound.chunks(PART).map(|part| ParameterBatch::new(part.to_vec())).collect();
-    Made::Lanes(Box::new(Crafts::<K>::Each(parts)), errors)
+    let parts = sound.chunks(PART).map(|part| Batch::from_spacecraft(part.to_vec())).collect();
+    Made::Lanes(Box::new(Crafts { each, parts }), errors)
 }
 
 /// No spacecraft is sound.
@@ -65,32 +65,12 @@ impl Lanes for Nothing {
 impl<K: Kind<Scalar = f64>> Crafts<K> {
     /// A spacecraft of the shape of all.
     fn shape(&self) -> Option<&Spacecraft<Set<K>>> {
-        match self {
-            Self::Same(batch) => Some(batch.spacecraft()),
-            Self::Each(parts) => parts.first()?.spacecraft().first(),
-        }
+        self.parts.first()?.spacecraft().first()
     }
 
-    /// Steps of a length, so many; none where there is no such part.
-    fn advance<F: Fn(&mut Record, usize, &State<Set<K>>) + Sync>(
-        &self,
-        part: usize,
-        now: &mut [State<Set<K>>],
-        acting: BatchInputs<'_, Set<K>>,
-        (length, count): (f64, usize),
-        observers: Option<Observers<'_, Record, F>>,
-        out: &mut Ends,
-    ) -> Option<Result<(), SolveError>> {
-        Some(match (self, observers) {
-            (Self::Same(batch), None) => batch.run(now, acting, length, count, out),
-            (Self::Same(batch), Some(observers)) => {
-                batch.run_observed(now, acting, length, count, observers, out)
-            }
-            (Self::Each(parts), None) => parts.get(part)?.run(now, acting, length, count, out),
-            (Self::Each(parts), Some(observers)) => {
-                parts.get(part)?.run_observed(now, acting, length, count, observers, out)
-            }
-        })
+    /// The batch of a part; none where there is no such part.
+    fn part(&self, part: usize) -> Option<&Batch<Set<K>>> {
+        if self.each { self.parts.get(part) } else { self.parts.first() }
     }
 }
 
@@ -101,14 +81,8 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         let inputs = inputs_of(shape, inputs);
         let mut found = Vec::new();
         let acting = batch_inputs(&inputs);
-        let fit = match self {
-            Self::Same(batch) => batch.accelerations(&states, acting, &mut found),
-            Self::Each(parts) => match parts.get(part) {
-                Some(batch) => batch.accelerations(&states, acting, &mut found),
-                None => return Vec::new(),
-            },
-        };
-        if let Err(error) = fit {
+        let Some(batch) = self.part(part) else { return Vec::new() };
+        if let Err(error) = batch.accelerations(&states, acting, &mut found) {
             return vec![Err(error); states.len()];
         }
         let width = out.len() / states.len().max(1);
@@ -131,7 +105,9 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         steps: Steps,
         watch: Watch<'_>,
     ) -> Ends {
-        let Some(shape) = self.shape() else { return Vec::new() };
+        let (Some(shape), Some(batch)) = (self.shape(), self.part(part)) else {
+            return Vec::new();
+        };
         let mut now = states(shape, y);
         let inputs = inputs_of(shape, inputs);
         let width = HUB + 2 * joints(shape);
@@ -149,10 +125,10 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
                 record.push(steps, state, width);
             };
             let observers = on_the_way.then(|| Observers::new(every, &mut records, observe));
-            let (acting, length) = (batch_inputs(&inputs), (steps.length, count));
-            let Some(fit) = self.advance(part, &mut now, acting, length, observers, &mut reached)
-            else {
-                return Vec::new();
+            let (acting, length) = (batch_inputs(&inputs), steps.length);
+            let fit = match observers {
+                Some(of) => batch.run_observed(&mut now, acting, length, count, of, &mut reached),
+                None => batch.run(&mut now, acting, length, count, &mut reached),
             };
             if let Err(error) = fit {
                 return vec![Err(error); now.len()];

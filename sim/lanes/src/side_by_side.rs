@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Kind;
-use precess_dynamics::lanes::ParameterBatch;
+use precess_dynamics::lanes::Batch;
 use precess_dynamics::{
     BuiltIn, Hub, Inputs, JointStates as _, Quaternion, SolveError, Spacecraft, State, every_kind,
 };
@@ -55,12 +55,12 @@ fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)]) -> Option<Box<dyn Si
     let first = made.first()?;
     let states = vec![State::at_rest_for(first); made.len()];
     let inputs = vec![Inputs::none_for(first); made.len()];
-    Some(Box::new(OfKind { batch: ParameterBatch::new(made), states, inputs, ends: Vec::new() }))
+    Some(Box::new(OfKind { batch: Batch::from_spacecraft(made), states, inputs, ends: Vec::new() }))
 }
 
 /// Spacecraft with devices of a kind; what the batch reads and writes.
 struct OfKind<K: Kind<Scalar = f64>> {
-    batch: ParameterBatch<Set<K>>,
+    batch: Batch<Set<K>>,
     states: Vec<State<Set<K>>>,
     inputs: Vec<Inputs<Set<K>>>,
     ends: Ends,

@@ -2,7 +2,7 @@
 //! a list of wheels also ragged ones, whose lists differ in length.
 
 use precess_dynamics::kind::ImbalanceModel;
-use precess_dynamics::lanes::{LanedSet, ParameterBatch};
+use precess_dynamics::lanes::{Batch, LanedSet};
 use precess_dynamics::{BuiltIn, Dgvscmg, Inputs, Passive, Spacecraft, State};
 
 use super::call_results::{of_accelerations, of_state};
@@ -104,7 +104,7 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, each: bool) -> Option<Batched
         states.push(state);
         crafts.push(craft);
     }
-    let batch = ParameterBatch::new(crafts);
+    let batch = Batch::from_spacecraft(crafts);
     let (mut found, mut ends) = (Vec::new(), Vec::new());
     let called = if each {
         batch

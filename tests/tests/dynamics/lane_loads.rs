@@ -3,7 +3,7 @@
 //! errors and the sign of zero included.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::lanes::{AcrossDevices, Batch, ParameterBatch};
+use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{
     Each as _, Gravity, ImbalanceModel, Inputs, JointStates as _, Mode, Passive, ReactionWheel,
     Sgcmg, SolveError, Spacecraft, State,
@@ -127,14 +127,14 @@ impl Campaign {
     }
 
     /// All accelerations, one by one.
-    fn accelerations(&self, craft: impl Fn(usize) -> Spacecraft<Mixed>) -> String {
+    fn accelerations<'a>(&self, craft: impl Fn(usize) -> &'a Spacecraft<Mixed>) -> String {
         let all = self.states.iter().zip(&self.inputs).enumerate();
         let found = all.map(|(k, (state, inputs))| craft(k).accelerations(state, inputs));
         printed(&found.collect::<Vec<_>>())
     }
 
     /// Ends of all runs and what became of them, one by one.
-    fn runs(&self, steps: usize, craft: impl Fn(usize) -> Spacecraft<Mixed>) -> String {
+    fn runs<'a>(&self, steps: usize, craft: impl Fn(usize) -> &'a Spacecraft<Mixed>) -> String {
         let all = self.states.iter().zip(&self.inputs).enumerate();
         let ends = all.map(|(k, (start, inputs))| {
             let mut state = *start;
@@ -156,15 +156,15 @@ fn every_mixture_of_loads_has_the_bits_of_single_evaluations() {
             let campaign = Campaign::new(loads, count, random);
             let Campaign { crafts, states, inputs } = &campaign;
             let mut found = Vec::new();
-            let batch = ParameterBatch::new(crafts.clone());
+            let batch = Batch::from_spacecraft(crafts.clone());
             batch.accelerations(states, inputs, &mut found).unwrap();
-            let single = campaign.accelerations(|k| crafts[k]);
+            let single = campaign.accelerations(|k| &crafts[k]);
             assert_eq!(printed(&found), single, "{loads:?}, {count} spacecraft");
             // One spacecraft, and one for each state with its own inputs.
             let devices = loads.devices(random);
             let batch = Batch::new(&hub(), &devices).unwrap();
             batch.accelerations(states, inputs, &mut found).unwrap();
-            let single = campaign.accelerations(|_| *batch.spacecraft());
+            let single = campaign.accelerations(|_| &batch.spacecraft()[0]);
             assert_eq!(printed(&found), single, "{loads:?}, {count} states");
         }
     }
@@ -179,12 +179,12 @@ fn inputs_of_all_states_have_the_bits_of_single_evaluations() {
         campaign.inputs.fill(one);
         let Campaign { crafts, states, .. } = &campaign;
         let mut found = Vec::new();
-        let batch = ParameterBatch::new(crafts.clone());
+        let batch = Batch::from_spacecraft(crafts.clone());
         batch.accelerations(states, &one, &mut found).unwrap();
-        assert_eq!(printed(&found), campaign.accelerations(|k| crafts[k]), "{loads:?}");
+        assert_eq!(printed(&found), campaign.accelerations(|k| &crafts[k]), "{loads:?}");
         let batch = Batch::new(&hub(), &loads.devices(random)).unwrap();
         batch.accelerations(states, &one, &mut found).unwrap();
-        let single = campaign.accelerations(|_| *batch.spacecraft());
+        let single = campaign.accelerations(|_| &batch.spacecraft()[0]);
         assert_eq!(printed(&found), single, "{loads:?}");
     }
 }
@@ -196,15 +196,15 @@ fn runs_with_loads_have_the_bits_of_single_steps() {
         let campaign = Campaign::new(loads, 11, random);
         let Campaign { crafts, states, inputs } = &campaign;
         let (mut run, mut ends) = (states.clone(), Vec::new());
-        let batch = ParameterBatch::new(crafts.clone());
+        let batch = Batch::from_spacecraft(crafts.clone());
         batch.run(&mut run, inputs, 1e-3, 12, &mut ends).unwrap();
         let found = run.into_iter().zip(ends.drain(..)).collect::<Vec<_>>();
-        assert_eq!(printed(&found), campaign.runs(12, |k| crafts[k]), "{loads:?}");
+        assert_eq!(printed(&found), campaign.runs(12, |k| &crafts[k]), "{loads:?}");
         let batch = Batch::new(&hub(), &loads.devices(random)).unwrap();
         let mut run = states.clone();
         batch.run(&mut run, inputs, 1e-3, 12, &mut ends).unwrap();
         let found = run.into_iter().zip(ends.drain(..)).collect::<Vec<_>>();
-        assert_eq!(printed(&found), campaign.runs(12, |_| *batch.spacecraft()), "{loads:?}");
+        assert_eq!(printed(&found), campaign.runs(12, |_| &batch.spacecraft()[0]), "{loads:?}");
     }
 }
 
@@ -232,7 +232,7 @@ fn joints_that_friction_stops_have_the_bits_of_single_steps() {
         for (k, start) in starts.iter().enumerate() {
             let mut state = *start;
             let end = (0..steps).try_for_each(|_| {
-                state = batch.spacecraft().step(&state, &inputs, dt)?;
+                state = batch.spacecraft()[0].step(&state, &inputs, dt)?;
                 Ok::<_, SolveError<f64>>(())
             });
             assert_eq!(printed(&(run[k], &ends[k])), printed(&(state, end)), "{dt} s, run {k}");
@@ -274,9 +274,9 @@ fn loads_of_other_lanes_leave_the_sign_of_zero() {
     };
     let crafts: Vec<_> = (0..8).map(craft).collect();
     let mut found = Vec::new();
-    ParameterBatch::new(crafts.clone()).accelerations(&states, &inputs, &mut found).unwrap();
+    Batch::from_spacecraft(crafts.clone()).accelerations(&states, &inputs, &mut found).unwrap();
     let campaign = Campaign { crafts: crafts.clone(), states, inputs };
-    let single = campaign.accelerations(|k| crafts[k]);
+    let single = campaign.accelerations(|k| &crafts[k]);
     assert!(single.contains("-0.0"), "no minus zero: nothing is checked");
     assert_eq!(printed(&found), single);
 }
@@ -309,9 +309,9 @@ fn loads_that_are_rejected_are_named_as_by_themselves() {
     let batch = Batch::new(&hub(), &mixed()).unwrap();
     let mut found = Vec::new();
     batch.accelerations(&states, &inputs, &mut found).unwrap();
-    let crafts = vec![*batch.spacecraft(); 8];
+    let crafts = vec![batch.spacecraft()[0].clone(); 8];
     let single = Campaign { crafts: crafts.clone(), states, inputs };
-    assert_eq!(printed(&found), single.accelerations(|k| crafts[k]));
+    assert_eq!(printed(&found), single.accelerations(|k| &crafts[k]));
     let rejected = found.iter().map(Result::is_err).collect::<Vec<_>>();
     assert_eq!(rejected, [true, false, false, false, true, true, false, false]);
 }

@@ -1,7 +1,7 @@
 //! Runs in lanes that are observed on the way, and batches on several threads, against steps one by
 //! one: to the bit, errors included.
 
-use precess_dynamics::lanes::{Batch, BatchInputs, Observers, ParameterBatch};
+use precess_dynamics::lanes::{Batch, BatchInputs, Observers};
 use precess_dynamics::{Gravity, HubMode, Inputs, Passive, SolveError, Spacecraft, State};
 
 use super::lanes::{Mixed, hub, inputs, mixed, states};
@@ -41,8 +41,8 @@ fn dry() -> Spacecraft<Mixed> {
 }
 
 /// The ends of runs one by one, what became of them and what is seen of them.
-fn one_by_one(
-    craft: impl Fn(usize) -> Spacecraft<Mixed>,
+fn one_by_one<'a>(
+    craft: impl Fn(usize) -> &'a Spacecraft<Mixed>,
     states: &[State<Mixed>],
     inputs: &[Inputs<Mixed>],
     every: usize,
@@ -98,14 +98,14 @@ fn observed_runs_have_the_bits_of_single_steps() {
         .map(|(k, c)| if k % 4 == 1 { dry() } else { c })
         .collect();
     let batch = Batch::new(&hub(), &mixed()).unwrap();
-    let each = ParameterBatch::new(crafts.clone());
+    let each = Batch::from_spacecraft(crafts.clone());
     for every in [1, 7, 32, 80] {
-        let single = one_by_one(|_| *batch.spacecraft(), &states, &inputs, every);
+        let single = one_by_one(|_| &batch.spacecraft()[0], &states, &inputs, every);
         let found = of_batch(&states, every, |states, observers, ends| {
             batch.run_observed(states, &inputs, DT, STEPS, observers, ends).unwrap();
         });
         assert_eq!(found, single, "every {every}");
-        let single = one_by_one(|k| crafts[k], &states, &inputs, every);
+        let single = one_by_one(|k| &crafts[k], &states, &inputs, every);
         let found = of_batch(&states, every, |states, observers, ends| {
             each.run_observed(states, &inputs, DT, STEPS, observers, ends).unwrap();
         });
@@ -153,8 +153,8 @@ fn any_number_of_threads_has_the_bits_of_one() {
     for count in [0, 1, 19, 300, 2500] {
         let (states, inputs) = (states(count), mixed_inputs(count));
         let batch = Batch::new(&hub(), &mixed()).unwrap();
-        let each = ParameterBatch::new(crafts(count));
-        let evaluated = |batch: &Batch<Mixed>, each: &ParameterBatch<Mixed>| {
+        let each = Batch::from_spacecraft(crafts(count));
+        let evaluated = |batch: &Batch<Mixed>, each: &Batch<Mixed>| {
             let mut found = [Vec::new(), Vec::new(), Vec::new()];
             batch.accelerations(&states, &inputs, &mut found[0]).unwrap();
             batch.accelerations(&states, &super::lanes::inputs(1), &mut found[1]).unwrap();
@@ -174,13 +174,13 @@ fn runs_on_any_number_of_threads_have_the_bits_of_one() {
     for count in [1, 19, 150] {
         let (states, inputs) = (states(count), mixed_inputs(count));
         let batch = Batch::new(&hub(), &mixed()).unwrap();
-        let each = ParameterBatch::new(crafts(count));
+        let each = Batch::from_spacecraft(crafts(count));
         let of_batch = |batch: &Batch<Mixed>| {
             of_batch(&states, 20, |states, observers, ends| {
                 batch.run_observed(states, &inputs, DT, STEPS, observers, ends).unwrap();
             })
         };
-        let of_each = |each: &ParameterBatch<Mixed>| {
+        let of_each = |each: &Batch<Mixed>| {
             let (mut run, mut ends) = (states.clone(), Vec::new());
             each.run(&mut run, BatchInputs::from(&inputs), DT, STEPS, &mut ends).unwrap();
             printed(&(run, ends))

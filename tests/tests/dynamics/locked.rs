@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "lanes")]
-use precess_dynamics::lanes::{AcrossDevices, Batch, ParameterBatch};
+use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{
     BuiltIn, FixedModes, Flexible, Hub, Inputs, Isolated, JointStates, ModalMount, ModalPoint,
     Mode, Modes, Platform, Quaternion, Scalar, Sgcmg, Spacecraft, State, Suspension,
@@ -105,7 +105,7 @@ fn lanes_keep_locked_coordinates_and_have_the_bits_of_steps() {
     assert_eq!(printed(&side_by_side), printed(&alone));
 
     let batch = Batch::new(&hub(), &devices).unwrap();
-    let each = ParameterBatch::new(vec![craft; 9]);
+    let each = Batch::from_spacecraft(vec![craft; 9]);
     let (mut states, mut ends) = (vec![state(); 9], Vec::new());
     batch.run(&mut states, &inputs, DT, STEPS, &mut ends).unwrap();
     let mut others = vec![state(); 9];

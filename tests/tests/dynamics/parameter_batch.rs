@@ -2,7 +2,7 @@
 //! errors included.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use precess_dynamics::lanes::{BatchAccelerations, ParameterBatch};
+use precess_dynamics::lanes::{Batch, BatchAccelerations};
 use precess_dynamics::{
     Each as _, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, SolveError, Spacecraft, State,
 };
@@ -64,7 +64,7 @@ fn each_spacecraft_has_the_bits_it_has_by_itself() {
     let mut found = Vec::new();
     for count in [0, 1, 3, 8, 9, 17] {
         let (crafts, states) = (crafts(count), states(count));
-        let batch = ParameterBatch::new(crafts.clone());
+        let batch = Batch::from_spacecraft(crafts.clone());
         let each: Vec<_> = (0..count).map(inputs).collect();
         batch.accelerations(&states, &each, &mut found).unwrap();
         let alone = crafts.iter().zip(&states).zip(&each);
@@ -125,7 +125,7 @@ fn spacecraft_whose_lists_differ_in_length_have_the_bits_they_have_by_themselves
         let states: Vec<_> = crafts.iter().map(state).collect();
         let inputs: Vec<_> = crafts.iter().map(acting).collect();
         for (each, threads) in [(true, false), (false, false), (true, true)] {
-            let batch = ParameterBatch::new(crafts.clone());
+            let batch = Batch::from_spacecraft(crafts.clone());
             let batch = if threads { batch.on_threads() } else { batch };
             let (mut found, mut run, mut ends) = (Vec::new(), states.clone(), Vec::new());
             // Inputs of the first fit others of its length only, which have errors of their own.
@@ -165,7 +165,7 @@ fn groups_with_loads_of_their_own_between_others_have_the_bits_of_each_by_itself
     given.motors.1.u_g = 0.02;
     assert!(given.modes.values().all(|mode| mode != Mode::Locked), "else nothing is kept");
     let mut found = Vec::new();
-    ParameterBatch::new(crafts.clone()).accelerations(&states, &given, &mut found).unwrap();
+    Batch::from_spacecraft(crafts.clone()).accelerations(&states, &given, &mut found).unwrap();
     let alone = crafts.iter().zip(&states);
     let alone = alone.map(|(craft, state)| craft.accelerations(state, &given));
     assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()));
@@ -184,7 +184,7 @@ fn a_spring_in_another_lane_leaves_the_sign_of_zero() {
     let mut inputs: Inputs<[ReactionWheel; 1]> = Inputs::none();
     inputs.motors[0].u_w = -0.0;
     let mut found = Vec::new();
-    ParameterBatch::new(crafts.to_vec()).accelerations(&states, &inputs, &mut found).unwrap();
+    Batch::from_spacecraft(crafts.to_vec()).accelerations(&states, &inputs, &mut found).unwrap();
     let alone = crafts.iter().zip(&states);
     let alone = alone.map(|(craft, state)| craft.accelerations(state, &inputs));
     assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()));
@@ -194,7 +194,7 @@ fn a_spring_in_another_lane_leaves_the_sign_of_zero() {
 fn runs_have_the_bits_of_single_steps() {
     let (count, inputs) = (17, inputs(3));
     let (crafts, mut run, mut found) = (crafts(count), states(count), Vec::new());
-    let batch = ParameterBatch::new(crafts.clone());
+    let batch = Batch::from_spacecraft(crafts.clone());
     batch.run(&mut run, &inputs, 1e-3, 20, &mut found).unwrap();
     assert!(found.iter().all(Result::is_ok), "{found:?}");
     for ((craft, start), end) in crafts.iter().zip(states(count)).zip(&run) {
@@ -212,7 +212,7 @@ fn each_spacecraft_has_its_own_error() {
     states[3].attitude.q1 = 0.0;
     each[4].modes.0[0].wheel = Mode::Locked;
     states[8].omega.z = 1e160;
-    let batch = ParameterBatch::new(crafts.clone());
+    let batch = Batch::from_spacecraft(crafts.clone());
     let mut found = Vec::new();
     batch.accelerations(&states, &each, &mut found).unwrap();
     let alone = crafts.iter().zip(&states).zip(&each);
@@ -234,7 +234,7 @@ fn each_spacecraft_has_its_own_error() {
 
 #[test]
 fn other_numbers_of_states_or_inputs_are_rejected() {
-    let batch = ParameterBatch::new(crafts(3));
+    let batch = Batch::from_spacecraft(crafts(3));
     let each: Vec<Inputs<Mixed>> = (0..2).map(inputs).collect();
     let count = |expected, found| Err(SolveError::Count { expected, found });
     let mut out: BatchAccelerations<Mixed> = Vec::new();

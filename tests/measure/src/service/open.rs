@@ -17,7 +17,7 @@ use super::{Name, Rejected, Service, imaging, one::One};
 use super::{
     across::Across,
     baked::Baked,
-    batch::{Crafts, Many},
+    batch::{Many, on_threads, own, same},
     derivatives::Derivatives,
     flexible,
     listed::Listed,
@@ -106,12 +106,12 @@ fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N])
 #[cfg(feature = "lanes")]
 fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N]) -> Opened {
     let hub = stored.hub();
-    let many = |crafts, states| Ok(Box::new(Many::open(stored, crafts, states)?) as Box<_>);
+    let many = |batch, states| Ok(Box::new(Many::open(stored, batch, states)?) as Box<_>);
     match name {
         Name::Abreast => Ok(Box::new(Across::open(stored, devices)?)),
-        Name::Batch => many(Crafts::same(&hub, devices)?, IN_CACHE),
-        Name::Parameters => many(Crafts::own(&hub, devices, IN_CACHE)?, IN_CACHE),
-        Name::Threads => many(Crafts::on_threads(&hub, devices)?, ON_THREADS),
+        Name::Batch => many(same(&hub, devices)?, IN_CACHE),
+        Name::Parameters => many(own(&hub, devices, IN_CACHE)?, IN_CACHE),
+        Name::Threads => many(on_threads(&hub, devices)?, ON_THREADS),
         _ => of(name, stored, devices),
     }
 }
@@ -201,10 +201,10 @@ fn of_runs(name: Name, listed: &Listed) -> Opened {
 #[cfg(feature = "lanes")]
 fn runs<D: LanedSet + 'static>(name: Name, listed: &Listed, devices: &D) -> Opened {
     let hub = listed.hub();
-    let crafts = match name {
-        Name::StepsParameters => Crafts::own(&hub, devices, STATES)?,
-        Name::StepsThreads => Crafts::on_threads(&hub, devices)?,
-        _ => Crafts::same(&hub, devices)?,
+    let batch = match name {
+        Name::StepsParameters => own(&hub, devices, STATES)?,
+        Name::StepsThreads => on_threads(&hub, devices)?,
+        _ => same(&hub, devices)?,
     };
-    Ok(Box::new(Runs::open(listed, crafts)?))
+    Ok(Box::new(Runs::open(listed, batch)?))
 }
