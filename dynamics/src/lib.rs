@@ -142,11 +142,13 @@ pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
     pub use crate::isolation::carrier::Carrier;
-    pub use crate::sets::bundle::{Bundle, Given, Maybe, Part, Shared, Unique};
+    pub use crate::sets::bundle::{At, Bundle, Given, Maybe, Part, Shared, Unique};
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
+    #[doc(hidden)]
+    pub use crate::sets::groups::set_groups_of_enum;
     pub use crate::sets::held::{Held, HeldMut};
     pub use crate::sets::isolated::PreparedIsolated;
     pub use crate::sets::per_device::OnMount;
@@ -177,6 +179,8 @@ const _: () = {
         shareable::<(SolveError<T>, Quantity)>();
     }
     of_set::<[Dgvscmg; 4]>();
+    #[cfg(feature = "alloc")]
+    of_set::<alloc::vec::Vec<BuiltIn>>();
     of_set::<([ReactionWheel<f32>; 4], Sgcmg<f32>, SloshMass<f32>)>();
     of_scalar::<f64>();
     of_scalar::<f32>();

@@ -6,11 +6,16 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+#[cfg(feature = "lanes")]
+use std::sync::Arc;
+
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Central, gradient};
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::pivot_bound::pivot_bounds;
+#[cfg(feature = "lanes")]
+use crate::equations::side_by_side::group::DeviceGroup;
 use crate::generated::hub::BodyVelocity;
 use crate::model::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::model::mode::{Drive, Mode};
@@ -26,7 +31,7 @@ use crate::validation::check::triangle_excess;
 pub(crate) type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
 
 /// Constants of one device.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
     pub(crate) constants: K::Constants<K::Scalar>,
@@ -39,6 +44,9 @@ pub struct Device<K: Kind> {
     pub(crate) lumped: Option<Lumped<K::Scalar>>,
     /// By how much each inertia breaks the triangle inequality, kg m².
     pub(crate) excess: K::PerJoint<K::Scalar>,
+    /// This device and those after it in a row, where they are evaluated side by side.
+    #[cfg(feature = "lanes")]
+    pub(crate) group: Option<Arc<DeviceGroup<K>>>,
 }
 
 impl<K: Kind> Device<K> {
@@ -65,6 +73,8 @@ impl<K: Kind> Device<K> {
             free,
             lumped,
             excess,
+            #[cfg(feature = "lanes")]
+            group: None,
         }
     }
 

@@ -23,6 +23,8 @@ pub(crate) mod load_sums;
 pub(crate) mod mass_reduction;
 pub(crate) mod pivot_bound;
 #[cfg(feature = "lanes")]
+pub(crate) mod side_by_side;
+#[cfg(feature = "lanes")]
 pub(crate) mod sines;
 pub(crate) mod stiffness;
 pub(crate) mod suspension_forces;

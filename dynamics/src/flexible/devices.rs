@@ -118,7 +118,7 @@ impl<T: Scalar> MountElimination<'_, T> {
             return Ok(());
         };
         let (device, by) = (self.device, self.arithmetic);
-        let mut elimination = Elimination { environment, assembly, device, by };
+        let mut elimination = Elimination::new(environment, assembly, device, by);
         eliminate(&mut elimination)?;
         self.device = elimination.device;
         Ok(())

@@ -22,7 +22,7 @@ use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::zeros;
 
 /// A platform, precomputed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Carrier<T: Scalar> {
     pub(crate) device: Device<Platform<T>>,
     pub(crate) suspension: Suspension<T>,

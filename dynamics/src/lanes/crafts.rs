@@ -11,7 +11,7 @@ use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
 use super::laned_set::LanedSet;
 use super::slot::{SlotsOf, enter_constants};
-use super::width::widest_width;
+use crate::equations::side_by_side::registers::Registers;
 use crate::numbers::laned::Number;
 use crate::solve::spacecraft::Spacecraft;
 
@@ -82,7 +82,7 @@ pub(super) struct EachCraft<D: LanedSet> {
 impl<D: LanedSet> EachCraft<D> {
     pub(super) fn new(crafts: Vec<Spacecraft<D>>) -> Self {
         // The registers that every evaluation chooses.
-        let groups = crafts.chunks(widest_width());
+        let groups = crafts.chunks(Registers::widest().map_or(1, Registers::width));
         let groups = groups.map(|group| CraftBlocks::new(group, crafts.first()?)).collect();
         Self { crafts, groups }
     }

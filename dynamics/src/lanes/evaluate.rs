@@ -5,21 +5,19 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::constants::{DeviceConstants, same_in_lanes};
 use super::laned_set::LanedSet;
-use super::passive::{add_stiffness, viscous, where_sprung, with_passive};
 use super::slot::{Aligned, EachSlot, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
+use crate::equations::side_by_side::blocks::{DeviceConstants, same_in_lanes};
+use crate::equations::side_by_side::checks::{regular, within_reach};
+use crate::equations::side_by_side::passive::{add_stiffness, viscous, where_sprung, with_passive};
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 use crate::generated::hub::BodyAcceleration;
-use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
-use crate::model::mode::Drive;
 use crate::numbers::laned::Number;
-use crate::numbers::sincos::LARGEST_ANGLE;
 use crate::numbers::vec3::{Vec3, add};
 
 /// What acts on the hub, expressed in B.
@@ -156,48 +154,6 @@ impl<T: Number, const EACH: bool> EachSlot<T> for Elimination<T, EACH> {
         self.assembly.add(K::share(&eliminated));
         slot.gains = Some(Aligned(*K::gains(&eliminated)));
     }
-}
-
-/// Where every angle is one whose sine is right.
-#[inline(always)]
-pub(super) fn within_reach<K: Kernels, T: Number>(like: T, joints: &K::Joints<T>) -> T::Holds {
-    let (limit, mut holds) = (like.like(LARGEST_ANGLE), like.same(like));
-    K::zip_joints(joints, joints, |number, _| {
-        holds = like.both(holds, limit.above(number.abs()));
-        number
-    });
-    holds
-}
-
-/// Where the pivot of each joint that is driven exceeds its bound.
-#[inline(always)]
-pub(super) fn regular<K: Kernels, T: Number>(
-    like: T,
-    eliminated: &K::Eliminated<T>,
-    drives: &K::PerJoint<Drive<T>>,
-    bound: &K::PerJoint<T>,
-) -> T::Holds {
-    let (zero, mut holds) = (like.like(0.0), like.same(like));
-    // Named functions, since a closure of this size is not inlined.
-    let margins = K::zip_per_joint(&K::pivots(eliminated), bound, margin::<T>);
-    let margins = K::zip_per_joint(&margins, drives, of_driven::<T>);
-    K::zip_per_joint(&margins, &margins, |margin, _| {
-        holds = like.both(holds, margin.above(zero));
-        zero
-    });
-    holds
-}
-
-/// By how much the pivot of a joint is above its bound; one for a joint without a pivot.
-#[inline(always)]
-fn margin<T: Number>(pivot: Option<[T; 2]>, bound: T) -> T {
-    pivot.map_or(bound.like(1.0), |[pivot, _]| pivot - bound)
-}
-
-/// A margin; one where the joint is not driven.
-#[inline(always)]
-fn of_driven<T: Number>(margin: T, drive: Drive<T>) -> T {
-    drive.driven.like(1.0).or(drive.driven.same(drive.driven.like(0.0)), margin)
 }
 
 /// Finds each device's own accelerations.

@@ -6,6 +6,7 @@ use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 use super::laned_set::LanedSet;
+use crate::equations::side_by_side::fallbacks::count;
 
 /// One state's accelerations.
 pub(super) fn accelerations<D: LanedSet>(
@@ -30,10 +31,4 @@ pub(super) fn run<D: LanedSet>(
         *state = craft.step(state, inputs, dt)?;
     }
     Ok(())
-}
-
-/// Counts, for the checks of what falls back.
-pub(super) fn count() {
-    #[cfg(test)]
-    super::fallback_checks::FALLBACKS.with(|count| count.set(count.get() + 1));
 }

@@ -1,8 +1,5 @@
 //! What lanes support does not fall back to the scalar path, and what they do not support does.
 
-use core::cell::Cell;
-
-use std::thread_local;
 use std::vec;
 use std::vec::Vec;
 
@@ -11,16 +8,13 @@ use nalgebra::{Matrix3, Vector3};
 use super::accelerations::Evaluation;
 use super::crafts::SameCraft;
 use super::run::Runs;
-use super::{AcrossDevices, Batch, Observers};
+use super::{Batch, Observers};
+use crate::equations::side_by_side::fallbacks::FALLBACKS;
+use crate::equations::side_by_side::registers::Registers;
 use crate::{
-    Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, Sgcmg, SloshMass,
-    Spacecraft, State, Wrench,
+    BuiltIn, Gravity, Hub, HubMode, ImbalanceModel, Inputs, JointStates, Mode, Passive,
+    ReactionWheel, Sgcmg, SloshMass, Spacecraft, State, Wrench,
 };
-
-thread_local! {
-    /// How often a state fell back on this thread.
-    pub(super) static FALLBACKS: Cell<usize> = const { Cell::new(0) };
-}
 
 /// How often a state falls back in a call.
 fn fallbacks(call: impl FnOnce()) -> usize {
@@ -77,7 +71,8 @@ fn of_batches(devices: &Set, change: fn(u32, &mut Inputs<Set>)) -> [usize; 4] {
     let inputs: Vec<_> = (0..COUNT).map(input).collect();
     let craft = Spacecraft::new(&hub(), devices).unwrap();
     let others = Spacecraft::new(&hub(), &self::devices()).unwrap();
-    let crafts = (0..COUNT).map(|k| if k.is_multiple_of(3) { others } else { craft }).collect();
+    let of = |k: u32| if k.is_multiple_of(3) { &others } else { &craft };
+    let crafts = (0..COUNT).map(|k| of(k).clone()).collect();
     let (batch, each) = (Batch::new(&hub(), devices).unwrap(), Batch::from_spacecraft(crafts));
     let (mut found, mut ends) = (Vec::new(), Vec::new());
     [
@@ -156,17 +151,27 @@ fn devices_side_by_side_do_not_fall_back() {
     let wrenches = Inputs { bodies: Some(Inputs::<[Sgcmg; 5]>::no_wrenches()), ..none };
     for inputs in [none, central, wrenches] {
         for devices in [[gyro(); 5], [gyro(), dry, gyro(), lumped, dry]] {
-            let across = AcrossDevices::new(&hub(), &devices).unwrap();
+            let craft = Spacecraft::new(&hub(), &devices).unwrap();
             let call = || {
-                across.accelerations(&state, &inputs).unwrap();
-                across.step(&state, &inputs, 1e-3).unwrap();
+                craft.accelerations(&state, &inputs).unwrap();
+                craft.step(&state, &inputs, 1e-3).unwrap();
             };
             assert_eq!(fallbacks(call), 0);
         }
     }
     state.devices[2].theta = 1e9;
-    let across = AcrossDevices::new(&hub(), &[gyro(); 5]).unwrap();
-    assert_eq!(fallbacks(|| assert!(across.accelerations(&state, &none).is_ok())), 1);
+    let craft = Spacecraft::new(&hub(), &[gyro(); 5]).unwrap();
+    // Without registers of several numbers no devices are grouped.
+    let groups = usize::from(Registers::widest().is_some());
+    assert_eq!(fallbacks(|| assert!(craft.accelerations(&state, &none).is_ok())), groups);
+    let list: Vec<BuiltIn> = vec![gyro().into(); 5];
+    let craft = Spacecraft::new(&hub(), &list).unwrap();
+    let mut of_list: State<Vec<BuiltIn>> = State::at_rest_for(&craft);
+    for ([q, rate], [of_q, of_rate]) in of_list.devices.states_mut().zip(state.devices.states()) {
+        (*q, *rate) = (of_q, of_rate);
+    }
+    let none = Inputs::none_for(&craft);
+    assert_eq!(fallbacks(|| assert!(craft.accelerations(&of_list, &none).is_ok())), groups);
 }
 
 #[test]

@@ -8,147 +8,27 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::constants::{DeviceConstants, LoadConstants, loads_in_lanes, same_in_lanes};
 use super::evaluate::Acting;
 use super::group::GroupLoads;
 use super::laned_set::LanedSet;
 use super::motion::Motion;
-use super::passive::{keeps_turning, with_own};
 use super::slot::{EachSlot, Slot, SlotsOf, each_slot};
 use crate::attitude::quaternion::bn;
 use crate::equations::device::Device;
-use crate::equations::gravity::{Central, gradient, powers};
+use crate::equations::gravity::{Central, powers};
 use crate::equations::hub::HubConstants;
-use crate::model::kernels::Kernels;
+use crate::equations::side_by_side::blocks::{DeviceConstants, loads_in_lanes, same_in_lanes};
+use crate::equations::side_by_side::loads::{OnBodies, Summed, wrenches_in_lanes};
+use crate::equations::side_by_side::passive::{keeps_turning, with_own};
 use crate::model::kind::Kind;
-use crate::model::mode::Drive;
-use crate::model::wrench::Wrench;
-use crate::numbers::each::JointStates;
-use crate::numbers::laned::{Block, Number, Work};
+use crate::numbers::laned::{Number, Work};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, dot, rotate, scale};
-
-/// What acts on bodies from outside, and the lanes where it does.
-pub(super) struct OnBodies<T: Number> {
-    /// The lanes that have wrenches on bodies.
-    pub(super) wrenches: Option<T::Holds>,
-    /// A central field, and the lanes that have one.
-    pub(super) central: Option<(Central<T>, T::Holds)>,
-}
-
-/// What acts on the bodies of one device, summed.
-pub(super) struct Summed<K: Kernels, T: Number> {
-    /// Torques and modes of the joints.
-    pub(super) drives: K::PerJoint<Drive<T>>,
-    /// On the hub, about B, expressed in B.
-    pub(super) hub: Wrench<T>,
-    /// The second moment about B, expressed in B, kg m².
-    pub(super) second_moment: Symmetric<T>,
-    /// The lanes where anything acts.
-    pub(super) acts: T::Holds,
-}
-
-impl<T: Number> OnBodies<T> {
-    /// The sum of what acts on the bodies of a device, by joints and on the hub, as
-    /// `Device::add_wrenches`; none where nothing acts in any lane.
-    #[inline(always)]
-    pub(super) fn summed<K: Kind<Scalar = f64>>(
-        &self,
-        constants: &K::Constants<T>,
-        device: &LoadConstants<T>,
-        joints: &K::Joints<T>,
-        drives: &K::PerJoint<Drive<T>>,
-        bodies: &K::PerJoint<Wrench<T>>,
-    ) -> Option<Summed<K, T>> {
-        if self.wrenches.is_none() && self.central.is_none() && device.lumped.is_none() {
-            return None;
-        }
-        let [[like, ..], ..] = device.mount;
-        let zero = like.like(0.0);
-        let mut acts = zero.above(zero);
-        let mut sum = K::zip_per_joint(
-            bodies,
-            bodies,
-            #[inline(always)]
-            |wrench, _| wrench.zip(&wrench, |_, _| zero),
-        );
-        if let Some(given) = self.wrenches {
-            sum = K::zip_per_joint(
-                bodies,
-                &sum,
-                #[inline(always)]
-                |wrench, none| where_acts(given, &wrench, &none),
-            );
-            acts = like.either(acts, given);
-        }
-        if let Some((lumped, has)) = &device.lumped {
-            let (mut states, mut joint) = (joints.states(), 0);
-            sum = K::zip_per_joint(
-                &sum,
-                &sum,
-                #[inline(always)]
-                |wrench, _| {
-                    joint += 1;
-                    let [_, spin] = states.next().unwrap_or([zero; 2]);
-                    let at_tip = joint == K::JOINTS.len();
-                    let with = wrench.zip(&lumped.at(spin), |sum, number| sum + number);
-                    if at_tip { where_acts(*has, &with, &wrench) } else { wrench }
-                },
-            );
-            acts = like.either(acts, *has);
-        }
-        let (pose, mut second_moment) = (K::pose(joints), Symmetric::filled(zero));
-        if let Some((central, has)) = &self.central {
-            let (wrenches, second) = gradient::<K, T>(constants, &device.mount, &pose, central);
-            second_moment = second.rotated(&device.mount);
-            sum = K::zip_per_joint(
-                &sum,
-                &wrenches,
-                #[inline(always)]
-                |sum, wrench| where_acts(*has, &sum.zip(&wrench, |sum, number| sum + number), &sum),
-            );
-            acts = like.either(acts, *has);
-        }
-        let carried = K::external(constants, &pose, &sum);
-        let mut infos = K::JOINTS.iter();
-        let drives = K::zip_per_joint(
-            drives,
-            &carried.joints,
-            #[inline(always)]
-            |drive, wrench| {
-                let along = infos.next().map_or(zero, |info| wrench.along(info));
-                let torque = drive.torque + along * drive.driven;
-                Drive { torque: torque.or(acts, drive.torque), ..drive }
-            },
-        );
-        Some(Summed { drives, hub: carried.hub.turned(&device.mount), second_moment, acts })
-    }
-}
-
-/// A wrench where it acts, else another one.
-#[inline(always)]
-fn where_acts<T: Number>(acts: T::Holds, wrench: &Wrench<T>, other: &Wrench<T>) -> Wrench<T> {
-    wrench.zip(other, |number, other| number.or(acts, other))
-}
 
 /// A vector where something holds, else another one.
 #[inline(always)]
 fn vector_where<T: Number>(holds: T::Holds, v: Vec3<T>, other: Vec3<T>) -> Vec3<T> {
     [v[0].or(holds, other[0]), v[1].or(holds, other[1]), v[2].or(holds, other[2])]
-}
-
-/// Wrenches on bodies as numbers in lanes.
-#[inline(always)]
-pub(super) fn wrenches_in_lanes<K: Kernels, T: Number>(
-    like: T,
-    blocks: &K::PerJoint<Wrench<Block>>,
-) -> K::PerJoint<Wrench<T>> {
-    K::zip_per_joint(
-        blocks,
-        blocks,
-        #[inline(always)]
-        |wrench, _| wrench.zip(&wrench, |block, _| like.load(&block)),
-    )
 }
 
 /// A central field at the hub: what it adds to the field at B, and the lanes where its powers are

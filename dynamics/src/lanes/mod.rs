@@ -2,8 +2,7 @@
 //!
 //! | to evaluate | use |
 //! |---|---|
-//! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) |
-//! | one state after another, four or more devices of one kind | [`AcrossDevices`] |
+//! | one state after another | [`Spacecraft`](crate::Spacecraft) |
 //! | many states, or their runs, of one spacecraft or of one each | [`Batch`] |
 //! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] |
 //! | a batch on several threads, with the feature `threads` | `on_threads` |
@@ -35,8 +34,6 @@
 //! field-by-field functions here where elsewhere stand iterators.
 
 mod accelerations;
-mod across;
-mod across_loads;
 mod batch;
 mod batch_inputs;
 mod calls;
@@ -46,21 +43,17 @@ mod evaluate;
 mod fallback;
 #[cfg(test)]
 mod fallback_checks;
-mod gather;
 mod group;
 mod laned_set;
 mod loads;
 mod motion;
 mod observers;
 mod part;
-mod passive;
 mod run;
 mod scratch;
 mod slot;
 mod states;
-mod width;
 
-pub use across::AcrossDevices;
 pub use batch::{Batch, BatchAccelerations};
 pub use batch_inputs::BatchInputs;
 pub use laned_set::LanedSet;

@@ -2,10 +2,10 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::gather::{joined, wide};
 use super::laned_set::LanedSet;
 use crate::attitude::quaternion::Quaternion;
 use crate::equations::gravity::Gravity;
+use crate::equations::side_by_side::gather::{joined, wide};
 use crate::numbers::laned::{Block, Number, WIDEST};
 use crate::numbers::vec3::{Vec3, components, vector};
 use crate::solve::inputs::Inputs;

@@ -10,8 +10,8 @@ use super::batch_inputs::BatchInputs;
 use super::crafts::Crafts;
 use super::laned_set::LanedSet;
 use super::run::Runs;
-use super::width::widest;
 use crate::equations::error::SolveError;
+use crate::equations::side_by_side::registers::Registers;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
@@ -73,8 +73,11 @@ impl<D: LanedSet, C: Crafts<D>> Parts<D> for C {
         inputs: BatchInputs<'_, D>,
     ) {
         let Part { start, states, out } = part;
-        if let Err(work) = widest(Evaluation { crafts: self, start, states, inputs, out }) {
-            work.one_by_one();
+        let work = Evaluation { crafts: self, start, states, inputs, out };
+        match Registers::widest() {
+            Some(registers) => registers.dispatch(work),
+            // No copy for single numbers: the scalar path has the same bits.
+            None => work.one_by_one(),
         }
     }
 
@@ -87,9 +90,10 @@ impl<D: LanedSet, C: Crafts<D>> Parts<D> for C {
     ) {
         let Part { start, states, out } = part;
         let Steps { dt, count: steps, every } = steps;
-        let runs = Runs { crafts: self, start, states, inputs, dt, steps, every, see, out };
-        if let Err(work) = widest(runs) {
-            work.one_by_one();
+        let work = Runs { crafts: self, start, states, inputs, dt, steps, every, see, out };
+        match Registers::widest() {
+            Some(registers) => registers.dispatch(work),
+            None => work.one_by_one(),
         }
     }
 }

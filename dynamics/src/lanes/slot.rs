@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use core::convert::Infallible;
 
-use nalgebra::Vector3;
-
-use super::constants::{DeviceBlocks, EachConstants};
-use super::gather::joints_in_lanes;
+use super::constants::EachConstants;
 use super::laned_set::LanedSet;
 use super::states::States;
 use crate::equations::device::Device;
+use crate::equations::side_by_side::blocks::DeviceBlocks;
+use crate::equations::side_by_side::gather::joints_in_lanes;
+use crate::equations::side_by_side::put::{NO_WRENCH, put_drives, put_wrenches};
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
@@ -59,12 +59,6 @@ pub(super) struct Slot<K: Kernels, T: Value> {
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Aligned<V>(pub(crate) V);
-
-/// No wrench in any lane.
-pub(super) const NO_WRENCH: Wrench<Block> = Wrench {
-    force: Vector3::new(Block::ZERO, Block::ZERO, Block::ZERO),
-    moment: Vector3::new(Block::ZERO, Block::ZERO, Block::ZERO),
-};
 
 /// What is done with each device of a set and its slot.
 pub(crate) trait EachSlot<T: Value> {
@@ -329,22 +323,6 @@ impl<T: Value> Visit<f64, (Unique<Slots<T>>, Unique<data::Accelerations>)> for T
     }
 }
 
-/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are
-/// written one by one costs more than an evaluation.
-#[inline(always)]
-pub(super) fn put_drives<K: Kernels>(
-    blocks: &mut K::PerJoint<Drive<Block>>,
-    lane: usize,
-    drives: &K::PerJoint<Drive<f64>>,
-) {
-    for (blocks, drive) in blocks.values_mut().zip(drives.values()) {
-        blocks.torque.put(lane, drive.torque);
-        blocks.driven.put(lane, drive.driven);
-        blocks.held.put(lane, drive.held);
-        blocks.given.put(lane, drive.given);
-    }
-}
-
 /// Takes the torques and modes that were put into blocks into lanes.
 pub(crate) struct Enter<T>(pub(crate) T);
 
@@ -363,22 +341,5 @@ impl<T: Number> EachSlot<T> for Leave {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());
-    }
-}
-
-/// Puts wrenches on bodies into one lane, in place.
-#[inline(always)]
-pub(super) fn put_wrenches<K: Kernels>(
-    blocks: &mut K::PerJoint<Wrench<Block>>,
-    lane: usize,
-    wrenches: &K::PerJoint<Wrench<f64>>,
-) {
-    for (blocks, wrench) in blocks.values_mut().zip(wrenches.values()) {
-        blocks.force.x.put(lane, wrench.force.x);
-        blocks.force.y.put(lane, wrench.force.y);
-        blocks.force.z.put(lane, wrench.force.z);
-        blocks.moment.x.put(lane, wrench.moment.x);
-        blocks.moment.y.put(lane, wrench.moment.y);
-        blocks.moment.z.put(lane, wrench.moment.z);
     }
 }

@@ -31,7 +31,7 @@ pub trait Kernels: 'static {
     /// What is left of a device once its joints are eliminated.
     type Eliminated<T: Value>: Copy + Debug;
     /// How the joints follow the hub: what back substitution needs.
-    type Gains<T: Value>: Copy + Debug;
+    type Gains<T: Value>: Copy + Debug + Send + Sync;
 
     /// Sines, cosines and lengths of the joints.
     #[inline(always)]

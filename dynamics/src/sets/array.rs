@@ -1,14 +1,10 @@
 //! Members in a row: arrays and, with the feature `alloc`, vectors.
 
 use crate::model::kind::JointInfo;
-use crate::sets::bundle::{Bundle, Part};
+use crate::sets::bundle::{At, Bundle, Part};
 use crate::sets::devices::{DeviceSet, FixedSet, List, Visit, compare};
 use crate::sets::per_device::PerDevice;
 use crate::validation::parameter_error::ParameterError;
-
-/// A member by its number.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct At(usize);
 
 /// An array of members.
 macro_rules! array {
@@ -55,7 +51,9 @@ macro_rules! row {
             }
 
             fn prepare(&self) -> Self::Prepared {
-                $map!(self, D::prepare)
+                let mut devices: Self::Prepared = $map!(self, D::prepare);
+                D::set_groups(&mut devices);
+                devices
             }
 
             fn new_data<F: PerDevice<D::Scalar>>(
@@ -78,6 +76,14 @@ macro_rules! row {
                 visitor: &mut V,
             ) -> Result<(), V::Error> {
                 compare::<Self, B, V>(devices.len(), &data, visitor)?;
+                if V::ROWS {
+                    let mut first = 0;
+                    while let Some(rest @ [_, ..]) = devices.get(first..) {
+                        let shown = D::visit_row::<Self, B, V>(rest, &mut data, first, visitor)?;
+                        first = first.saturating_add(shown);
+                    }
+                    return Ok(());
+                }
                 for (index, device) in devices.iter().enumerate() {
                     let Some(data) = B::part::<Self, At>(&mut data, At(index)) else { break };
                     D::visit::<B, V>(device, data, visitor)?;

@@ -28,6 +28,10 @@ pub trait Part<W: DeviceSet>: Copy {
     ) -> Option<&mut <Self::Of as DeviceSet>::Per<F>>;
 }
 
+/// A member in a row by its number.
+#[derive(Clone, Copy, Debug)]
+pub struct At(pub(crate) usize);
+
 /// Which data of a set a visitor gets, and by which reference: [`Shared`], [`Unique`], [`Maybe`],
 /// [`Given`], or a tuple of these. A bundle names the references and holds none itself.
 pub trait Bundle<T: Scalar> {

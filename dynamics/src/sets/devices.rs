@@ -6,6 +6,8 @@
 //! kind. Devices known when the program is compiled cost the same wherever they stand: every call
 //! is direct.
 
+#![expect(clippy::inline_always, reason = "part of a visit, which is inlined into its operation")]
+
 use core::fmt::Debug;
 
 use crate::equations::device::Device;
@@ -18,7 +20,7 @@ use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
-use crate::sets::bundle::Bundle;
+use crate::sets::bundle::{At, Bundle, Part};
 use crate::sets::enumeration::{DeviceEnum, Visited};
 use crate::sets::isolated::{Isolated, PreparedIsolated, only_mass};
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, OnMount, PerDevice, PerJoint};
@@ -59,6 +61,32 @@ pub trait DeviceSet: Clone + Debug + PartialEq + 'static {
     ) -> Result<(), V::Error>;
     /// The number of members that data are of, where that is known only at run time.
     fn count<F: PerDevice<Self::Scalar>>(data: &Self::Per<F>) -> Option<usize>;
+    /// Groups members in a row that are evaluated side by side: devices of one kind, with the feature
+    /// `lanes`.
+    fn set_groups(_: &mut [Self::Prepared]) {}
+    /// Shows members in a row of the set `W`, with their parts of its data: the first of `devices`,
+    /// whose number is `first`, or several from it on. Returns how many.
+    ///
+    /// # Errors
+    /// The visitor's first.
+    #[inline(always)]
+    fn visit_row<W, B, V>(
+        devices: &[Self::Prepared],
+        data: &mut B::Of<'_, W>,
+        first: usize,
+        visitor: &mut V,
+    ) -> Result<usize, V::Error>
+    where
+        W: DeviceSet<Scalar = Self::Scalar>,
+        B: Bundle<Self::Scalar>,
+        V: Visit<Self::Scalar, B>,
+        At: Part<W, Of = Self>,
+    {
+        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+            Self::visit::<B, V>(device, data, visitor)?;
+        }
+        Ok(1)
+    }
 }
 
 /// What is done with each device of a set and its part of some data.
@@ -103,6 +131,46 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
         Self: Sized,
     {
         isolated.visit_members::<B, Self>(data, self)
+    }
+    /// Whether members in a row are shown by [`Self::visit_row`].
+    const ROWS: bool = false;
+    /// Does it with devices of one kind in a row of the set `W`: the first of them, whose number is
+    /// `first`, or several from it on. Returns how many.
+    ///
+    /// # Errors
+    /// Ends the visit.
+    fn visit_row<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[Device<K>],
+        data: &mut B::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, Self::Error>
+    where
+        At: Part<W, Of = K>,
+    {
+        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+            self.visit(device, data)?;
+        }
+        Ok(1)
+    }
+    /// The same with devices of an enumeration.
+    ///
+    /// # Errors
+    /// Ends the visit.
+    fn visit_row_of_enum<E: DeviceEnum<Scalar = T> + Devices, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[E::Prepared],
+        data: &mut B::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, Self::Error>
+    where
+        Self: Sized,
+        At: Part<W, Of = E>,
+    {
+        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+            self.visit_enum::<E>(device, data)?;
+        }
+        Ok(1)
     }
     /// Told of each part of the data whether it is of as many members as the set has.
     ///
@@ -273,7 +341,6 @@ impl<T: Scalar> List<T> for AreLumped {
 }
 
 /// Tells a visitor of how many members the data are.
-#[expect(clippy::inline_always, reason = "part of a visit, which is inlined into its operation")]
 #[inline(always)]
 pub(crate) fn compare<W: DeviceSet, B: Bundle<W::Scalar>, V: Visit<W::Scalar, B>>(
     expected: usize,

@@ -43,6 +43,10 @@ pub trait Variant<E: DeviceEnum>: Kind<Scalar = E::Scalar> {
     fn gains_in_enum(gains: &E::Gains) -> Option<&Option<Self::Gains<E::Scalar>>>;
     /// The kind's gains, if they are of this kind, to be written.
     fn gains_in_enum_mut(gains: &mut E::Gains) -> Option<&mut Option<Self::Gains<E::Scalar>>>;
+    /// The device, if it is of this kind.
+    fn device_in_enum(device: &E::Prepared) -> Option<&Device<Self>>;
+    /// The device, if it is of this kind, to be written.
+    fn device_in_enum_mut(device: &mut E::Prepared) -> Option<&mut Device<Self>>;
     /// The gains as the enumeration's.
     fn gains_of_enum(gains: Option<Self::Gains<E::Scalar>>) -> E::Gains;
 }
@@ -142,7 +146,7 @@ macro_rules! device_enum {
         }
 
         #[doc = concat!("A device of [`", stringify!($name), "`], precomputed.")]
-        #[derive(Clone, Copy, Debug)]
+        #[derive(Clone, Debug)]
         $vis enum $prepared<T: $crate::Scalar> {
             $(
                 #[doc = concat!("Of a [`", stringify!($kind), "`].")]
@@ -200,6 +204,25 @@ macro_rules! device_enum {
 
             fn count<F: $crate::set::PerDevice<T>>(data: &F::OfEnum<Self>) -> Option<usize> {
                 F::count::<Self>(data)
+            }
+
+            fn set_groups(devices: &mut [$prepared<T>]) {
+                $crate::set::set_groups_of_enum::<Self>(devices);
+            }
+
+            fn visit_row<W, B, V>(
+                devices: &[$prepared<T>],
+                data: &mut B::Of<'_, W>,
+                first: usize,
+                visitor: &mut V,
+            ) -> Result<usize, V::Error>
+            where
+                W: $crate::DeviceSet<Scalar = T>,
+                B: $crate::set::Bundle<T>,
+                V: $crate::set::Visit<T, B>,
+                $crate::set::At: $crate::set::Part<W, Of = Self>,
+            {
+                visitor.visit_row_of_enum::<Self, W>(devices, data, first)
             }
         }
 
@@ -286,6 +309,24 @@ macro_rules! device_enum {
                 ) -> Option<&mut Option<<Self as $crate::kind::Kernels>::Gains<T>>> {
                     match gains {
                         $gains::$kind(gains) => Some(gains),
+                        #[allow(unreachable_patterns, reason = "of one kind")]
+                        _ => None,
+                    }
+                }
+
+                fn device_in_enum(device: &$prepared<T>) -> Option<&$crate::set::Device<Self>> {
+                    match device {
+                        $prepared::$kind(device) => Some(device),
+                        #[allow(unreachable_patterns, reason = "of one kind")]
+                        _ => None,
+                    }
+                }
+
+                fn device_in_enum_mut(
+                    device: &mut $prepared<T>,
+                ) -> Option<&mut $crate::set::Device<Self>> {
+                    match device {
+                        $prepared::$kind(device) => Some(device),
                         #[allow(unreachable_patterns, reason = "of one kind")]
                         _ => None,
                     }

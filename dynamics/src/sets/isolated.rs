@@ -39,7 +39,7 @@ pub struct Isolated<D: DeviceSet> {
 }
 
 /// [`Isolated`], precomputed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct PreparedIsolated<D: DeviceSet> {
     pub(crate) carrier: Carrier<D::Scalar>,
     pub(crate) carried: D::Prepared,

@@ -14,6 +14,7 @@ pub(crate) mod counts;
 pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
+pub(crate) mod groups;
 pub(crate) mod held;
 pub(crate) mod isolated;
 mod isolated_numbers;

@@ -4,7 +4,7 @@
 
 use crate::equations::device::Device;
 use crate::model::kind::{JointInfo, Kind};
-use crate::sets::bundle::Bundle;
+use crate::sets::bundle::{At, Bundle, Part};
 use crate::sets::devices::{DeviceSet, FixedSet, List, Visit};
 use crate::sets::per_device::PerDevice;
 use crate::validation::check::check_device;
@@ -44,6 +44,27 @@ impl<K: Kind> DeviceSet for K {
 
     fn count<F: PerDevice<K::Scalar>>(_: &F::Of<K>) -> Option<usize> {
         None
+    }
+
+    #[cfg(feature = "lanes")]
+    fn set_groups(devices: &mut [Device<K>]) {
+        crate::equations::side_by_side::group::set_groups(devices);
+    }
+
+    #[inline(always)]
+    fn visit_row<W, B, V>(
+        devices: &[Device<K>],
+        data: &mut B::Of<'_, W>,
+        first: usize,
+        visitor: &mut V,
+    ) -> Result<usize, V::Error>
+    where
+        W: DeviceSet<Scalar = K::Scalar>,
+        B: Bundle<K::Scalar>,
+        V: Visit<K::Scalar, B>,
+        At: Part<W, Of = K>,
+    {
+        visitor.visit_row::<K, W>(devices, data, first)
     }
 }
 

@@ -65,6 +65,8 @@ impl<K: Kind> WithNumbers for K {
         };
         let none = <K as Kind>::With::<U>::all(Passive::none());
         Device {
+            #[cfg(feature = "lanes")]
+            group: None,
             mount: map(device.mount, |column| map(column, number)),
             constants: K::zip_constants(&device.constants, &device.constants, |constant, _| {
                 number(constant)

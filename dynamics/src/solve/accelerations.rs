@@ -11,6 +11,8 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Gravity, at_b};
 use crate::equations::joint_inputs::Environment;
+#[cfg(feature = "lanes")]
+use crate::equations::side_by_side::gains::GroupGains;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::model::mode::HubMode;
@@ -19,7 +21,7 @@ use crate::numbers::real::{Scalar, filling, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
 use crate::sets::devices::{Devices, SetInputs};
 use crate::sets::per_device as data;
-use crate::solve::elimination::{Eliminate, Eliminated, Elimination, back_substitute};
+use crate::solve::elimination::{Eliminate, Eliminated, Elimination, back_substitute, substitute};
 use crate::solve::finite::all_finite;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -95,10 +97,21 @@ impl<D: Devices> Spacecraft<D> {
         let EvaluationStart { environment, at_b } = &start;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::new_data(&self.devices, &data::Gains);
-        let given = inputs.of_joints();
-        self.eliminate_devices(by, state, given, environment, &mut assembly, &mut scratch)?;
+        let mut elimination = Elimination::new(environment, &mut assembly, 0, by);
+        #[cfg(feature = "lanes")]
+        let mut groups = GroupGains::none();
+        #[cfg(feature = "lanes")]
+        {
+            elimination.groups = Some(&mut groups);
+        }
+        let data = (&state.devices, inputs.of_joints(), &mut scratch);
+        D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)?;
         let hub = self.hub_accelerations(inputs, environment, &mut assembly, *at_b)?;
-        let finite = back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
+        #[cfg(feature = "lanes")]
+        let groups = Some(&mut groups);
+        #[cfg(not(feature = "lanes"))]
+        let groups = None;
+        let finite = substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices, groups);
         if let Some(stiffness) = stiffness {
             *stiffness = self.stiffness(inputs, &assembly);
         }
@@ -187,7 +200,7 @@ impl<D: Devices, S: Structure> Spacecraft<D, S> {
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let mut elimination = Elimination { environment, assembly, device: 0, by };
+        let mut elimination = Elimination::new(environment, assembly, 0, by);
         let data = (&state.devices, given, scratch);
         D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }

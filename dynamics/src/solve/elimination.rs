@@ -11,23 +11,36 @@ use crate::equations::device::Device;
 use crate::equations::eliminate::DeviceElimination;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::Environment;
+#[cfg(feature = "lanes")]
+use crate::equations::side_by_side::gains::GroupGains;
 use crate::equations::system::Solution;
 use crate::generated::hub::BodyAcceleration;
 use crate::isolation::carrier::Carrying;
 use crate::model::kind::Kind;
 use crate::numbers::each::Each;
 use crate::numbers::real::Scalar;
+#[cfg(feature = "lanes")]
+use crate::sets::bundle::{At, Part};
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::counts::compare_counts;
+#[cfg(feature = "lanes")]
+use crate::sets::devices::Devices;
 use crate::sets::devices::{DeviceSet, Visit};
+#[cfg(feature = "lanes")]
+use crate::sets::enumeration::DeviceEnum;
 use crate::sets::isolated::{Isolated, PreparedIsolated, parts};
 use crate::sets::per_device as data;
+#[cfg(feature = "lanes")]
+use crate::solve::{row_substitution, rows};
 
 /// State and inputs of the joints, and the gains that come of them.
 pub(crate) type Eliminated = (Shared<data::Joints>, Given, Unique<data::Gains>);
 
 /// How the joints of one device are eliminated.
 pub(crate) trait Eliminate<T: Scalar>: Copy {
+    /// Whether devices of one kind in a row may be eliminated side by side.
+    #[cfg(feature = "lanes")]
+    const ROWS: bool = false;
     /// Eliminates them, adds what is left to the hub's system.
     fn eliminate<K: Kind<Scalar = T>>(
         self,
@@ -36,6 +49,9 @@ pub(crate) trait Eliminate<T: Scalar>: Copy {
 }
 
 impl<T: Scalar> Eliminate<T> for Arithmetic {
+    #[cfg(feature = "lanes")]
+    const ROWS: bool = T::IS_F64;
+
     #[inline(always)]
     fn eliminate<K: Kind<Scalar = T>>(
         self,
@@ -52,6 +68,28 @@ pub(crate) struct Elimination<'a, T, E> {
     /// The number of the device.
     pub(crate) device: usize,
     pub(crate) by: E,
+    /// The gains of devices eliminated side by side; without, all are eliminated one after another.
+    #[cfg(feature = "lanes")]
+    pub(crate) groups: Option<&'a mut GroupGains>,
+}
+
+impl<'a, T, E> Elimination<'a, T, E> {
+    /// One after another, from a device on.
+    pub(crate) fn new(
+        environment: &'a Environment<T>,
+        assembly: &'a mut Assembly<T>,
+        device: usize,
+        by: E,
+    ) -> Self {
+        Self {
+            environment,
+            assembly,
+            device,
+            by,
+            #[cfg(feature = "lanes")]
+            groups: None,
+        }
+    }
 }
 
 impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> {
@@ -63,10 +101,41 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         device: &Device<K>,
         (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), SolveError<T>> {
-        let Self { environment, assembly, device: index, by } = self;
+        let Self { environment, assembly, device: index, by, .. } = self;
         let index = core::mem::replace(index, index.wrapping_add(1));
         let of = DeviceElimination { device, index, joints, given, environment, assembly, gains };
         by.eliminate(of)
+    }
+
+    #[cfg(feature = "lanes")]
+    const ROWS: bool = E::ROWS;
+
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    fn visit_row<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[Device<K>],
+        data: &mut <Eliminated as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, SolveError<T>>
+    where
+        At: Part<W, Of = K>,
+    {
+        rows::visit(self, devices, data, first)
+    }
+
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    fn visit_row_of_enum<N: DeviceEnum<Scalar = T> + Devices, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[N::Prepared],
+        data: &mut <Eliminated as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, SolveError<T>>
+    where
+        At: Part<W, Of = N>,
+    {
+        rows::visit_enum::<T, E, N, W>(self, devices, data, first)
     }
 
     /// Here, not by a visit of its own: that would convert the data of a list once more.
@@ -88,6 +157,8 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
             assembly: &mut carrying.assembly,
             device: index.wrapping_add(1),
             by: self.by,
+            #[cfg(feature = "lanes")]
+            groups: self.groups.as_deref_mut(),
         };
         let (of_platform, of_carried) = parts::<D>(given);
         let data = (&joints.carried, of_carried, &mut gains.carried);
@@ -102,20 +173,28 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
 pub(crate) type Substituted = (Shared<data::Gains>, Unique<data::Accelerations>);
 
 /// The joints' accelerations once the hub's are known.
-pub(crate) struct BackSubstitution<T> {
-    hub: BodyAcceleration<T>,
+pub(crate) struct BackSubstitution<'a, T> {
+    pub(crate) hub: BodyAcceleration<T>,
     /// Whether all so far are finite.
-    finite: bool,
+    pub(crate) finite: bool,
+    /// The gains of devices eliminated side by side.
+    pub(crate) groups: Option<&'a mut Groups>,
 }
 
-impl<T: Copy> BackSubstitution<T> {
-    /// On a base with these accelerations.
+/// The gains of devices eliminated side by side: there are none without lanes.
+#[cfg(not(feature = "lanes"))]
+pub(crate) type Groups = Infallible;
+#[cfg(feature = "lanes")]
+pub(crate) type Groups = GroupGains;
+
+impl<T: Copy> BackSubstitution<'_, T> {
+    /// On a base with these accelerations, of devices that were eliminated one after another.
     pub(crate) fn on(base: &Solution<T>) -> Self {
-        Self { hub: base.expressed_in_b(), finite: true }
+        Self { hub: base.expressed_in_b(), finite: true, groups: None }
     }
 }
 
-impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
+impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
     type Error = Infallible;
 
     #[inline(always)]
@@ -141,9 +220,41 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
         self.finite &= joints.values().all(Scalar::is_finite);
         out.platform = joints;
         let platform = Solution { r_b_n_ddot, omega_dot };
-        self.finite &=
-            back_substitute::<D>(&isolated.carried, &gains.carried, &platform, &mut out.carried);
+        let (groups, carried) = (self.groups.as_deref_mut(), &isolated.carried);
+        let out = &mut out.carried;
+        self.finite &= substitute::<D>(carried, &gains.carried, &platform, out, groups);
         Ok(())
+    }
+
+    #[cfg(feature = "lanes")]
+    const ROWS: bool = T::IS_F64;
+
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    fn visit_row<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[Device<K>],
+        data: &mut <Substituted as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, Infallible>
+    where
+        At: Part<W, Of = K>,
+    {
+        row_substitution::visit(self, devices, data, first)
+    }
+
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    fn visit_row_of_enum<N: DeviceEnum<Scalar = T> + Devices, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[N::Prepared],
+        data: &mut <Substituted as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, Infallible>
+    where
+        At: Part<W, Of = N>,
+    {
+        row_substitution::visit_enum::<T, N, W>(self, devices, data, first)
     }
 }
 
@@ -155,7 +266,19 @@ pub(crate) fn back_substitute<D: DeviceSet>(
     hub: &Solution<D::Scalar>,
     out: &mut D::Per<data::Accelerations>,
 ) -> bool {
-    let mut substitution = BackSubstitution::on(hub);
+    substitute::<D>(devices, gains, hub, out, None)
+}
+
+/// The same where devices were eliminated side by side.
+#[inline(always)]
+pub(crate) fn substitute<D: DeviceSet>(
+    devices: &D::Prepared,
+    gains: &D::Per<data::Gains>,
+    hub: &Solution<D::Scalar>,
+    out: &mut D::Per<data::Accelerations>,
+    groups: Option<&mut Groups>,
+) -> bool {
+    let mut substitution = BackSubstitution { groups, ..BackSubstitution::on(hub) };
     let Ok(()) = D::visit::<Substituted, _>(devices, (gains, out), &mut substitution);
     substitution.finite
 }

@@ -8,6 +8,10 @@ pub(crate) mod finite;
 pub(crate) mod inputs;
 #[cfg(test)]
 mod overflow_checks;
+#[cfg(feature = "lanes")]
+pub(crate) mod row_substitution;
+#[cfg(feature = "lanes")]
+pub(crate) mod rows;
 pub(crate) mod spacecraft;
 #[cfg(test)]
 mod spacecraft_checks;

@@ -12,7 +12,7 @@ use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
 /// A hub with devices, prepared for evaluation: a [`Rigid`] hub, or a
 /// [`Flexible`](crate::Flexible) structure. Never changes; `[Dgvscmg; 0]` is a hub without devices.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Spacecraft<D: Devices, S: StructureData = Rigid> {
     pub(crate) hub: HubConstants<D::Scalar>,
     /// The hub with the constant shares of its devices.

@@ -96,10 +96,12 @@ fn across_is_spacecraft(case: &Case) -> Verdict {
     let Placed { craft, state, inputs } = &list;
     for (call, found) in found {
         let alone = match call {
-            "accelerations across" => {
+            "accelerations across" | "accelerations one after another" => {
                 craft.accelerations(state, inputs).map(|found| of_accelerations(&found))
             }
-            "step across" => craft.step(state, inputs, case.dt).map(|next| of_state(&next)),
+            "step across" | "step one after another" => {
+                craft.step(state, inputs, case.dt).map(|next| of_state(&next))
+            }
             _ => continue,
         };
         if text(&found) != text(&alone) {

@@ -1,6 +1,7 @@
 //! The shapes that a set of devices can have: lists, arrays, tuples, on board and in lanes.
 
-use precess_dynamics::lanes::{AcrossDevices, Batch, LanedSet};
+use precess_dynamics::kind::Kind;
+use precess_dynamics::lanes::{Batch, LanedSet};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
     BuiltInKind, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Inputs,
@@ -137,24 +138,35 @@ pub fn on_board<T: Scalar>(devices: &[BuiltIn<T>]) -> Option<[Option<BuiltIn<T>>
     (devices.len() <= 8).then(|| std::array::from_fn(|index| devices.get(index).copied()))
 }
 
-trait AcrossKind: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64> {}
+trait AcrossKind: Kind<Scalar = f64, With<f64> = Self> + Taken<f64> {}
 
-impl<K: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64>> AcrossKind for K {}
+impl<K: Kind<Scalar = f64, With<f64> = Self> + Taken<f64>> AcrossKind for K {}
 
 fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
-    let across = AcrossDevices::new(&case.hub, &devices).ok()?;
-    let Placed { state, inputs, .. } = case.placed(&devices).ok()?;
-    let found = across.accelerations(&state, &inputs);
-    let next = across.step(&state, &inputs, case.dt);
+    let Placed { craft, state, inputs } = case.placed(&devices).ok()?;
+    let results = |side_by_side: bool| {
+        let (found, next) = if side_by_side {
+            (craft.accelerations(&state, &inputs), craft.step(&state, &inputs, case.dt))
+        } else {
+            // What is converted has no groups of devices.
+            let craft = craft.with_numbers(|number| number);
+            (craft.accelerations(&state, &inputs), craft.step(&state, &inputs, case.dt))
+        };
+        (found.map(|found| of_accelerations(&found)), next.map(|next| of_state(&next)))
+    };
+    let (found, next) = results(true);
+    let (one_by_one, next_one_by_one) = results(false);
     Some(vec![
-        ("accelerations across", found.map(|found| of_accelerations(&found))),
-        ("step across", next.map(|next| of_state(&next))),
+        ("accelerations across", found),
+        ("step across", next),
+        ("accelerations one after another", one_by_one),
+        ("step one after another", next_one_by_one),
     ])
 }
 
-/// What devices of one kind, side by side, result; none for other lists. Compiled for some kinds:
-/// with and without imbalance, a motor on the wheel, a sliding joint.
+/// What devices of one kind result, side by side and one after another; none for other lists. Compiled
+/// for some kinds: with and without imbalance, a motor on the wheel, a sliding joint.
 #[must_use]
 pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     across_of::<ReactionWheel>(case)

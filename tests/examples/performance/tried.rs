@@ -23,7 +23,7 @@ pub(crate) const TRIED: &[(&str, &str)] = &[
     ),
     (
         "one state: devices side by side in lanes, their shares added one device after another",
-        "kept, `AcrossDevices`: the bits of one state",
+        "kept, with the bits of one after another",
     ),
     (
         "the same sums device by device, each from memory",
@@ -112,7 +112,7 @@ pub(crate) const TRIED: &[(&str, &str)] = &[
          list's takes 1.00",
     ),
     (
-        "RK4 step: three reaction wheels by `AcrossDevices`, side by side in lanes",
+        "RK4 step: three reaction wheels side by side in lanes",
         "the same bits in 0.74 of the time of the typed set, on an AMD EPYC with AVX2: a row of its own \
          in the table of steps",
     ),

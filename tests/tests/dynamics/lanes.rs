@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Each as _;
-use precess_dynamics::lanes::{AcrossDevices, Batch};
+use precess_dynamics::lanes::Batch;
+use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
     Accelerations, Dgvscmg, Gravity, Hub, HubMode, Inputs, Mode, Passive, ReactionWheel, Sgcmg,
     SloshMass, SolveError, Spacecraft, State,
@@ -20,10 +21,17 @@ fn batched<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
     found.remove(0).unwrap()
 }
 
-/// The accelerations of a case with its devices side by side.
-fn across<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
-    let across = AcrossDevices::new(&case.hub, &case.devices).unwrap();
-    across.accelerations(&case.state, &case.inputs).unwrap()
+/// The same spacecraft, its devices one after another: what is converted has no groups of devices.
+pub(super) fn one_after_another<D: WithNumbers<Scalar = f64>>(
+    craft: &Spacecraft<D>,
+) -> Spacecraft<D::With<f64>> {
+    craft.with_numbers(|number| number)
+}
+
+/// The accelerations of a case with its devices one after another.
+fn in_order<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
+    let craft = one_after_another(&Spacecraft::new(&case.hub, &case.devices).unwrap());
+    craft.accelerations(&case.state, &case.inputs).unwrap()
 }
 
 #[test]
@@ -34,7 +42,7 @@ fn lanes_have_the_bits_of_single_evaluations() {
             let case = sample.case::<f64>();
             let solved = case.solved(sample);
             assert_eq!(batched(&case), solved, "batch: {sample}");
-            assert_eq!(across(&case), solved, "devices side by side: {sample}");
+            assert_eq!(in_order(&case), solved, "devices side by side: {sample}");
         }
     }
     visit(SPACECRAFT, &mut Bits);
@@ -175,27 +183,25 @@ fn inputs_for_another_number_of_states_are_rejected() {
 fn singular_device_is_named_across_lanes() {
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let devices = [Dgvscmg::bare_wheel(4.0, disc); 11];
-    let across = AcrossDevices::new(&hub(), &devices).unwrap();
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut state: State<[Dgvscmg; 11]> = State::at_rest();
     state.devices[9].gamma_i = core::f64::consts::FRAC_PI_2;
-    let expected = craft.accelerations(&state, &Inputs::none());
+    let expected = one_after_another(&craft).accelerations(&state, &Inputs::none());
     assert!(expected.is_err());
-    assert_eq!(across.accelerations(&state, &Inputs::none()), expected);
+    assert_eq!(craft.accelerations(&state, &Inputs::none()), expected);
 }
 
 #[test]
 fn steps_across_devices_follow_single_steps() {
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let devices = [Sgcmg { d: 1e-4, ..Sgcmg::bare_wheel(4.0, disc) }; 5];
-    let across = AcrossDevices::new(&hub(), &devices).unwrap();
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut state: State<[Sgcmg; 5]> = State::at_rest();
     state.omega.x = 0.1;
     state.devices[3].spin = 400.0;
     let inputs = Inputs::none();
-    let there = across.step(&state, &inputs, 1e-3).unwrap();
-    let single = craft.step(&state, &inputs, 1e-3).unwrap();
+    let there = craft.step(&state, &inputs, 1e-3).unwrap();
+    let single = one_after_another(&craft).step(&state, &inputs, 1e-3).unwrap();
     assert_eq!(there, single);
 }
 

@@ -3,14 +3,14 @@
 
 use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "lanes")]
-use precess_dynamics::lanes::{AcrossDevices, Batch};
+use precess_dynamics::lanes::Batch;
 use precess_dynamics::{
     BuiltIn, FixedModes, Flexible, Hub, Inputs, Isolated, JointStates, ModalMount, ModalPoint,
     Mode, Modes, Platform, Quaternion, Scalar, Sgcmg, Spacecraft, State, Suspension,
 };
 
 #[cfg(feature = "lanes")]
-use super::parameter_batch::printed;
+use super::{lanes::one_after_another, parameter_batch::printed};
 
 /// Five gyros, which fill more than one register of lanes: each gimbal is locked, each wheel turns.
 type Set<T = f64> = [Sgcmg<T>; 5];
@@ -95,11 +95,11 @@ fn lanes_keep_locked_coordinates_and_have_the_bits_of_steps() {
     let (inputs, devices) = (inputs::<f64>(), devices());
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut alone = state();
-    let across = AcrossDevices::new(&hub(), &devices).unwrap();
+    let in_order = one_after_another(&craft);
     let mut side_by_side = state();
     for _ in 0..STEPS {
-        alone = craft.step(&alone, &inputs, DT).unwrap();
-        side_by_side = across.step(&side_by_side, &inputs, DT).unwrap();
+        alone = in_order.step(&alone, &inputs, DT).unwrap();
+        side_by_side = craft.step(&side_by_side, &inputs, DT).unwrap();
     }
     kept("step across devices", &side_by_side.devices);
     assert_eq!(printed(&side_by_side), printed(&alone));

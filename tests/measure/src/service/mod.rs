@@ -1,8 +1,6 @@
 //! The services: calls of the solver, each opened for a spacecraft of a file.
 
 #[cfg(feature = "lanes")]
-mod across;
-#[cfg(feature = "lanes")]
 mod baked;
 #[cfg(feature = "lanes")]
 mod batch;

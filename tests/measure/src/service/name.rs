@@ -11,15 +11,12 @@ pub(crate) enum Name {
     /// One state, one evaluation after another, by a solver built without `lanes`
     #[cfg(not(feature = "lanes"))]
     Portable,
-    /// One state, one evaluation after another, by instructions chosen at run time
+    /// One state, one evaluation after another, with `lanes`: by instructions chosen at run time
     #[cfg(feature = "lanes")]
     Dispatched,
     /// One state, the devices in a list of any kinds
     #[cfg(feature = "lanes")]
     List,
-    /// One state, its devices side by side in lanes
-    #[cfg(feature = "lanes")]
-    Abreast,
     /// Many states of one spacecraft in lanes
     #[cfg(feature = "lanes")]
     Batch,
@@ -32,9 +29,6 @@ pub(crate) enum Name {
     /// Steps of one state
     #[cfg(feature = "lanes")]
     Step,
-    /// Steps of one state, its devices side by side in lanes
-    #[cfg(feature = "lanes")]
-    StepLanes,
     /// Steps of one state, the devices in a list of any kinds
     #[cfg(feature = "lanes")]
     StepList,
@@ -104,12 +98,10 @@ impl Name {
         Some(match self {
             Self::Dispatched => ("one state, dispatched", "evaluation", one, 1),
             Self::List => ("one state, list of any kinds", "evaluation", one, 1),
-            Self::Abreast => ("devices in lanes", "evaluation", widest, 1),
             Self::Batch => ("batch", "batch", widest, 1),
             Self::Parameters => ("batch, parameters per lane", "batch", widest, 1),
             Self::Threads => ("batch", "batch", None, threads?),
             Self::Step => ("step, typed", "step", None, 1),
-            Self::StepLanes => ("step, devices in lanes", "step", None, 1),
             Self::StepList => ("step, list of any kinds", "step", None, 1),
             Self::Steps => ("steps of a batch", "batch step", None, 1),
             Self::StepsParameters => {

@@ -5,9 +5,7 @@ use std::path::Path;
 
 #[cfg(feature = "lanes")]
 use precess_dynamics::{
-    BuiltIn, FlexibleReactionWheel, ReactionWheel, Spacecraft, Vscmg,
-    kind::Kind,
-    lanes::{AcrossDevices, LanedSet},
+    BuiltIn, FlexibleReactionWheel, ReactionWheel, Spacecraft, Vscmg, lanes::LanedSet,
 };
 use precess_dynamics::{Devices, Dgvscmg};
 use precess_tests::stored::Stored;
@@ -15,7 +13,6 @@ use precess_tests::stored::Stored;
 use super::{Name, Rejected, Service, imaging, one::One};
 #[cfg(feature = "lanes")]
 use super::{
-    across::Across,
     baked::Baked,
     batch::{Many, on_threads, own, same},
     derivatives::Derivatives,
@@ -59,7 +56,7 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         #[cfg(feature = "lanes")]
         Name::Baked => Ok(Box::new(Baked::open(&imaging::read(file)?)?)),
         #[cfg(feature = "lanes")]
-        Name::Step | Name::StepList | Name::StepLanes => of_steps(name, &Listed::read(file)?),
+        Name::Step | Name::StepList => of_steps(name, &Listed::read(file)?),
         #[cfg(feature = "lanes")]
         Name::Steps | Name::StepsParameters | Name::StepsThreads => {
             of_runs(name, &Listed::read(file)?)
@@ -108,7 +105,6 @@ fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N])
     let hub = stored.hub();
     let many = |batch, states| Ok(Box::new(Many::open(stored, batch, states)?) as Box<_>);
     match name {
-        Name::Abreast => Ok(Box::new(Across::open(stored, devices)?)),
         Name::Batch => many(same(&hub, devices)?, IN_CACHE),
         Name::Parameters => many(own(&hub, devices, IN_CACHE)?, IN_CACHE),
         Name::Threads => many(on_threads(&hub, devices)?, ON_THREADS),
@@ -146,28 +142,20 @@ fn of_steps(name: Name, listed: &Listed) -> Opened {
     }
     let other = || Err(format!("no typed set of these {} devices", devices.len()).into());
     if let Some(devices) = all_of!(devices, Dgvscmg) {
-        return array_of!(devices, [1 4], |array| step(name, listed, array), other());
+        return array_of!(devices, [1 4], |array| step(listed, array), other());
     }
     if let Some(devices) = all_of!(devices, ReactionWheel) {
-        return array_of!(devices, [3], |array| step(name, listed, array), other());
+        return array_of!(devices, [3], |array| step(listed, array), other());
     }
     match all_of!(devices, Vscmg) {
-        Some(devices) => array_of!(devices, [1], |array| step(name, listed, array), other()),
+        Some(devices) => array_of!(devices, [1], |array| step(listed, array), other()),
         None => other(),
     }
 }
 
 #[cfg(feature = "lanes")]
-fn step<K: Kind<Scalar = f64> + 'static, const N: usize>(
-    name: Name,
-    listed: &Listed,
-    devices: &[K; N],
-) -> Opened {
-    let hub = listed.hub();
-    Ok(match name {
-        Name::StepLanes => Box::new(Step::open(listed, AcrossDevices::new(&hub, devices)?)),
-        _ => Box::new(Step::open(listed, Spacecraft::new(&hub, devices)?)),
-    })
+fn step<D: Devices<Scalar = f64>>(listed: &Listed, devices: &D) -> Opened {
+    Ok(Box::new(Step::open(listed, Spacecraft::new(&listed.hub(), devices)?)))
 }
 
 #[cfg(feature = "lanes")]

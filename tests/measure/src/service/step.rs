@@ -2,11 +2,7 @@
 
 use std::hint::black_box;
 
-use precess_dynamics::kind::Kind;
-use precess_dynamics::lanes::AcrossDevices;
-use precess_dynamics::{
-    Devices, Each as _, Inputs, JointStates as _, SolveError, Spacecraft, State,
-};
+use precess_dynamics::{Devices, Each as _, Inputs, JointStates as _, Spacecraft, State};
 use serde_json::{Value, json};
 
 use super::listed::Listed;
@@ -18,57 +14,23 @@ pub(super) const STEP: f64 = 1e-7;
 /// Steps over which motions are compared.
 pub(super) const CHECKED: u32 = 100;
 
-/// What makes steps.
-pub(super) trait Steps<D: Devices> {
-    /// The spacecraft.
-    fn spacecraft(&self) -> &Spacecraft<D>;
-    /// The state after a step.
-    fn step(&self, state: &State<D>, inputs: &Inputs<D>, dt: f64) -> Result<State<D>, SolveError>;
-}
-
-impl<D: Devices<Scalar = f64>> Steps<D> for Spacecraft<D> {
-    fn spacecraft(&self) -> &Spacecraft<D> {
-        self
-    }
-
-    fn step(&self, state: &State<D>, inputs: &Inputs<D>, dt: f64) -> Result<State<D>, SolveError> {
-        self.step(state, inputs, dt)
-    }
-}
-
-impl<K: Kind<Scalar = f64>, const N: usize> Steps<[K; N]> for AcrossDevices<K, N> {
-    fn spacecraft(&self) -> &Spacecraft<[K; N]> {
-        self.spacecraft()
-    }
-
-    fn step(
-        &self,
-        state: &State<[K; N]>,
-        inputs: &Inputs<[K; N]>,
-        dt: f64,
-    ) -> Result<State<[K; N]>, SolveError> {
-        self.step(state, inputs, dt)
-    }
-}
-
 /// A spacecraft in a state that moves on.
-pub(crate) struct Step<D: Devices, C> {
-    craft: C,
+pub(crate) struct Step<D: Devices> {
+    craft: Spacecraft<D>,
     state: State<D>,
     inputs: Inputs<D>,
     /// Step of what is compared, s.
     dt: f64,
 }
 
-impl<D: Devices<Scalar = f64>, C: Steps<D>> Step<D, C> {
-    pub(super) fn open(listed: &Listed, craft: C) -> Self {
-        let of = craft.spacecraft();
-        let (state, inputs) = (listed.state(of), listed.inputs(of));
+impl<D: Devices<Scalar = f64>> Step<D> {
+    pub(super) fn open(listed: &Listed, craft: Spacecraft<D>) -> Self {
+        let (state, inputs) = (listed.state(&craft), listed.inputs(&craft));
         Self { craft, state, inputs, dt: listed.step }
     }
 }
 
-impl<D: Devices<Scalar = f64>, C: Steps<D>> Service for Step<D, C> {
+impl<D: Devices<Scalar = f64>> Service for Step<D> {
     fn check(&mut self) -> Result<Value, Rejected> {
         let mut state = self.state.clone();
         for _ in 0..CHECKED {

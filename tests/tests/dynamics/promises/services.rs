@@ -2,7 +2,7 @@
 
 use precess_dynamics::kind::{Each, JointStates, Kind};
 #[cfg(feature = "lanes")]
-use precess_dynamics::lanes::{AcrossDevices, Batch};
+use precess_dynamics::lanes::Batch;
 use precess_dynamics::{BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
 
 /// A device of a kind, its joints and motors.
@@ -43,14 +43,10 @@ where
     K: Kind<Scalar = f64>,
 {
     let Alone { hub, device, state, inputs } = case;
-    let across = AcrossDevices::new(hub, &[*device]).expect("valid parameters");
-    let found = across.accelerations(state, inputs);
-    let mut all = vec![("across", found.map(|found| found.omega_dot.into()))];
     let batch = Batch::new(hub, &[*device]).expect("valid parameters");
     let mut out = Vec::new();
     batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
-    all.extend(out.into_iter().map(|found| ("batch", found.map(|found| found.omega_dot.into()))));
-    all
+    out.into_iter().map(|found| ("batch", found.map(|found| found.omega_dot.into()))).collect()
 }
 
 /// The same by a set whose devices are known at run time only.

@@ -4,7 +4,7 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::constants::DeviceConstants;
+use super::blocks::DeviceConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::model::kernels::Kernels;
 use crate::model::mode::Drive;
@@ -14,7 +14,7 @@ use crate::numbers::laned::Number;
 
 /// What is given of the joints, springs and dampers with the motors.
 #[inline(always)]
-pub(super) fn with_passive<K: Kernels, T: Number>(
+pub(crate) fn with_passive<K: Kernels, T: Number>(
     joints: &K::Joints<T>,
     drives: &K::PerJoint<Drive<T>>,
     passive: &K::PerJoint<Passive<T>>,
@@ -97,7 +97,7 @@ fn damping<T: Number>(passive: Passive<T>, rate: T) -> T {
 /// The torques with springs and friction only where there are any: adding zero to a torque of minus
 /// zero changes its sign.
 #[inline(always)]
-pub(super) fn where_sprung<K: Kernels, T: Number>(
+pub(crate) fn where_sprung<K: Kernels, T: Number>(
     sprung: T::Holds,
     drives: &K::PerJoint<Drive<T>>,
     without: &K::PerJoint<Drive<T>>,
@@ -114,7 +114,7 @@ type WithOwn<K, T> = (<K as Kernels>::PerJoint<Drive<T>>, Option<<K as Kernels>:
 /// What is given of the joints of a device, springs and friction with the motors; and damping and
 /// stiffness of the joints. As the elimination does it where nothing is dry.
 #[inline(always)]
-pub(super) fn with_own<K: Kernels, T: Number>(
+pub(crate) fn with_own<K: Kernels, T: Number>(
     (device, dry): (&DeviceConstants<K, T>, bool),
     joints: &K::Joints<T>,
     given: &K::PerJoint<Drive<T>>,
@@ -141,7 +141,7 @@ pub(super) fn with_own<K: Kernels, T: Number>(
 
 /// Damping and stiffness of joints without dry friction.
 #[inline(always)]
-pub(super) fn viscous<K: Kernels, T: Number>(
+pub(crate) fn viscous<K: Kernels, T: Number>(
     passive: &K::PerJoint<Passive<T>>,
 ) -> K::PerJoint<[T; 2]> {
     K::zip_per_joint(passive, passive, |passive, _| [passive.viscous, passive.stiffness])
@@ -149,7 +149,7 @@ pub(super) fn viscous<K: Kernels, T: Number>(
 
 /// Adds damping and stiffness to what a step has to resolve.
 #[inline(always)]
-pub(super) fn add_stiffness<K: Kernels, T: Number>(
+pub(crate) fn add_stiffness<K: Kernels, T: Number>(
     stiffness: &mut Stiffness<T>,
     coefficients: &K::PerJoint<[T; 2]>,
     eliminated: &K::Eliminated<T>,
@@ -161,7 +161,7 @@ pub(super) fn add_stiffness<K: Kernels, T: Number>(
 /// Where no joint with dry friction has come to rest, or reversed, since it had other rates: what
 /// `PassiveStep` resolves near rest.
 #[inline(always)]
-pub(super) fn keeps_turning<K: Kernels, T: Number>(
+pub(crate) fn keeps_turning<K: Kernels, T: Number>(
     like: T,
     passive: &K::PerJoint<Passive<T>>,
     start: &K::Joints<T>,

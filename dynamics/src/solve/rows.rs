@@ -1,0 +1,209 @@
+//! Elimination of devices of one kind in a row, side by side in lanes where the set has grouped them.
+
+#![expect(clippy::inline_always, reason = "part of a visit, which is inlined into its operation")]
+
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::{DeviceInputs, JointInputs};
+use crate::equations::side_by_side::elimination::GroupElimination;
+use crate::equations::side_by_side::fallbacks;
+use crate::equations::side_by_side::group::DeviceGroup;
+use crate::model::kind::{Kind, Wrenches};
+use crate::model::mode::Mode;
+use crate::model::wrench::Wrench;
+use crate::numbers::laned::WIDEST;
+use crate::numbers::real::Scalar;
+use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::devices::{DeviceSet, Devices, SetInputs, Visit};
+use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
+use crate::sets::per_device::{Joints, Motors, PerDevice, PerJoint};
+use crate::solve::elimination::{Eliminate, Eliminated, Elimination};
+
+/// State and inputs of the joints of a set, and its gains.
+type Data<'a, T, W> = <Eliminated as Bundle<T>>::Of<'a, W>;
+
+/// Modes of the joints, and wrenches on the bodies.
+type Modes<T> = PerJoint<Mode<T>>;
+type Bodies<T> = PerJoint<Wrench<T>>;
+
+/// Eliminates the first of these devices, or the group that it begins. Returns how many.
+#[inline(always)]
+pub(crate) fn visit<K: Kind<Scalar = T>, T: Scalar, E: Eliminate<T>, W: DeviceSet<Scalar = T>>(
+    elimination: &mut Elimination<'_, T, E>,
+    devices: &[Device<K>],
+    data: &mut Data<'_, T, W>,
+    first: usize,
+) -> Result<usize, SolveError<T>>
+where
+    At: Part<W, Of = K>,
+{
+    let mut count = 1;
+    if let Some(group) = devices.first().and_then(|device| device.group.as_deref())
+        && elimination.groups.is_some()
+    {
+        count = group.devices;
+        let (joints, inputs, _) = &*data;
+        let members = members(first, count, |at| of_device::<K, T, W>(at, joints, inputs));
+        if members.is_some_and(|members| elimination.group(group, members)) {
+            return Ok(count);
+        }
+    }
+    for (lane, device) in devices.iter().enumerate().take(count) {
+        let at = At(first.saturating_add(lane));
+        let Some(data) = Eliminated::part::<W, At>(data, at) else { break };
+        elimination.visit(device, data)?;
+    }
+    Ok(count)
+}
+
+/// The same with devices of an enumeration.
+#[inline(always)]
+pub(crate) fn visit_enum<T, E, N, W>(
+    elimination: &mut Elimination<'_, T, E>,
+    devices: &[N::Prepared],
+    data: &mut Data<'_, T, W>,
+    first: usize,
+) -> Result<usize, SolveError<T>>
+where
+    T: Scalar,
+    E: Eliminate<T>,
+    N: DeviceEnum<Scalar = T> + Devices,
+    W: DeviceSet<Scalar = T>,
+    At: Part<W, Of = N>,
+{
+    let mut count = 1;
+    if let Some(device) = devices.first()
+        && elimination.groups.is_some()
+    {
+        let row = Row::<'_, '_, '_, T, E, W> { elimination: &mut *elimination, data, first };
+        match N::with(device, row) {
+            Group::Eliminated(devices) => return Ok(devices),
+            Group::Rejected(devices) => count = devices,
+        }
+    }
+    for (lane, device) in devices.iter().enumerate().take(count) {
+        let at = At(first.saturating_add(lane));
+        let Some(data) = Eliminated::part::<W, At>(data, at) else { break };
+        elimination.visit_enum::<N>(device, data)?;
+    }
+    Ok(count)
+}
+
+/// What came of the group that a device begins, and how many devices it has.
+enum Group {
+    Eliminated(usize),
+    /// To be eliminated one after another.
+    Rejected(usize),
+}
+
+/// The row of an enumeration's devices that begins with one whose kind is to be found.
+struct Row<'r, 'e: 'r, 'd: 'r, T: Scalar, E, W: DeviceSet<Scalar = T>> {
+    elimination: &'r mut Elimination<'e, T, E>,
+    data: &'r Data<'d, T, W>,
+    first: usize,
+}
+
+impl<T, E, N, W> WithKind<N> for Row<'_, '_, '_, T, E, W>
+where
+    T: Scalar,
+    E: Eliminate<T>,
+    N: DeviceEnum<Scalar = T>,
+    W: DeviceSet<Scalar = T>,
+    At: Part<W, Of = N>,
+{
+    type Output = Group;
+
+    fn with<K: Variant<N>>(self, device: &Device<K>) -> Group {
+        let Some(group) = device.group.as_deref() else { return Group::Rejected(1) };
+        let Self { elimination, data: (joints, inputs, _), first } = self;
+        let count = group.devices;
+        // Copies in the structures of the kind.
+        let copies = members(first, count, |at| {
+            let joints = of_kind::<K, N, Joints>(at.of::<Joints>(joints)?)?;
+            let motors = of_kind::<K, N, Motors>(at.of::<Motors>(inputs.motors)?)?;
+            let modes = of_kind::<K, N, Modes<T>>(at.of::<Modes<T>>(inputs.modes)?)?;
+            let bodies = match inputs.bodies {
+                Some(bodies) => Some(of_kind::<K, N, Bodies<T>>(at.of::<Bodies<T>>(bodies)?)?),
+                None => None,
+            };
+            Some((joints, motors, modes, bodies))
+        });
+        let Some(copies) = &copies else { return Group::Rejected(count) };
+        let members = copies.each_ref().map(|(joints, motors, modes, bodies)| {
+            (joints, JointInputs { motors, modes, bodies: bodies.as_ref() })
+        });
+        if elimination.group(group, members) {
+            Group::Eliminated(count)
+        } else {
+            Group::Rejected(count)
+        }
+    }
+}
+
+/// A kind's data out of an enumeration's; none where they are of another number of joints.
+fn of_kind<K: Variant<N>, N: DeviceEnum, F: PerDevice<N::Scalar, Of<K>: Copy>>(
+    data: &N::Per<F>,
+) -> Option<F::Of<K>> {
+    if N::count::<F>(data).is_some_and(|count| count != K::JOINTS.len()) {
+        return None;
+    }
+    Some(*N::held::<F, K>(data)?.refer())
+}
+
+/// Joints of a device, and what is given of them.
+type Member<'a, K> =
+    (&'a <K as crate::model::kernels::Kernels>::Joints<<K as Kind>::Scalar>, DeviceInputs<'a, K>);
+
+/// Those of a device in a set.
+#[inline(always)]
+fn of_device<'a, K: Kind<Scalar = T>, T: Scalar, W: DeviceSet<Scalar = T>>(
+    at: At,
+    joints: &'a W::Per<Joints>,
+    inputs: &SetInputs<'a, W>,
+) -> Option<Member<'a, K>>
+where
+    At: Part<W, Of = K>,
+{
+    let bodies: Option<&Wrenches<K>> = match inputs.bodies {
+        Some(bodies) => Some(at.of::<Bodies<T>>(bodies)?),
+        None => None,
+    };
+    let (motors, modes) = (at.of::<Motors>(inputs.motors)?, at.of::<Modes<T>>(inputs.modes)?);
+    Some((at.of::<Joints>(joints)?, JointInputs { motors, modes, bodies }))
+}
+
+/// What each device of a group has, the last one's repeated; none where one has none.
+#[inline(always)]
+fn members<M: Copy>(
+    first: usize,
+    count: usize,
+    of: impl Fn(At) -> Option<M>,
+) -> Option<[M; WIDEST]> {
+    let mut members = [of(At(first))?; WIDEST];
+    for (lane, member) in members.iter_mut().enumerate().skip(1) {
+        *member = of(At(first.saturating_add(lane.min(count.saturating_sub(1)))))?;
+    }
+    Some(members)
+}
+
+impl<T: Scalar, E: Eliminate<T>> Elimination<'_, T, E> {
+    /// Eliminates a group of devices side by side. False where lanes do not support the inputs, or fail.
+    #[inline(always)]
+    fn group<K: Kind<Scalar = T>>(
+        &mut self,
+        group: &DeviceGroup<K>,
+        members: [Member<'_, K>; WIDEST],
+    ) -> bool {
+        let Self { environment, assembly, device, groups, .. } = self;
+        let Some(gains) = groups else { return false };
+        let joints = members.each_ref().map(|(joints, _)| *joints);
+        let given = members.each_ref().map(|(_, given)| *given);
+        let done = GroupElimination { group, joints, given, environment, assembly, gains }.run();
+        if done {
+            *device = device.wrapping_add(group.devices);
+        } else {
+            fallbacks::count();
+        }
+        done
+    }
+}
