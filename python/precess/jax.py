@@ -44,7 +44,7 @@ def accelerations(
     Parameters
     ----------
     spacecraft : Spacecraft
-        A rigid hub: a structure that bends has no linearised system.
+        A rigid hub: a flexible structure has no linearised system.
     inputs : Inputs, optional
         Modes, gravity and wrenches; those of the scenario at its start by default. Force, torque and motors are ``u``, as
         :meth:`precess.Inputs.to_array`.

@@ -263,7 +263,7 @@ class Spacecraft:
         SolveError
             A pose that has no accelerations.
         UnsupportedError
-            A structure that bends.
+            A flexible structure.
         """
         y = self._flat(state)
         names, matrix, bias = self._native.mass_matrix(y, self._acting(y, inputs))

@@ -87,7 +87,7 @@ impl NativeEvaluator {
         Parameter::all(scenario).into_iter().map(facts).collect()
     }
 
-    /// Whether it is a structure that bends.
+    /// Whether it is a flexible structure.
     #[getter]
     fn is_flexible(&self) -> bool {
         self.evaluator.is_flexible()

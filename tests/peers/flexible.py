@@ -1,5 +1,5 @@
 """Four imbalanced reaction wheels in a pyramid: on a rigid hub, on flexible bearings, on an isolated platform,
-on a structure that bends. What that costs is compared with the rigid hub, and the first three with MuJoCo.
+on a flexible structure. What that costs is compared with the rigid hub, and the first three with MuJoCo.
 
 Listed as in `listed.py`, with the stiffness and damping of each joint. A platform stands below the devices, and its
 joints come first. `modes` is how many modes the structure has, whose shapes the measuring program makes up. Of the

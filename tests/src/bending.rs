@@ -1,4 +1,4 @@
-//! Structures that bend, with a wheel on each of four mounts: what is timed and counted.
+//! Flexible structures, with a wheel on each of four mounts: what is timed and counted.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{

@@ -11,7 +11,7 @@
 //! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that
 //!   counts
 //!   its operations.
-//! - [`bending`]: structures that bend, for what is measured.
+//! - [`bending`]: flexible structures, for what is measured.
 //! - [`vibrations`]: the longest stable step, from eigenvalues.
 //! - [`wheels`]: a run of three reaction wheels beside Basilisk's.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.

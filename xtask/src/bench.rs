@@ -25,7 +25,7 @@ pub(crate) struct Options {
     /// Time only Precess, on the spacecraft that exist
     #[arg(long)]
     skip_peers: bool,
-    /// Time only wheels on bearings, on a platform and on a structure that bends, and write their page
+    /// Time only wheels on bearings, on a platform and on a flexible structure, and write their page
     #[arg(long)]
     flexible: bool,
     /// Time only derivatives of accelerations and of steps, and write their page

@@ -1,4 +1,4 @@
-//! All accelerations of a structure that bends, from state and inputs.
+//! All accelerations of a flexible structure, from state and inputs.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::Assembly;

@@ -1,4 +1,4 @@
-//! What an evaluation does with each device or platform on a structure that bends: as on a rigid
+//! What an evaluation does with each device or platform on a flexible structure: as on a rigid
 //! hub, with the frame K of its mount for B.
 
 use core::convert::Infallible;

@@ -1,4 +1,4 @@
-//! The field of a central body on a structure that bends and on the devices on its mounts, (F13) to
+//! The field of a central body on a flexible structure and on the devices on its mounts, (F13) to
 //! (F15).
 //!
 //! In the frame K of a mount the field is that at K, `g + G r_K`, and its gradient: devices get them

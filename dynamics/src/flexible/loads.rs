@@ -1,4 +1,4 @@
-//! [`ModalLoads`], and the loads of the devices on a structure that bends, and what frame B and modes
+//! [`ModalLoads`], and the loads of the devices on a flexible structure, and what frame B and modes
 //! need beside the inputs, for known accelerations: inverse dynamics.
 //!
 //! The load of a joint is what all bodies outboard of it need, by Newton and Euler, less the

@@ -1,4 +1,4 @@
-//! A structure that bends: devices on mounts that its modes move. The derivation, its order and the
+//! A flexible structure: devices on mounts that its modes move. The derivation, its order and the
 //! error of the model: `docs/flexible.md`, equations (F1) to (F18).
 //!
 //! [`spacecraft`] checks and precomputes, [`accelerations`] is the entry of an evaluation: the

@@ -1,4 +1,4 @@
-//! Energy, momentum and centre of mass of a structure that bends, with its devices.
+//! Energy, momentum and centre of mass of a flexible structure, with its devices.
 //!
 //! Linear momentum is the mass times the velocity of the centre of mass, exactly; both momenta are
 //! conserved, and kinetic energy changes by the powers of the [ledger](crate::Ledger).

@@ -1,4 +1,4 @@
-//! The classical fourth-order Runge-Kutta step of a structure that bends.
+//! The classical fourth-order Runge-Kutta step of a flexible structure.
 //!
 //! The step must resolve the fastest wheel and the fastest mode.
 

@@ -1,4 +1,4 @@
-//! The impulsive stop on a structure that bends: joints stopped impulsively, as by a rigid brake.
+//! The impulsive stop on a flexible structure: joints stopped impulsively, as by a rigid brake.
 //!
 //! As on a rigid hub, velocities jump, positions and the deformation do not, and `M Δ = impulses`
 //! is the equations of motion at rest, with jumps for accelerations, (F9). The rates of the modes

@@ -119,7 +119,7 @@ impl Lines<'_> {
         self.line("sin_cos", SIZES.len() * ANGLES, "sweep", hash, [last.0, last.1].into_iter())
     }
 
-    /// A hub that bends.
+    /// A flexible structure.
     fn bending<T: Bits>(&mut self) -> Result<(), Stop<T>> {
         let mut hash = Hash::EMPTY;
         let mut last = None;
@@ -215,7 +215,7 @@ fn numbers<D: FixedSet, S: StructureData>(
     hub.flat_map(|vector| vector.iter().copied()).chain(found.devices.values())
 }
 
-/// The numbers of the state of a hub that bends in order.
+/// The numbers of the state of a flexible structure in order.
 fn bent<T: Bits>(
     state: &State<Wheels<T>, Quaternion<T>, Flexible<Storage>>,
 ) -> impl Iterator<Item = T> {

@@ -1,4 +1,4 @@
-//! A hub that bends, with wheels on two mounts, drawn at random: modes in arrays, without a heap.
+//! A flexible structure, with wheels on two mounts, drawn at random: modes in arrays, without a heap.
 
 use core::array::from_fn;
 

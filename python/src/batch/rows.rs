@@ -88,7 +88,7 @@ impl BatchRows {
     ///
     /// # Errors
     ///
-    /// Where there is none: a structure that bends.
+    /// Where there is none: a flexible structure.
     pub(crate) fn linearized(&self, inputs: &CraftInputs) -> Result<Linearized, EvaluationError> {
         let none: &[&str] = &[];
         // A locked joint does not move.

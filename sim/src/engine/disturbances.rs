@@ -5,8 +5,8 @@
 //! ```
 //!
 //! R is constant: columns are the axes of the data sheet, expressed in those of what the source acts on. On
-//! the child body of a joint whose parent's axes are meant it is turned back by the joint. On a structure
-//! that bends a mount is the library's, so the wrench turns with it; a node has the axes of B.
+//! the child body of a joint whose parent's axes are meant it is turned back by the joint. On a flexible
+//! structure a mount is the library's, so the wrench turns with it; a node has the axes of B.
 
 use std::cell::RefCell;
 

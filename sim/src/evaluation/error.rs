@@ -12,7 +12,7 @@ pub enum EvaluationError {
     Solve(SolveError),
     /// There is no derivative.
     Derivative(DerivativeError),
-    /// The library does not have it for a structure that bends.
+    /// The library does not have it for a flexible structure.
     Flexible {
         /// What: `the mass matrix`.
         what: &'static str,
@@ -32,7 +32,7 @@ impl fmt::Display for EvaluationError {
             Self::Solve(error) => error.fmt(f),
             Self::Derivative(error) => error.fmt(f),
             Self::Flexible { what } => {
-                write!(f, "{what} is not available for a structure that bends; use a rigid hub")
+                write!(f, "{what} is not available for a flexible structure; use a rigid hub")
             }
             Self::UnknownParameter { name, nearest } => {
                 write!(f, "`{name}` is no parameter of the spacecraft")?;

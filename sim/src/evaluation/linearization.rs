@@ -43,7 +43,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a structure that bends,
+    /// [`EvaluationError::Flexible`] for a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize`] and
     /// [`precess_dynamics::Spacecraft::parameter_derivatives`].
     pub fn linearize<N: AsRef<str>>(

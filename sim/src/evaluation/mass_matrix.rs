@@ -30,7 +30,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a structure that bends; as
+    /// [`EvaluationError::Flexible`] for a flexible structure; as
     /// [`precess_dynamics::Spacecraft::accelerations`] in a pose that has no accelerations.
     pub fn mass_matrix(
         &self,

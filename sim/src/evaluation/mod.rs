@@ -89,13 +89,13 @@ impl Evaluator {
         &self.scenario
     }
 
-    /// The spacecraft of the library; of a structure that bends, undeformed.
+    /// The spacecraft of the library; of a flexible structure, undeformed.
     #[must_use]
     pub fn rigid(&self) -> &Spacecraft<Set> {
         self.craft.rigid()
     }
 
-    /// Whether the spacecraft is a structure that bends.
+    /// Whether the spacecraft is a flexible structure.
     #[must_use]
     pub fn is_flexible(&self) -> bool {
         self.craft.flexible().is_some()

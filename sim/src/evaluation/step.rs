@@ -36,7 +36,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a structure that bends,
+    /// [`EvaluationError::Flexible`] for a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize_step`]
     /// and [`precess_dynamics::Spacecraft::step_parameter_derivatives`].
     pub fn linearize_steps<N: AsRef<str>>(

@@ -97,7 +97,7 @@ impl Scenario {
                 Some(format!("node {node} of {nodes}"))
             }
             SourceTarget::Hub { .. } if self.structure.is_some() => Some(
-                "a force on a structure that bends acts on one of its nodes; write `on = \"NODE\"`"
+                "a force on a flexible structure acts on one of its nodes; write `on = \"NODE\"`"
                     .to_owned(),
             ),
             _ => None,

@@ -310,7 +310,7 @@ pub struct Source {
 }
 
 impl Scenario {
-    /// The spacecraft, prepared for evaluation; with a structure that bends, undeformed. See
+    /// The spacecraft, prepared for evaluation; with a flexible structure, undeformed. See
     /// [`Self::flexible`].
     ///
     /// # Errors

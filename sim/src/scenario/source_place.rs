@@ -23,7 +23,7 @@ pub struct SourcePlace {
 pub enum SourceBody {
     /// The hub, in B.
     Hub,
-    /// A mount of a structure that bends, by its number in the library; its axes turn with it.
+    /// A mount of a flexible structure, by its number in the library; its axes turn with it.
     Mount(usize),
     /// A node of the structure, in B.
     Node(usize),

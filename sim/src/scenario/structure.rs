@@ -3,7 +3,7 @@
 //!
 //! Numbers are in SI units, vectors are expressed in B. Nodes are those that carry a device, are
 //! recorded, or take a wrench; every node has one row of shapes for each mode. What the equations of
-//! a structure that bends do not have is listed in one place: [`Scenario::not_on_a_structure`].
+//! a flexible structure do not have is listed in one place: [`Scenario::not_on_a_structure`].
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_craft::FlexibleCraft;
@@ -18,7 +18,7 @@ use super::{Scenario, ScenarioError, Set, Target, WrenchAxes, set_of};
 use crate::names::{NameFault, column_name_fault};
 use crate::structure::{COORDINATES, Mode, RigidMass};
 
-/// A structure that bends.
+/// A flexible structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalStructure {
     /// The modes: mass-normalised, in a floating frame B; after them the residual coordinates.
@@ -104,7 +104,7 @@ impl ModalStructure {
 }
 
 impl Scenario {
-    /// The structure that bends, with the devices on it; none of a rigid hub.
+    /// The flexible structure, with the devices on it; none of a rigid hub.
     ///
     /// # Errors
     ///
@@ -267,7 +267,7 @@ impl Scenario {
         errors
     }
 
-    /// What a scenario has and the equations of a structure that bends do not; each with its key
+    /// What a scenario has and the equations of a flexible structure do not; each with its key
     /// and the remedy.
     fn not_on_a_structure(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
@@ -275,7 +275,7 @@ impl Scenario {
         for (index, wrench) in self.wrenches.iter().enumerate() {
             match wrench.body {
                 Target::Hub => {
-                    let message = "a force on a structure that bends acts on one of its nodes; \
+                    let message = "a force on a flexible structure acts on one of its nodes; \
                                    write `on = \"NODE\"`";
                     reject(format!("wrench.{index}.on"), message);
                 }
@@ -285,7 +285,7 @@ impl Scenario {
                     reject(format!("wrench.{index}.point"), message);
                 }
                 Target::Joint(_) if wrench.axes == WrenchAxes::Inertial => {
-                    let message = "on a device of a structure that bends, wrenches are in the \
+                    let message = "on a device of a flexible structure, wrenches are in the \
                                    axes of the body; write `axes = \"body\"`, or put it on a node";
                     reject(format!("wrench.{index}.axes"), message);
                 }

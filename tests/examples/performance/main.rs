@@ -62,7 +62,7 @@ struct Arguments {
     /// Only Precess
     #[arg(long)]
     skip_peers: bool,
-    /// Only wheels on bearings, on a platform, on a structure that bends, and their page
+    /// Only wheels on bearings, on a platform, on a flexible structure, and their page
     #[arg(long)]
     flexible: bool,
     /// Only derivatives, and their page

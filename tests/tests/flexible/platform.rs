@@ -1,4 +1,4 @@
-//! Isolated platforms on the mounts of a structure that bends.
+//! Isolated platforms on the mounts of a flexible structure.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};

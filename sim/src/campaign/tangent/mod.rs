@@ -10,7 +10,7 @@
 //! | `dx/dp` | the equations and the integrator of fixed steps over [`Dual`](precess_dynamics::Dual) numbers: six keys in a run (`run`) | rounding: the derivative of the discrete run |
 //! | `F'[x]` | of RMS values, also in bands and exposures, by polarisation of the quadratic form; of peaks at the sample that is largest (`statistic`) | rounding |
 //!
-//! So no step has to be chosen against the tolerance of a run. What this does not have, and says so: structures that bend,
+//! So no step has to be chosen against the tolerance of a run. What this does not have, and says so: flexible structures,
 //! platforms, sources and wrenches, drives that vary over time, changes, end stops, crossings, prescribed hubs, and
 //! quantities that are neither of the state nor its accelerations (attitude, loads, energy). Central differences remain for them.
 //!

@@ -32,7 +32,7 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
         Drive::Locked => true,
     };
     let has = [
-        (scenario.structure.is_some(), "a structure that bends"),
+        (scenario.structure.is_some(), "a flexible structure"),
         (!scenario.devices.1.is_empty(), "platforms"),
         (!scenario.disturbances.is_empty(), "sources"),
         (!scenario.wrenches.is_empty(), "wrenches"),

@@ -1,4 +1,4 @@
-//! Columns of a structure that bends: modal coordinates and rates, and the motion of recorded points.
+//! Columns of a flexible structure: modal coordinates and rates, and the motion of recorded points.
 
 use super::{Column, Quantity, scalar, vector};
 use crate::scenario::Scenario;

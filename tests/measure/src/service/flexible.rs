@@ -1,5 +1,5 @@
-//! Four reaction wheels on what gives: on flexible bearings, on an isolated platform, on a structure
-//! that bends; and on a rigid hub.
+//! Four reaction wheels on what gives: on flexible bearings, on an isolated platform, on a flexible
+//! structure; and on a rigid hub.
 
 use std::hint::black_box;
 

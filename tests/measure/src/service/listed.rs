@@ -23,7 +23,7 @@ pub(super) struct Listed {
     pub(super) force: [f64; 3],
     pub(super) torque_b: [f64; 3],
     devices: Vec<Device>,
-    /// Of a structure that bends.
+    /// Of a flexible structure.
     #[serde(default)]
     pub(super) modes: usize,
 }

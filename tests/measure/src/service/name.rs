@@ -46,7 +46,7 @@ pub(crate) enum Name {
     /// The imaging satellite by kernels of its own
     #[cfg(feature = "lanes")]
     Baked,
-    /// Four wheels on a rigid hub, on bearings, on a platform, on a structure that bends
+    /// Four wheels on a rigid hub, on bearings, on a platform, on a flexible structure
     #[cfg(feature = "lanes")]
     Flexible,
     /// One evaluation, what derivatives of accelerations are compared with
