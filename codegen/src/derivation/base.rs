@@ -16,7 +16,7 @@
 
 use super::chain::{Chain, Coordinate};
 use super::heading::Heading;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::script::{Script, pairs, sextuple, triple};
 use crate::graph::Expr;
 use crate::kinds::{Link, Motion};
@@ -58,7 +58,7 @@ pub(super) struct Base<'g> {
     /// From the parent body's origin.
     pub(super) origin: Vector<'g, Carrier>,
     /// About the joint's origin.
-    pub(super) lump: Lump<'g>,
+    pub(super) mass_properties: MassProperties<'g>,
 }
 
 /// The chain after the passes.
@@ -66,21 +66,23 @@ pub(super) struct Based<'g> {
     /// From the hub outwards.
     pub(super) links: Vec<Base<'g>>,
     /// Constant share of the hub, about B, expressed in the device's axes.
-    pub(super) constant_share: Lump<'g, Carrier>,
+    pub(super) constant_share: MassProperties<'g, Carrier>,
 }
 
 /// Makes the passes; the bodies' own lumps go to `script`.
 pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g> {
     let passes = chain.passes;
     let bodies = chain.links.iter().zip(chain.kind.links);
-    let links =
-        bodies.map(|(link, data)| Base { origin: link.origin, lump: Lump::of(link, data, script) });
+    let links = bodies.map(|(link, data)| Base {
+        origin: link.origin,
+        mass_properties: MassProperties::of(link, data, script),
+    });
     let mut links: Vec<_> = links.collect();
     if passes.slide {
         slide(chain, &mut links);
     }
     let constant_share =
-        if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
+        if passes.regroup { regroup(chain, &mut links) } else { MassProperties::zero(chain.graph) };
     let mut based = Based { links, constant_share };
     if passes.slide || passes.regroup {
         based.settle(chain, script);
@@ -105,7 +107,7 @@ impl<'g> Based<'g> {
         };
         for (k, (base, data)) in self.links.iter_mut().zip(chain.kind.links).enumerate() {
             base.origin = Vector::new(base.origin.components().map(&mut settled));
-            base.lump = base.lump.map(&mut settled);
+            base.mass_properties = base.mass_properties.map(&mut settled);
             let carrier = k.checked_sub(1).map_or("d", |inner| chain.kind.links[inner].body.frame);
             base.name(data, &origin_words(chain, k), carrier, script);
         }
@@ -124,9 +126,9 @@ impl<'g> Base<'g> {
         let tag = joint.tag;
         script.names(pairs(triple(&format!("arm_{tag}"), carrier), self.origin.components()));
         let names = triple(&format!("mr_{tag}_base"), body.frame);
-        script.names(pairs(names, self.lump.first_moment.components()));
+        script.names(pairs(names, self.mass_properties.first_moment.components()));
         let names = sextuple(&format!("i_{tag}_base"));
-        script.names(pairs(names, self.lump.inertia.entries()));
+        script.names(pairs(names, self.mass_properties.inertia.entries()));
     }
 }
 
@@ -150,7 +152,7 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
         };
         let step = [0, 1, 2].map(|c| if c == along { by } else { zero });
         links[k].origin = links[k].origin + Vector::new(step);
-        links[k].lump = links[k].lump.shifted(-Vector::<Own>::new(step));
+        links[k].mass_properties = links[k].mass_properties.shifted(-Vector::<Own>::new(step));
         if let Some(next) = links.get_mut(k + 1) {
             let mut rest = next.origin.components();
             rest[along] = zero;
@@ -160,23 +162,24 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
 }
 
 /// (D4), from the tip to the hub.
-fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
-    let mut constant_share = Lump::zero(chain.graph);
+fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> MassProperties<'g, Carrier> {
+    let mut constant_share = MassProperties::zero(chain.graph);
     for (k, link) in chain.links.iter().enumerate().rev() {
         let own = &mut links[k];
-        own.lump = own.lump.plus(constant_share.handed_back());
+        own.mass_properties = own.mass_properties.plus(constant_share.handed_back());
         if chain.kind.links[k].is_locked() {
             // It never moves in its parent body.
             let origin = own.origin;
-            let lump = std::mem::replace(&mut own.lump, Lump::zero(chain.graph));
-            constant_share = lump.turned_back(link).shifted(origin);
+            let mass_properties =
+                std::mem::replace(&mut own.mass_properties, MassProperties::zero(chain.graph));
+            constant_share = mass_properties.turned_back(link).shifted(origin);
             continue;
         }
         let axis = chain.kind.links[k].joint.motion.axis();
-        let moved = movable(own.lump, link.coordinate, axis);
-        own.lump = own.lump.less(moved);
+        let moved = movable(own.mass_properties, link.coordinate, axis);
+        own.mass_properties = own.mass_properties.less(moved);
         // The same from every angle: in the parent body's axes as in its own.
-        let moved = Lump {
+        let moved = MassProperties {
             mass: moved.mass,
             first_moment: Vector::new(moved.first_moment.components()),
             inertia: Symmetric::new(moved.inertia.entries()),
@@ -191,22 +194,28 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
 }
 
 /// The part that its joint's motion does not change.
-fn movable<'g>(lump: Lump<'g>, coordinate: Coordinate<'g>, axis: Axis) -> Lump<'g> {
-    let zero = lump.mass.graph().zero();
+fn movable<'g>(
+    mass_properties: MassProperties<'g>,
+    coordinate: Coordinate<'g>,
+    axis: Axis,
+) -> MassProperties<'g> {
+    let zero = mass_properties.mass.graph().zero();
     match coordinate {
-        Coordinate::Length(_) => {
-            Lump { mass: zero, first_moment: Vector::zero(zero.graph()), ..lump }
-        }
+        Coordinate::Length(_) => MassProperties {
+            mass: zero,
+            first_moment: Vector::zero(zero.graph()),
+            ..mass_properties
+        },
         Coordinate::Angle(_) => {
             let [k, i, j] = axis.cycle();
-            let across = lump.inertia.at(j, j);
-            let along = lump.first_moment.components()[k];
+            let across = mass_properties.inertia.at(j, j);
+            let along = mass_properties.first_moment.components()[k];
             let mut first_moment = [zero; 3];
             first_moment[k] = along;
             let mut moments = [zero; 3];
             (moments[i], moments[j]) = (across, across);
-            Lump {
-                mass: lump.mass,
+            MassProperties {
+                mass: mass_properties.mass,
                 first_moment: Vector::new(first_moment),
                 inertia: Symmetric::diagonal(moments),
             }

@@ -2,7 +2,7 @@
 //!
 //! B's axes do not turn for an observer on B, so primes are plain time derivatives of components
 //! here and no transport theorem is used: an independent derivation of what [`super::motion`],
-//! [`super::composite`] and [`super::aboard`] build in local frames. It expands to many terms and
+//! [`super::composite`] and [`super::inward_pass`] build in local frames. It expands to many terms and
 //! is never emitted.
 //!
 //! Newton and Euler per body, as in (25), (34), (47), (62) of the paper; the joint rows are the

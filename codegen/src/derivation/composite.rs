@@ -5,7 +5,7 @@
 
 use super::chain::{Chain, Link};
 use super::heading::Heading;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, triple};
 use super::wrench::Wrench;
@@ -19,7 +19,7 @@ use crate::space::{Own, Symmetric, Vector};
 pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script<'g>) -> Share<'g> {
     let graph = chain.graph;
     let motions = outwards(chain, observer, script);
-    let mut lump = Lump::zero(graph);
+    let mut composite = MassProperties::zero(graph);
     let mut bias = Wrench::zero(graph);
     // What a unit acceleration of each joint processed so far requires; tip last.
     let mut columns: Vec<Wrench<'g, Own>> = Vec::new();
@@ -29,26 +29,26 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
         let behind = &chain.kind.links[k..];
         let data = &behind[0];
         let tags = behind.iter().map(|link| link.joint.tag);
-        let body = Lump::of(link, data, script);
-        lump = lump.plus(body);
+        let body = MassProperties::of(link, data, script);
+        composite = composite.plus(body);
         bias = bias.plus(bias_of(link, motion, &body));
-        columns.insert(0, lump.column(link));
-        describe(behind, &lump, &bias, &columns, script);
+        columns.insert(0, composite.column(link));
+        describe(behind, &composite, &bias, &columns, script);
         let row: Vec<_> = tags.zip(columns.iter().map(|column| column.along(link))).collect();
         let cut = |(tag, entry)| script.cut(format!("mass_{}{tag}", data.joint.tag), entry);
         joint.insert(0, row.into_iter().map(cut).collect());
-        let asked = bias.along(link);
-        bias_joint.insert(0, script.cut(format!("u_rest_{}", data.joint.tag), asked));
+        let required = bias.along(link);
+        bias_joint.insert(0, script.cut(format!("u_rest_{}", data.joint.tag), required));
 
-        lump = lump.carried(link);
+        composite = composite.carried(link);
         bias = bias.carried(link);
         columns = columns.into_iter().map(|column| column.carried(link)).collect();
     }
     let on_hub = |v: Vector<'g, Own>| v.handed_on().on_hub();
     Share {
-        mass: lump.mass,
-        first_moment: on_hub(lump.first_moment),
-        inertia: Symmetric::new(lump.inertia.entries()),
+        mass: composite.mass,
+        first_moment: on_hub(composite.first_moment),
+        inertia: Symmetric::new(composite.inertia.entries()),
         force: columns.iter().map(|column| on_hub(column.force)).collect(),
         moment: columns.iter().map(|column| on_hub(column.moment)).collect(),
         joint,
@@ -93,7 +93,7 @@ fn outwards<'g>(
 /// Names the outboard composite of the first of these joints, its bias and its columns.
 fn describe<'g>(
     behind: &[kinds::Link],
-    lump: &Lump<'g>,
+    composite: &MassProperties<'g>,
     bias: &Wrench<'g, Own>,
     columns: &[Wrench<'g, Own>],
     script: &mut Script<'g>,
@@ -101,7 +101,7 @@ fn describe<'g>(
     let data = &behind[0];
     let (frame, whole) = (data.body.frame, data.assembly.to_uppercase());
     let (title, letter, equations) = (data.body.title, data.body.letters[0], &data.body.equations);
-    lump.name(data, script);
+    composite.name(data, script);
     let heading = Heading::of(format!("{whole} with no joint accelerating"));
     script.section("bias", heading.equation(equations.about_origin).wrench(["N", "N m"], letter));
     script.names(bias.named("rest", frame));
@@ -123,7 +123,7 @@ fn describe<'g>(
 }
 
 /// What one body requires while no joint accelerates.
-fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<'g, Own> {
+fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &MassProperties<'g>) -> Wrench<'g, Own> {
     let Wrench { force, moment } = asked_of(link, motion, body);
     Wrench {
         force: force.without(Stage::Acceleration),
@@ -136,7 +136,7 @@ fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<
 pub(super) fn asked_of<'g>(
     link: &Link<'g>,
     motion: &Motion<'g>,
-    body: &Lump<'g>,
+    body: &MassProperties<'g>,
 ) -> Wrench<'g, Own> {
     let (omega, axes) = (motion.omega, motion.axes);
     let p_ddot = motion.origin.acceleration.turned(link.turn);
@@ -167,7 +167,7 @@ pub fn momenta<'g>(
     for (k, (link, motion)) in chain.links.iter().zip(&motions).enumerate().rev() {
         let data = &chain.kind.links[k];
         let (frame, letter) = (data.body.frame, data.body.letters[0]);
-        let body = Lump::of(link, data, script);
+        let body = MassProperties::of(link, data, script);
         let (omega, p_dot) = (motion.omega, motion.origin.velocity.turned(link.turn));
         let own = Wrench {
             force: body.mass * p_dot + omega.cross(body.first_moment),

@@ -6,7 +6,7 @@
 
 use super::chain::{Chain, Link};
 use super::heading::Heading;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::{Graph, Stage};
@@ -27,20 +27,20 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let heading = Heading::of(format!("G r at {letter}")).equation("(D16)");
         script.section("field", heading.axes("the same axes").unit("m/s²"));
         script.names(pairs(triple(&format!("g_r_{origin}"), frame), own.origin.components()));
-        let body = Lump::of(link, data, script);
+        let body = MassProperties::of(link, data, script);
         let heading = Heading::of(format!("On the {title} only")).equation("(D17)");
         script.section("pull", heading.wrench(["N", "N m"], letter));
         script.names(own.on(&body).named("on", frame));
         bodies.push(body);
         here = own.handed_on();
     }
-    let mut lump = Lump::zero(chain.graph);
+    let mut composite = MassProperties::zero(chain.graph);
     for ((link, data), body) in chain.links.iter().zip(chain.kind.links).zip(bodies).rev() {
-        lump = lump.plus(body);
-        lump.name(data, script);
-        lump = lump.carried(link);
+        composite = composite.plus(body);
+        composite.name(data, script);
+        composite = composite.carried(link);
     }
-    let second_moment = lump.inertia.second_moment();
+    let second_moment = composite.inertia.second_moment();
     let heading = Heading::of("S = ∫ r rᵀ dm of the device about B").equation("(D18)");
     script.section("axis", heading.axes("the device's axes").unit("kg m²"));
     script.names(pairs(sextuple("second_moment"), second_moment.entries()));
@@ -84,7 +84,7 @@ impl<'g> Field<'g, Own> {
 
     /// Force and moment on a body. S and I are `tr(I) / 2 - I` and I up to a multiple of the
     /// unit tensor.
-    fn on(self, body: &Lump<'g>) -> Wrench<'g, Own> {
+    fn on(self, body: &MassProperties<'g>) -> Wrench<'g, Own> {
         let s = body.first_moment;
         Wrench {
             force: body.mass * self.origin + self.gradient.times(s),

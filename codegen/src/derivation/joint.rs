@@ -1,8 +1,8 @@
 //! One joint: Coriolis and centrifugal wrench of its rate (D8), and its own equation (D9).
 
-use super::carriers::Carrying;
 use super::chain::Coordinate;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
+use super::parent_motion::ParentMotion;
 use super::wrench::Wrench;
 use crate::graph::Expr;
 use crate::space::{Axis, Frame, Vector};
@@ -14,9 +14,9 @@ pub(super) struct AtJoint<'g, F> {
     pub(super) coordinate: Coordinate<'g>,
     pub(super) rate: Expr<'g>,
     /// Outboard composite, about the joint's origin.
-    pub(super) lump: Lump<'g, F>,
+    pub(super) composite: MassProperties<'g, F>,
     /// Motion of the parent body.
-    pub(super) carrying: Carrying<'g, F>,
+    pub(super) parent: ParentMotion<'g, F>,
 }
 
 impl<'g, F: Frame> AtJoint<'g, F> {
@@ -26,8 +26,8 @@ impl<'g, F: Frame> AtJoint<'g, F> {
     /// Neither has a part in the joint's own equation.
     pub(super) fn of_rate(&self) -> Wrench<'g, F> {
         let [k, i, j] = self.axis.cycle();
-        let omega = self.carrying.omega.components();
-        let moment = self.lump.first_moment.components();
+        let omega = self.parent.omega.components();
+        let moment = self.composite.first_moment.components();
         let placed = |along, first, second| {
             let mut components = [along; 3];
             (components[i], components[j]) = (first, second);
@@ -36,7 +36,7 @@ impl<'g, F: Frame> AtJoint<'g, F> {
         let zero = self.rate.graph().zero();
         match self.coordinate {
             Coordinate::Angle(_) => {
-                let inertia = self.lump.inertia;
+                let inertia = self.composite.inertia;
                 let (u, v) = (self.rate * omega[i], self.rate * omega[j]);
                 // q' (2 omega_k + q'), by the angular velocity of what is turned.
                 let e = self.rate * (omega[k] + (self.rate + omega[k]));
@@ -53,8 +53,8 @@ impl<'g, F: Frame> AtJoint<'g, F> {
                 let (u, v) = (self.rate * omega[i], self.rate * omega[j]);
                 let twice = placed(zero, v + v, -(u + u));
                 Wrench {
-                    force: self.lump.mass * twice,
-                    moment: self.lump.first_moment.cross(twice),
+                    force: self.composite.mass * twice,
+                    moment: self.composite.first_moment.cross(twice),
                 }
             }
         }
@@ -63,11 +63,11 @@ impl<'g, F: Frame> AtJoint<'g, F> {
     /// (D9): the joint row of what the parent body's field of acceleration requires.
     pub(super) fn of_field(&self) -> Expr<'g> {
         let [k, i, j] = self.axis.cycle();
-        let Carrying { omega, alpha, origin } = self.carrying;
-        let (moment, p) = (self.lump.first_moment.components(), origin.components());
+        let ParentMotion { omega, alpha, origin } = self.parent;
+        let (moment, p) = (self.composite.first_moment.components(), origin.components());
         match self.coordinate {
             Coordinate::Angle(_) => {
-                let inertia = self.lump.inertia;
+                let inertia = self.composite.inertia;
                 let (omega, alpha) = (omega.components(), alpha.components());
                 let lever = moment[i] * p[j] - moment[j] * p[i];
                 let (ki, kj, kk) = (inertia.at(k, i), inertia.at(k, j), inertia.at(k, k));
@@ -80,7 +80,8 @@ impl<'g, F: Frame> AtJoint<'g, F> {
                 lever + (beside + across)
             }
             Coordinate::Length(_) => {
-                self.lump.mass * p[k] + self.carrying.field(self.lump.first_moment).components()[k]
+                self.composite.mass * p[k]
+                    + self.parent.field(self.composite.first_moment).components()[k]
             }
         }
     }

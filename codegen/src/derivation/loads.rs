@@ -7,7 +7,7 @@
 use super::chain::Chain;
 use super::composite::asked_of;
 use super::heading::Heading;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, triple};
 use super::wrench::Wrench;
@@ -18,7 +18,7 @@ pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let motions = outwards(chain, script);
     let mut wrench = Wrench::zero(chain.graph);
     for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions).rev() {
-        let body = Lump::of(link, data, script);
+        let body = MassProperties::of(link, data, script);
         wrench = wrench.plus(asked_of(link, motion, &body));
         let (whole, body) = (data.assembly.to_uppercase(), &data.body);
         let what = format!("On {whole}, the {} and the bodies outboard of it", body.title);

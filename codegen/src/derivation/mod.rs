@@ -10,37 +10,37 @@
 //! - [`boltzmann_hamel`]: the same once more from the kinetic energy only;
 //! - [`composite`]: from the tip to the hub in local frames, emitted as `first_moment` and
 //!   `energy_momentum`;
-//! - [`aboard`]: the same from base parameters ([`base`], with `carriers` for the motion of the
+//! - [`inward_pass`]: the same from base parameters ([`base`], with `parent_motion` for the motion of the
 //!   parent bodies, `joint` for one joint, `reach` for the first one's origin and
 //!   `on_hub` for the last step), emitted as `eliminate` and `constant_share`;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first: the second
 //!   half of `eliminate`; [`parallel`]: where the axes of two joints can be parallel;
 //! - [`axes`], [`loads`], [`external`], [`gravity`], each emitted by its own name: axes and origins
 //!   of the bodies, loads across their joints, sums of applied wrenches, wrenches of a field;
-//! - `lump`, [`wrench`], [`placed`]: mass, first moment and inertia of bodies; force and moment; a
+//! - `mass_properties`, [`wrench`], [`placed`]: mass, first moment and inertia of bodies; force and moment; a
 //!   vector or tensor with the frame it is expressed in;
 //! - [`script`]: the named steps of the recursions; [`heading`]: what they compute, as data.
 
-pub mod aboard;
 mod angular;
 pub mod assumed;
 pub mod axes;
 pub mod base;
 pub mod boltzmann_hamel;
 pub mod by_body;
-mod carriers;
 pub mod chain;
 pub mod composite;
 pub mod elimination;
 pub mod external;
 pub mod gravity;
 pub mod heading;
+pub mod inward_pass;
 mod joint;
 pub mod loads;
-mod lump;
+mod mass_properties;
 pub mod motion;
 mod on_hub;
 pub mod parallel;
+mod parent_motion;
 pub mod placed;
 pub mod quantities;
 mod reach;

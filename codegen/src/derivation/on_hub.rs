@@ -1,19 +1,19 @@
 //! Composite, columns and bias of the whole device, expressed in B, about B.
 
 use super::Share;
-use super::aboard::{CORIOLIS, FIRST_ORIGIN, Walk};
 use super::base::Based;
 use super::chain::{Chain, Coordinate};
 use super::heading::Heading;
+use super::inward_pass::{CORIOLIS, FIRST_ORIGIN, InwardPass};
 use super::reach::{Reach, along_own};
 use super::script::{Script, pairs, sextuple, triple};
 use crate::graph::Expr;
 use crate::kinds::units;
 use crate::space::{Hub, Own, Symmetric, Vector};
 
-impl<'g> Walk<'g> {
+impl<'g> InwardPass<'g> {
     /// Transforms the composite to B axes, about B.
-    pub(super) fn aboard(
+    pub(super) fn share(
         &self,
         chain: &Chain<'g>,
         based: &Based<'g>,
@@ -54,9 +54,9 @@ impl<'g> Walk<'g> {
         let heading = Heading::of(what).equation("(9), (76), (D6)").axes("B").about("B");
         let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
         script.section("moment", heading);
-        let first_moment = along_b(self.lump.first_moment);
+        let first_moment = along_b(self.composite.first_moment);
         let inertia = self.inertia_along_b(chain, axes, own_moment, [reach, first_moment]);
-        let first_moment = cut(script, "mr_moving", first_moment + self.lump.mass * reach);
+        let first_moment = cut(script, "mr_moving", first_moment + self.composite.mass * reach);
         let names = sextuple("i_moving");
         let entries = pairs(names, inertia.entries());
         let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
@@ -110,9 +110,9 @@ impl<'g> Walk<'g> {
         };
         script.section("bias", Heading::of(what).equation("(D9)").unit(&unit));
         let bias = self.bias_joint.iter().zip(force).zip(links);
-        let bias = bias.map(|((asked, force), link)| {
-            let asked = carried.map_or(*asked, |carried| *asked + force.dot(carried));
-            script.cut(format!("u_rest_{}", link.joint.tag), asked)
+        let bias = bias.map(|((required, force), link)| {
+            let required = carried.map_or(*required, |carried| *required + force.dot(carried));
+            script.cut(format!("u_rest_{}", link.joint.tag), required)
         });
         bias.collect()
     }
@@ -128,7 +128,7 @@ impl<'g> Walk<'g> {
         column: Vector<'g, Hub>,
         [reach, first_moment]: [Vector<'g, Hub>; 2],
     ) -> Symmetric<'g, Hub> {
-        let inertia = self.lump.inertia;
+        let inertia = self.composite.inertia;
         let first = chain.first_moving();
         let [k, i, j] = chain.kind.links[first].joint.motion.axis().cycle();
         let half = chain.graph.constant(2).recip();
@@ -144,7 +144,7 @@ impl<'g> Walk<'g> {
             }
         };
         let pairs = Symmetric::pairs([(axes[i], across), (axes[k], along)]);
-        let squares = self.lump.mass * Symmetric::tilde_squared(reach);
+        let squares = self.composite.mass * Symmetric::tilde_squared(reach);
         let made = pairs + Symmetric::tilde_pair(reach, first_moment) + squares;
         // The moments one by one: two of them have a part in common, and the trace is that of the
         // device's axes, so that the third follows from these.

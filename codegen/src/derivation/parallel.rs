@@ -14,7 +14,7 @@
 use super::Share;
 use super::assumed::Assumed;
 use super::chain::{Chain, Coordinate};
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::wrench::Wrench;
 use crate::graph::{Expr, Stage};
 use crate::kinds::Link as Data;
@@ -93,20 +93,24 @@ pub(super) struct Carried<'g> {
 
 impl<'g> Carried<'g> {
     /// Of the tip's composite and column.
-    pub(super) fn of_tip(axis: Axis, lump: &Lump<'g>, column: Wrench<'g, Own>) -> Self {
+    pub(super) fn of_tip(
+        axis: Axis,
+        composite: &MassProperties<'g>,
+        column: Wrench<'g, Own>,
+    ) -> Self {
         let [k, ..] = axis.cycle();
-        let zero = lump.mass.graph().zero();
+        let zero = composite.mass.graph().zero();
         let mut moment = column.moment.components();
         moment[k] = zero;
         Self {
             axis,
-            inertia: lump.inertia.with(k, k, zero),
+            inertia: composite.inertia.with(k, k, zero),
             column: Wrench { moment: Vector::new(moment), ..column },
         }
     }
 
     /// With the next body inboard, expressed in the axes that `back` leads to.
-    pub(super) fn with_body(self, body: &Lump<'g>, back: Turn<'g, Own, Carrier>) -> Self {
+    pub(super) fn with_body(self, body: &MassProperties<'g>, back: Turn<'g, Own, Carrier>) -> Self {
         let turned = |v: Vector<'g, Own>| v.turned(back).handed_back();
         Self {
             inertia: (body.inertia + self.inertia).turned_from(back, self.axis).handed_back(),
@@ -116,10 +120,10 @@ impl<'g> Carried<'g> {
     }
 
     /// About a point from which the present origin lies at `arm`; the composite has this first moment.
-    pub(super) fn shifted(self, arm: Vector<'g, Own>, composite: &Lump<'g>) -> Self {
+    pub(super) fn shifted(self, arm: Vector<'g, Own>, composite: &MassProperties<'g>) -> Self {
         let Wrench { force, moment } = self.column;
         Self {
-            inertia: Lump { inertia: self.inertia, ..*composite }.shifted(arm).inertia,
+            inertia: MassProperties { inertia: self.inertia, ..*composite }.shifted(arm).inertia,
             column: Wrench { force, moment: moment + arm.cross(force) },
             ..self
         }

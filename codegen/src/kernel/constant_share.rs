@@ -1,9 +1,9 @@
 //! The kernel `constant_share`: what a device adds to the hub whatever its joints do.
 
 use super::{Claim, Kernel, Record, eliminate, records};
-use crate::derivation::aboard::constant_share;
 use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
+use crate::derivation::inward_pass::constant_share;
 use crate::derivation::script::Script;
 
 /// The kernel.

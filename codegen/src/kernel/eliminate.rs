@@ -2,9 +2,9 @@
 
 use super::function::inputs;
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::aboard::aboard;
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
+use crate::derivation::inward_pass::inward_pass;
 use crate::derivation::parallel::Parallel;
 use crate::derivation::script::Script;
 use crate::derivation::{Named, by_body};
@@ -14,7 +14,7 @@ use crate::kinds::{Kind, Link, Motion, cited};
 #[must_use]
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Record) {
     let mut script = Script::new(chain.graph);
-    let share = aboard(chain, &mut script);
+    let share = inward_pass(chain, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
     let gains = gains(kind, &eliminated);

@@ -11,13 +11,13 @@
 
 use super::Share;
 use super::base::{Based, based, origin_words};
-use super::carriers::{Carrying, carriers};
 use super::chain::Chain;
 use super::heading::Heading;
 use super::joint::AtJoint;
-use super::lump::Lump;
+use super::mass_properties::MassProperties;
 use super::on_hub::{cut, named};
 use super::parallel::{Across, Carried, Parallel};
+use super::parent_motion::{ParentMotion, parent_motions};
 use super::reach::{Reach, along_own};
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
@@ -29,7 +29,7 @@ use crate::space::{Hub, Own, Turn, Vector, XYZ};
 /// moves, blocks of the joints, and the bias without what the hub's own motion requires. Expressed
 /// in B; the mass is the hub's.
 #[must_use]
-pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
+pub fn inward_pass<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let based = based(chain, script);
     let axes = first_axes(chain, script);
     let omega = Vector::new(axes.map(|axis| axis.dot(chain.hub.omega)));
@@ -39,13 +39,13 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     script.section("rate", Heading::of("ω_{B/N}").equation("(D5)").axes(frame).unit("rad/s"));
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
     let hub = first_parent(chain, &based, omega, script);
-    let carriers = carriers(chain, &based, hub, script);
-    let mut walk = Walk::new(chain, Reach::of(chain, &based));
+    let parent_motions = parent_motions(chain, &based, hub, script);
+    let mut pass = InwardPass::new(chain, Reach::of(chain, &based));
     for k in (first + 1..chain.links.len()).rev() {
-        walk.inwards(chain, &based, k, &carriers[k - first - 1], script);
+        pass.inwards(chain, &based, k, &parent_motions[k - first - 1], script);
     }
-    let seen = walk.at_first(chain, &based, &hub, script);
-    seen.aboard(chain, &based, axes, script)
+    let seen = pass.at_first(chain, &based, &hub, script);
+    seen.share(chain, &based, axes, script)
 }
 
 /// The first body's axes, expressed in B.
@@ -71,9 +71,9 @@ fn first_parent<'g>(
     based: &Based<'g>,
     omega: Vector<'g, Own>,
     script: &mut Script<'g>,
-) -> Carrying<'g, Own> {
+) -> ParentMotion<'g, Own> {
     if Reach::of(chain, based) == Reach::Hub {
-        return Carrying::hub(omega, Vector::zero(chain.graph));
+        return ParentMotion::hub(omega, Vector::zero(chain.graph));
     }
     let first = chain.first_moving();
     let body = &chain.kind.links[first].body;
@@ -85,7 +85,7 @@ fn first_parent<'g>(
     script.section("path", Heading::of(FIRST_ORIGIN).equation("(D5)").axes(axes).unit("m/s²"));
     let carried = omega.cross(omega.cross(reach));
     script.names(pairs(triple("r_first_rest", body.frame), carried.components()));
-    Carrying::hub(omega, carried)
+    ParentMotion::hub(omega, carried)
 }
 
 /// The axes of the parent body of the first joint that moves, expressed in B: the mount. Where it is
@@ -136,9 +136,9 @@ fn row_heading(outboard: &[Link], frame: &str, reach: Reach) -> Heading {
 }
 
 /// The composite of the joints processed so far, expressed in the current frame, about its origin.
-pub(super) struct Walk<'g> {
+pub(super) struct InwardPass<'g> {
     pub(super) reach: Reach,
-    pub(super) lump: Lump<'g>,
+    pub(super) composite: MassProperties<'g>,
     /// What the rates of the joints processed so far require.
     pub(super) rates: Wrench<'g, Own>,
     /// What a unit acceleration of each joint processed so far requires; the innermost first.
@@ -150,11 +150,11 @@ pub(super) struct Walk<'g> {
     pub(super) across: Option<Across<'g>>,
 }
 
-impl<'g> Walk<'g> {
+impl<'g> InwardPass<'g> {
     fn new(chain: &Chain<'g>, reach: Reach) -> Self {
         Self {
             reach,
-            lump: Lump::zero(chain.graph),
+            composite: MassProperties::zero(chain.graph),
             rates: Wrench::zero(chain.graph),
             columns: Vec::new(),
             joint: Vec::new(),
@@ -171,26 +171,28 @@ impl<'g> Walk<'g> {
         chain: &Chain<'g>,
         based: &Based<'g>,
         k: usize,
-        carrying: &Carrying<'g, Own>,
+        parent: &ParentMotion<'g, Own>,
         script: &mut Script<'g>,
     ) {
         let link = &chain.links[k];
         let inner = &chain.kind.links[k - 1].body;
-        let lump = based.links[k].lump.plus(self.lump).turned_back(link).handed_back();
+        let composite =
+            based.links[k].mass_properties.plus(self.composite).turned_back(link).handed_back();
         let back = |v: Vector<'g, Own>| v.turned(link.turn.inverse()).handed_back();
         for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
             *wrench = Wrench { force: back(wrench.force), moment: back(wrench.moment) };
         }
-        self.carried =
-            self.carried.map(|own| own.with_body(&based.links[k].lump, link.turn.inverse()));
-        self.row(chain, k, inner, lump, carrying, script);
+        self.carried = self
+            .carried
+            .map(|own| own.with_body(&based.links[k].mass_properties, link.turn.inverse()));
+        self.row(chain, k, inner, composite, parent, script);
         if Parallel::of(chain).is_some_and(|joints| joints.tip == k) {
             let axis = chain.kind.links[k].joint.motion.axis();
-            self.carried = Some(Carried::of_tip(axis, &lump, self.columns[0]));
+            self.carried = Some(Carried::of_tip(axis, &composite, self.columns[0]));
         }
         let arm = based.links[k].origin.handed_back();
-        self.carried = self.carried.map(|carried| carried.shifted(arm, &lump));
-        self.lump = lump.shifted(arm);
+        self.carried = self.carried.map(|carried| carried.shifted(arm, &composite));
+        self.composite = composite.shifted(arm);
         for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
             wrench.moment = wrench.moment + arm.cross(wrench.force);
         }
@@ -201,16 +203,16 @@ impl<'g> Walk<'g> {
         mut self,
         chain: &Chain<'g>,
         based: &Based<'g>,
-        hub: &Carrying<'g, Own>,
+        hub: &ParentMotion<'g, Own>,
         script: &mut Script<'g>,
     ) -> Self {
         let first = chain.first_moving();
         let own = &chain.kind.links[first].body;
-        let lump = based.links[first].lump.plus(self.lump);
-        let body = &based.links[first].lump;
+        let composite = based.links[first].mass_properties.plus(self.composite);
+        let body = &based.links[first].mass_properties;
         self.carried = self.carried.map(|carried| carried.with_body(body, Turn::none(chain.graph)));
-        self.row(chain, first, own, lump, hub, script);
-        self.lump = lump;
+        self.row(chain, first, own, composite, hub, script);
+        self.composite = composite;
         self
     }
 
@@ -220,8 +222,8 @@ impl<'g> Walk<'g> {
         chain: &Chain<'g>,
         k: usize,
         body: &Body,
-        lump: Lump<'g>,
-        carrying: &Carrying<'g, Own>,
+        composite: MassProperties<'g>,
+        parent: &ParentMotion<'g, Own>,
         script: &mut Script<'g>,
     ) {
         let (link, behind) = (&chain.links[k], &chain.kind.links[k..]);
@@ -234,18 +236,18 @@ impl<'g> Walk<'g> {
         let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
         script.section("lump", heading.about(&origin));
         let stem = format!("mr_behind_{}", data.assembly);
-        script.names(pairs(triple(&stem, frame), lump.first_moment.components()));
+        script.names(pairs(triple(&stem, frame), composite.first_moment.components()));
         let stem = format!("i_behind_{}", data.assembly);
-        script.names(pairs(sextuple(&stem), lump.inertia.entries()));
+        script.names(pairs(sextuple(&stem), composite.inertia.entries()));
 
         let at = AtJoint {
             axis,
             coordinate: link.coordinate,
             rate: link.rate,
-            lump,
-            carrying: *carrying,
+            composite,
+            parent: *parent,
         };
-        self.columns.insert(0, lump.moved(link.coordinate, Vector::unit(chain.graph, axis)));
+        self.columns.insert(0, composite.moved(link.coordinate, Vector::unit(chain.graph, axis)));
         let tip = behind.len() == 1;
         script.section("row", row_heading(behind, frame, self.reach));
         self.row_across(chain, k, script);
@@ -254,9 +256,9 @@ impl<'g> Walk<'g> {
             script.cut(format!("mass_{}{tag}", data.joint.tag), column.along(link))
         });
         self.joint.insert(0, row.collect());
-        let asked = at.of_field() + self.rates.along(link);
-        script.name(format!("field_{}", data.joint.tag), asked);
-        self.bias_joint.insert(0, asked);
+        let required = at.of_field() + self.rates.along(link);
+        script.name(format!("field_{}", data.joint.tag), required);
+        self.bias_joint.insert(0, required);
 
         let what = if tip {
             format!("{CORIOLIS} the rate of the joint of the {title} requires")
@@ -293,7 +295,7 @@ impl<'g> Walk<'g> {
 
 /// Constant share of the hub: what a device adds to it whatever its joints do.
 pub fn constant_share<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
-    let Lump { first_moment, inertia, .. } = based(chain, script).constant_share;
+    let MassProperties { first_moment, inertia, .. } = based(chain, script).constant_share;
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     let heading = Heading::of("Constant share of the hub").equation("(D4)").axes("B").about("B");
     let heading = heading.part("mass", "kg").part("first moment", "kg m").part("inertia", "kg m²");

@@ -10,13 +10,13 @@ use crate::space::{Carrier, Frame, Own, Symmetric, Vector};
 
 /// Mass, first moment and inertia of a set of bodies, about the current origin.
 #[derive(Clone, Copy)]
-pub(super) struct Lump<'g, F = Own> {
+pub(super) struct MassProperties<'g, F = Own> {
     pub(super) mass: Expr<'g>,
     pub(super) first_moment: Vector<'g, F>,
     pub(super) inertia: Symmetric<'g, F>,
 }
 
-impl<'g, F: Frame> Lump<'g, F> {
+impl<'g, F: Frame> MassProperties<'g, F> {
     pub(super) fn zero(graph: &'g Graph) -> Self {
         Self {
             mass: graph.zero(),
@@ -72,7 +72,7 @@ impl<'g, F: Frame> Lump<'g, F> {
     }
 }
 
-impl<'g> Lump<'g> {
+impl<'g> MassProperties<'g> {
     /// One body about its joint's origin: parameters only.
     pub(super) fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
         let (body, origin) = (&data.body, data.body.origin);
@@ -97,9 +97,9 @@ impl<'g> Lump<'g> {
     }
 
     /// Expressed in the parent body's axes, about the same origin.
-    pub(super) fn turned_back(self, link: &Link<'g>) -> Lump<'g, Carrier> {
+    pub(super) fn turned_back(self, link: &Link<'g>) -> MassProperties<'g, Carrier> {
         let back = link.turn.inverse();
-        Lump {
+        MassProperties {
             mass: self.mass,
             first_moment: self.first_moment.turned(back),
             inertia: self.inertia.turned(back),
@@ -128,10 +128,10 @@ impl<'g> Lump<'g> {
     }
 }
 
-impl<'g> Lump<'g, Carrier> {
+impl<'g> MassProperties<'g, Carrier> {
     /// Towards the hub: the parent body's frame is the next body's own.
-    pub(super) fn handed_back(self) -> Lump<'g> {
-        Lump {
+    pub(super) fn handed_back(self) -> MassProperties<'g> {
+        MassProperties {
             mass: self.mass,
             first_moment: self.first_moment.handed_back(),
             inertia: self.inertia.handed_back(),

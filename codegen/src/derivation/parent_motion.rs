@@ -15,7 +15,7 @@ use crate::space::{Frame, Own, Vector};
 /// Motion of a joint's parent body, expressed in axes in which the joint's axis is a coordinate
 /// axis.
 #[derive(Clone, Copy)]
-pub(super) struct Carrying<'g, F> {
+pub(super) struct ParentMotion<'g, F> {
     /// Angular velocity.
     pub(super) omega: Vector<'g, F>,
     /// Angular acceleration.
@@ -24,7 +24,7 @@ pub(super) struct Carrying<'g, F> {
     pub(super) origin: Vector<'g, F>,
 }
 
-impl<'g, F: Frame> Carrying<'g, F> {
+impl<'g, F: Frame> ParentMotion<'g, F> {
     /// The hub, whose own angular acceleration is added by the solver; `origin` is what its rotation
     /// makes of the first joint's origin, or zero where that is added to each row.
     pub(super) fn hub(omega: Vector<'g, F>, origin: Vector<'g, F>) -> Self {
@@ -54,12 +54,12 @@ impl<'g, F: Frame> Carrying<'g, F> {
 
 /// Motion of the parent body of each joint but the first, whose parent body is the `hub`, expressed in
 /// the first body's axes.
-pub(super) fn carriers<'g>(
+pub(super) fn parent_motions<'g>(
     chain: &Chain<'g>,
     based: &Based<'g>,
-    hub: Carrying<'g, Own>,
+    hub: ParentMotion<'g, Own>,
     script: &mut Script<'g>,
-) -> Vec<Carrying<'g, Own>> {
+) -> Vec<ParentMotion<'g, Own>> {
     let mut before = hub;
     let mut list = Vec::new();
     for (k, next) in based.links.iter().enumerate().skip(chain.first_moving() + 1) {
@@ -83,7 +83,7 @@ pub(super) fn carriers<'g>(
                 before.origin + turning + turning
             }
         };
-        let own = Carrying { omega, alpha, origin };
+        let own = ParentMotion { omega, alpha, origin };
         let place = next.origin.handed_back();
         let origin = origin + own.field(place);
         let (outer, body) = (&chain.kind.links[k].body, data.body.title);
@@ -96,13 +96,13 @@ pub(super) fn carriers<'g>(
         script.section("path", heading.equation("(D5)").axes(axes).unit("m/s²"));
         script
             .names(pairs(triple(&format!("r_{}_rest", outer.origin), frame), origin.components()));
-        let carrying = Carrying { origin, ..own };
-        list.push(carrying);
+        let parent = ParentMotion { origin, ..own };
+        list.push(parent);
         let turned = |v: Vector<'g, Own>| v.handed_on().turned(chain.links[k].turn);
-        before = Carrying {
-            omega: turned(carrying.omega),
-            alpha: turned(carrying.alpha),
-            origin: turned(carrying.origin),
+        before = ParentMotion {
+            omega: turned(parent.omega),
+            alpha: turned(parent.alpha),
+            origin: turned(parent.origin),
         };
     }
     list
