@@ -94,7 +94,7 @@ impl<D: LanedSet> Service for Many<D> {
         let Self { batch, states, inputs, .. } = self;
         let mut found = Vec::with_capacity(states.len());
         for _ in 0..calls {
-            batch.accelerations(black_box(states), inputs, &mut found)?;
+            batch.accelerations(black_box(states), &*inputs, &mut found)?;
             for (state, found) in states.iter_mut().zip(&found) {
                 let found = found.as_ref().map_err(ToString::to_string)?;
                 state.omega += found.omega_dot * NUDGE;
