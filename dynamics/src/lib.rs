@@ -50,6 +50,10 @@
 //! ```
 
 #![no_std]
+#![expect(
+    private_bounds,
+    reason = "only this crate has structures: its traits of them are private"
+)]
 
 #[cfg(test)]
 extern crate std;
@@ -104,6 +108,7 @@ pub use flexible::storage::{FixedModes, Flexible, ModalStorage};
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
+pub use integrate::structure::Structure;
 pub use isolation::parameters::Platform;
 pub use isolation::suspension::{Coupled, Strut, Suspension};
 pub use model::joint_array::{JointArray, MAX_JOINTS};
@@ -127,7 +132,7 @@ pub use sets::isolated::Isolated;
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;
 pub use solve::state::{Accelerations, State};
-pub use solve::structure::{Rigid, Structure, StructureData};
+pub use solve::structure::{Rigid, StructureData};
 pub use validation::imbalance::{Imbalance, WheelImbalance};
 pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};

@@ -26,36 +26,16 @@ use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::accelerations::{EvaluationStart, check_fixed, evaluation_start, overflow};
+use crate::solve::elimination::Eliminate;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
-    /// All second derivatives of the state, (F9): six numbers, one per joint and one per mode.
-    ///
-    /// # Errors
-    ///
-    /// As [`Spacecraft::accelerations`](crate::Spacecraft::accelerations), of modal coordinates
-    /// and forces too; [`SolveError::ModalMass`] where what the model contains at the mounts leaves
-    /// a mode without mass, [`SolveError::ModalCount`].
-    pub fn accelerations<A: Attitude<D::Scalar>>(
+    /// All second derivatives of the state, (F9), each device eliminated `by` this.
+    pub(crate) fn solve_flexible<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A, Flexible<M>>,
-        inputs: &Inputs<D, Flexible<M>>,
-    ) -> Result<Accelerations<D, Flexible<M>>, SolveError<D::Scalar>> {
-        if !self.are_finite(state, inputs) {
-            return Err(self.diagnosis(state, inputs, overflow()));
-        }
-        let mut found = self.no_accelerations();
-        match self.solve(state, inputs, &mut found) {
-            Ok(()) => Ok(found),
-            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
-        }
-    }
-
-    /// [`Self::accelerations`] without diagnosis.
-    pub(crate) fn solve<A: Attitude<D::Scalar>>(
-        &self,
+        by: impl Eliminate<D::Scalar>,
         state: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         found: &mut Accelerations<D, Flexible<M>>,
@@ -65,7 +45,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         let omega = environment.omega;
         let mut stages = self.stages(state, inputs, &environment);
         let mut gains = D::new_data(&self.devices, &data::Gains);
-        self.eliminate(state, inputs, stages.as_mut(), &mut gains)?;
+        self.eliminate(by, state, inputs, stages.as_mut(), &mut gains)?;
 
         let forces = self.modal_forces(state, inputs);
         let mut structure = self.structure(state, inputs, omega);
@@ -177,6 +157,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     /// Eliminates every device into the equations of its mount.
     pub(crate) fn eliminate<A>(
         &self,
+        by: impl Eliminate<D::Scalar>,
         state: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         stages: &mut [MountStage<D::Scalar>],
@@ -184,8 +165,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     ) -> Result<(), SolveError<D::Scalar>> {
         let (joints, given) = (&state.devices, inputs.of_joints());
         check_counts::<D>(&self.devices, joints, Some(given), None)?;
-        let arithmetic = self.arithmetic;
-        let mut elimination = MountElimination { mounts: stages, device: 0, arithmetic };
+        let mut elimination = MountElimination { mounts: stages, device: 0, by };
         let data = (joints, given, gains, &self.structure.on_mount);
         D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }

@@ -3,7 +3,6 @@
 
 use core::convert::Infallible;
 
-use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
@@ -19,7 +18,7 @@ use crate::sets::devices::{ConstantShares, DeviceSet, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::sets::per_device::OnMount;
-use crate::solve::elimination::{BackSubstitution, Elimination};
+use crate::solve::elimination::{BackSubstitution, Eliminate, Elimination};
 
 /// A mount during an evaluation.
 #[derive(Clone, Debug)]
@@ -81,13 +80,13 @@ impl<T: Scalar> Standing<'_, T> {
 pub(crate) type Eliminated = (Shared<data::Joints>, Given, Unique<data::Gains>, Shared<OnMount>);
 
 /// Eliminates every joint into the equations of its mount.
-pub(crate) struct MountElimination<'a, T> {
+pub(crate) struct MountElimination<'a, T, E> {
     pub(crate) mounts: &'a mut [MountStage<T>],
     pub(crate) device: usize,
-    pub(crate) arithmetic: Arithmetic,
+    pub(crate) by: E,
 }
 
-impl<T: Scalar> Visit<T, Eliminated> for MountElimination<'_, T> {
+impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for MountElimination<'_, T, E> {
     type Error = SolveError<T>;
 
     fn visit<K: Kind<Scalar = T>>(
@@ -107,17 +106,17 @@ impl<T: Scalar> Visit<T, Eliminated> for MountElimination<'_, T> {
     }
 }
 
-impl<T: Scalar> MountElimination<'_, T> {
+impl<T: Scalar, E: Eliminate<T>> MountElimination<'_, T, E> {
     /// Eliminates the next devices into the equations of their mount.
     fn on(
         &mut self,
         mount: usize,
-        eliminate: impl FnOnce(&mut Elimination<'_, T, Arithmetic>) -> Result<(), SolveError<T>>,
+        eliminate: impl FnOnce(&mut Elimination<'_, T, E>) -> Result<(), SolveError<T>>,
     ) -> Result<(), SolveError<T>> {
         let Some(MountStage { environment, assembly, .. }) = self.mounts.get_mut(mount) else {
             return Ok(());
         };
-        let (device, by) = (self.device, self.arithmetic);
+        let (device, by) = (self.device, self.by);
         let mut elimination = Elimination::new(environment, assembly, device, by);
         eliminate(&mut elimination)?;
         self.device = elimination.device;

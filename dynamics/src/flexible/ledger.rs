@@ -5,7 +5,7 @@
 //! counts with the springs, its damping with friction.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::error::{Quantity, SolveError};
+use crate::equations::error::SolveError;
 use crate::equations::gravity::at_b;
 use crate::equations::load_sums::Along;
 use crate::flexible::block::{dot6, joined};
@@ -17,7 +17,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, half, zero};
 use crate::numbers::vec3::{Vec3, components, dot, rotate, vector};
 use crate::results::ledger::{Ledger, Power};
-use crate::results::momentum::About;
+use crate::results::momentum::{About, MotionSums};
 use crate::sets::devices::{DeviceSet, Devices};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -48,40 +48,24 @@ struct Sums<T> {
 }
 
 impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
-    /// The energy ledger for a state, its inputs and the accelerations that they give.
-    ///
-    /// # Errors
-    ///
-    /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
-    /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
-    pub fn ledger<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-        inputs: &Inputs<D, Flexible<M>>,
-        accelerations: &Accelerations<D, Flexible<M>>,
-    ) -> Result<FlexibleLedger<D, M>, SolveError<D::Scalar>> {
-        self.reject(state, inputs)?;
-        self.reject_accelerations(state, accelerations)?;
-        self.ledger_of(state, inputs, accelerations)
-    }
-
     /// [`Self::ledger`] of what is finite, or whose overflow shows in the result.
-    pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
+    pub(crate) fn ledger_flexible<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         accelerations: &Accelerations<D, Flexible<M>>,
     ) -> Result<FlexibleLedger<D, M>, SolveError<D::Scalar>> {
-        let whole = self.sums(state);
-        let velocity = rotate(&whole.bn, components(&state.r_b_n_dot));
+        let whole = self.sums_flexible(state);
+        let MotionSums { bn, bodies, .. } = &whole.motion;
+        let velocity = rotate(bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
-        let field = inputs.gravity.field(&whole.bn, &state.r_b_n);
+        let field = inputs.gravity.field(bn, &state.r_b_n);
         let all = self.all_loads(state, inputs, accelerations, field.as_ref(), |_| Along::Body);
         let mut sums = self.structure_powers(state, inputs, accelerations, &all, velocity);
         self.add_mounts(inputs, &whole, &all, [velocity, omega], &mut sums)?;
 
         // Accelerations were counted in the frame that falls with the field: its power comes back.
-        let uniform = dot(at_b(field.as_ref()), whole.sums.linear);
+        let uniform = dot(at_b(field.as_ref()), bodies.linear);
         sums.power.gravity = sums.power.gravity + uniform;
         sums.inertial = sums.inertial + uniform;
         sums.magnitude = sums.magnitude + uniform.abs() + uniform.abs();
@@ -95,30 +79,23 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         sums.magnitude = sums.magnitude + stiffness.abs() + damping.abs();
 
         let kinetic_rate = sums.inertial;
-        let r_b = rotate(&whole.bn, components(&state.r_b_n));
+        let r_b = rotate(bn, components(&state.r_b_n));
         let [moment, _] = whole.first_moment;
         let gravity = field.as_ref().map_or_else(zero, |field| {
             field.potential(self.mass(), moment, &all.structure.second_moment, r_b)
         });
         let ledger = Ledger {
-            kinetic: whole.sums.energy.max(zero()),
+            kinetic: bodies.energy.max(zero()),
             gravity,
             springs: sums.stored + strain,
             kinetic_rate,
             power: sums.power,
             residual: kinetic_rate - sums.power.total(),
             magnitude: sums.magnitude,
-            momentum: self.momentum_of(state, &whole, About::InertialOrigin)?,
+            momentum: self.momentum_of(state, &whole.motion, About::InertialOrigin)?,
             modal: ModalLedger { strain, stiffness, damping },
         };
-        let rates = [ledger.residual, ledger.magnitude, ledger.kinetic_rate];
-        let energies = [ledger.kinetic, ledger.gravity, ledger.springs, ledger.energy()];
-        let power = ledger.power.is_finite() && rates.into_iter().all(Scalar::is_finite);
-        if !(power && energies.into_iter().all(Scalar::is_finite)) {
-            let what = if power { Quantity::Energy } else { Quantity::Power };
-            return Err(SolveError::Overflow { what });
-        }
-        Ok(ledger)
+        ledger.finite()
     }
 
     /// What the structure's own accelerations require, and the powers of the inputs on it.

@@ -192,32 +192,20 @@ pub(crate) struct StructureLoads<T> {
 }
 
 impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
-    /// The loads that these accelerations need: inverse dynamics.
-    ///
-    /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
-    /// at that instant, the elastic motion of the mounts included. Motor torques and modes in
-    /// `inputs` are not read; forces, torques, modal forces and gravity are.
-    ///
-    /// # Errors
-    ///
-    /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
-    /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
-    pub fn loads<A: Attitude<D::Scalar>>(
+    /// The loads that these accelerations need.
+    pub(crate) fn loads_flexible<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         accelerations: &Accelerations<D, Flexible<M>>,
         axes: LoadAxes,
     ) -> Result<Loads<D, Flexible<M>>, SolveError<D::Scalar>> {
-        self.reject(state, inputs)?;
-        self.reject_accelerations(state, accelerations)?;
         let bn = columns(&state.attitude.dcm());
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let along = |motion: &MountMotion<D::Scalar>| mount_axes(axes, motion, &bn);
         let all = self.all_loads(state, inputs, accelerations, field.as_ref(), along);
         for mount in all.mounts.as_ref() {
-            let finite = self.check_joints(&mount.totals);
-            finite.map_err(|failure| self.diagnosis(state, inputs, failure))?;
+            self.check_joints(&mount.totals)?;
         }
 
         let given = Wrench { force: inputs.force, moment: inputs.torque_b };
@@ -246,7 +234,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
                 }
             }
         });
-        let overflow = |what| Err(self.diagnosis(state, inputs, SolveError::Overflow { what }));
+        let overflow = |what| Err(SolveError::Overflow { what });
         if !(hub.is_finite() && mounts.as_ref().iter().all(Wrench::is_finite)) {
             return overflow(Quantity::HubLoad);
         }

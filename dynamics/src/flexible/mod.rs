@@ -25,7 +25,6 @@ pub(crate) mod residual;
 pub(crate) mod spacecraft;
 pub(crate) mod stability;
 pub(crate) mod state;
-pub(crate) mod step;
 pub(crate) mod stop;
 pub(crate) mod storage;
 pub(crate) mod structure;

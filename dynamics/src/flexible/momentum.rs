@@ -7,27 +7,19 @@ use core::convert::Infallible;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
-use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::{BodySums, HubConstants};
 use crate::flexible::block::{combined, parted};
 use crate::flexible::mount::MountMotion;
 use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::model::kind::Kind;
-use crate::numbers::real::{Real, Scalar, half, zero};
-use crate::numbers::vec3::{
-    Columns, Vec3, add, columns, components, cross, dot, finite, neg, rotate, rotate_transposed,
-    scale, sub, vector, zeros,
-};
-use crate::results::momentum::{
-    About, Addition as OnBase, CentreOfMass, EnergyAndMomentum, FirstMoments, Momentum, checked,
-    kinetic, not_finite_in_point,
-};
+use crate::numbers::real::{Scalar, half, zero};
+use crate::numbers::vec3::{Vec3, add, columns, components, cross, dot, neg, rotate, scale, zeros};
+use crate::results::momentum::{Addition as OnBase, FirstMoments, MotionSums};
 use crate::sets::bundle::{Bundle, Shared};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
 use crate::sets::per_device::OnMount;
-use crate::solve::finite::reject;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
@@ -88,9 +80,7 @@ impl<T: Scalar> Addition<'_, T> {
 
 /// Sums over the whole spacecraft, expressed in B.
 pub(crate) struct WholeSums<M: ModalStorage, T: Scalar> {
-    /// `[BN]`, by its columns.
-    pub(crate) bn: Columns<T>,
-    pub(crate) sums: BodySums<T>,
+    pub(crate) motion: MotionSums<T>,
     /// First moment about B, and its derivative seen from B.
     pub(crate) first_moment: [Vec3<T>; 2],
     /// Mount by mount, expressed in K.
@@ -98,91 +88,8 @@ pub(crate) struct WholeSums<M: ModalStorage, T: Scalar> {
 }
 
 impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
-    /// Kinetic energy of structure and devices, (F3), J.
-    ///
-    /// # Errors
-    ///
-    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN,
-    /// [`SolveError::Overflow`], [`SolveError::ModalCount`].
-    pub fn energy<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-    ) -> Result<D::Scalar, SolveError<D::Scalar>> {
-        self.reject_state(state)?;
-        kinetic(&self.sums(state).sums)
-    }
-
-    /// Linear momentum, and angular momentum about a point.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::energy`], and of the point.
-    pub fn momentum<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-        about: About<D::Scalar>,
-    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
-        Ok(self.energy_and_momentum(state, about)?.momentum)
-    }
-
-    /// [`Self::energy`] and [`Self::momentum`], at the cost of one of them.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::momentum`].
-    pub fn energy_and_momentum<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-        about: About<D::Scalar>,
-    ) -> Result<EnergyAndMomentum<D::Scalar>, SolveError<D::Scalar>> {
-        self.reject_state(state)?;
-        reject(not_finite_in_point(&about))?;
-        let whole = self.sums(state);
-        let momentum = self.momentum_of(state, &whole, about)?;
-        Ok(EnergyAndMomentum { energy: kinetic(&whole.sums)?, momentum })
-    }
-
-    /// Centre of mass of structure and devices.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::energy`].
-    pub fn centre_of_mass<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-    ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
-        self.reject_state(state)?;
-        let per_mass = self.mass().recip();
-        let [c, c_prime] = self.sums(state).first_moment.map(|moment| scale(per_mass, moment));
-        let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
-        checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
-    }
-
-    /// Momenta from the sums.
-    pub(crate) fn momentum_of<A>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-        WholeSums { bn, sums, first_moment: [first_moment, _], .. }: &WholeSums<M, D::Scalar>,
-        about: About<D::Scalar>,
-    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
-        let linear_n = rotate_transposed(bn, sums.linear);
-        let about_b = rotate_transposed(bn, sums.angular_b);
-        let r_b_n = components(&state.r_b_n);
-        // H about P is H_B + r_{B/P} x p, for any motion of B.
-        let r_b_p = match about {
-            About::InertialOrigin => r_b_n,
-            About::Point(point) => sub(r_b_n, components(&point)),
-            About::CentreOfMass => {
-                neg(rotate_transposed(bn, scale(self.mass().recip(), *first_moment)))
-            }
-        };
-        let angular_n = add(about_b, cross(r_b_p, linear_n));
-        let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
-        checked(Quantity::Momentum, found, finite(linear_n) && finite(angular_n))
-    }
-
     /// Energy, momenta and first moments, expressed in B.
-    pub(crate) fn sums<A: Attitude<D::Scalar>>(
+    pub(crate) fn sums_flexible<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, Flexible<M>>,
     ) -> WholeSums<M, D::Scalar> {
@@ -219,7 +126,9 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
                 *sum = add(*sum, own);
             }
         }
-        WholeSums { bn, sums, first_moment, mounts }
+        let [moment, _] = first_moment;
+        let motion = MotionSums { bn, bodies: sums, first_moment: Some(moment) };
+        WholeSums { motion, first_moment, mounts }
     }
 
     /// Energy, momenta and first moments of the structure, (F3).

@@ -58,7 +58,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
             if let Some(rate) = moving.modal.eta_dot.as_mut().get_mut(mode) {
                 *rate = one();
             }
-            let mass = two::<D::Scalar>() * self.sums(&moving).sums.energy;
+            let mass = two::<D::Scalar>() * self.sums_flexible(&moving).motion.bodies.energy;
             if !(mass > zero() && mass.is_finite()) {
                 let fault = ResidualFault::Massless { mass };
                 return Err(ModesError::Residual { mode, fault });

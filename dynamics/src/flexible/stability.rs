@@ -112,7 +112,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
 
     /// Rejects a step that is too long for the fastest vibration, at the slowest rates of the
     /// joints during it.
-    pub(crate) fn check_stability<A: Attitude<D::Scalar>>(
+    pub(crate) fn check_stability_flexible<A: Attitude<D::Scalar>>(
         &self,
         start: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
@@ -231,7 +231,7 @@ impl<D: Devices, M: ModalStorage, A: Attitude<D::Scalar>> Vibrations<'_, D, M, A
         let still = Environment { omega: zeros(), central: None, impulse: true, reduction };
         let mut stages = craft.stages(posed, forces, &still);
         let mut gains = D::new_data(&craft.devices, &data::Gains);
-        craft.eliminate(posed, forces, stages.as_mut(), &mut gains)?;
+        craft.eliminate(craft.arithmetic, posed, forces, stages.as_mut(), &mut gains)?;
         Ok((stages, gains))
     }
 

@@ -5,13 +5,11 @@
 //! jump too: an impulse at a mount starts them.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::error::SolveError;
 use crate::equations::gravity::Gravity;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::flexible::storage::{Flexible, ModalStorage};
-use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
-use crate::integrate::stop::Stopped;
+use crate::integrate::energy_lost::{Jump, Jumped, jumped};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
@@ -25,30 +23,6 @@ use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
 impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
-    /// Stops every joint that `inputs` has locked, and the frame B if it is fixed, impulsively.
-    ///
-    /// Driven joints and modes take what impulse reaches them through the structure, prescribed
-    /// joints keep their rates. Linear and angular momentum stay, unless the hub is fixed or
-    /// prescribed; energy is lost.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::accelerations`], but a moving joint may be locked.
-    pub fn stop<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A, Flexible<M>>,
-        inputs: &Inputs<D, Flexible<M>>,
-    ) -> Result<Stopped<D, A, Flexible<M>>, SolveError<D::Scalar>> {
-        self.reject(state, inputs)?;
-        let Jumped { after: next, jump } =
-            self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
-        let mut given = prescribed(&next, inputs);
-        given.modal.eta_dot.as_mut().fill(zero());
-        let energy_lost = energy_lost((&jump, &given), |state| self.energy(state), both)?;
-        self.check_reached(&next)?;
-        Ok(Stopped { state: next, energy_lost })
-    }
-
     /// The same modes of the joints and of the hub, and nothing that acts.
     pub(crate) fn without_forces(&self, inputs: &Inputs<D, Flexible<M>>) -> Inputs<D, Flexible<M>> {
         let (still, mut unforced) = (zeros(), inputs.clone());
@@ -61,7 +35,8 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         unforced
     }
 
-    fn jump<A: Attitude<D::Scalar>>(
+    /// The jump of the velocities.
+    pub(crate) fn jump_flexible<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
@@ -74,7 +49,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
             Environment { omega: still, central: None, impulse: true, reduction: None };
         let mut stages = self.stages(&posed, &impulses, &environment);
         let mut gains = D::new_data(&self.devices, &data::Gains);
-        self.eliminate(&posed, &impulses, stages.as_mut(), &mut gains)?;
+        self.eliminate(self.arithmetic, &posed, &impulses, stages.as_mut(), &mut gains)?;
         let structure = self.structure(&posed, &impulses, still);
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
@@ -100,16 +75,4 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         jump.modal.eta_dot = jumps.modal.eta_ddot;
         Ok(Jumped { after: next, jump })
     }
-}
-
-/// The first state with the velocities `a x + b y`.
-fn both<D: Devices, M: ModalStorage, A: Attitude<D::Scalar>>(
-    (a, x): (D::Scalar, &State<D, A, Flexible<M>>),
-    (b, y): (D::Scalar, &State<D, A, Flexible<M>>),
-) -> State<D, A, Flexible<M>> {
-    let mut found = sum((a, x), (b, y));
-    for (rate, other) in found.modal.eta_dot.as_mut().iter_mut().zip(y.modal.eta_dot.as_ref()) {
-        *rate = a * *rate + b * *other;
-    }
-    found
 }

@@ -1,6 +1,9 @@
-//! [`Flexible`] as a [`Structure`]: modal coordinates, what acts on them, and their checks.
+//! [`Flexible`] as a [`Structure`]: modal coordinates, what acts on them, and their checks. Without modes
+//! and mounts it is a rigid hub, with the same bits.
 
+use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
+use crate::equations::stiffness::Stiffness;
 use crate::flexible::block::finite;
 use crate::flexible::inputs::ModalInputs;
 use crate::flexible::ledger::ModalLedger;
@@ -8,12 +11,25 @@ use crate::flexible::loads::ModalLoads;
 use crate::flexible::spacecraft::FlexibleConstants;
 use crate::flexible::state::{ModalAccelerations, ModalState};
 use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::integrate::energy_lost::Jump;
+use crate::integrate::stability::SlowestRates;
+use crate::integrate::structure::{Stage, Structure, StructureSteps};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::components;
-use crate::sets::devices::Devices;
+use crate::numbers::vec3::{Vec3, components};
+use crate::results::ledger::Ledger;
+use crate::results::loads::{LoadAxes, Loads};
+use crate::results::momentum::MotionSums;
+use crate::results::structure::StructureResults;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::solve::elimination::Eliminate;
+use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
-use crate::solve::structure::{Structure, StructureData, StructureServices};
+use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{StructureData, StructureEquations};
+
+/// A result, or why there is none.
+type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
 
 impl<M: ModalStorage> Structure for Flexible<M> {}
 
@@ -26,7 +42,7 @@ impl<M: ModalStorage> StructureData for Flexible<M> {
     type Constants<D: Devices> = FlexibleConstants<D, M>;
 }
 
-impl<M: ModalStorage> StructureServices for Flexible<M> {
+impl<M: ModalStorage> StructureEquations for Flexible<M> {
     fn mass<D: Devices>(craft: &Spacecraft<D, Self>) -> D::Scalar {
         craft.structure.mass
     }
@@ -93,6 +109,144 @@ impl<M: ModalStorage> StructureServices for Flexible<M> {
     ) -> Result<(), SolveError<D::Scalar>> {
         let numbers = accelerations.eta_ddot.as_ref();
         reject(craft.modes(), numbers, |_| Quantity::ModalAcceleration)
+    }
+
+    fn is_rigid<D: Devices>(craft: &Spacecraft<D, Self>) -> bool {
+        craft.modes() == 0 && craft.mounts() == 0
+    }
+
+    fn solve<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        by: impl Eliminate<D::Scalar>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        found: &mut Accelerations<D, Self>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Solved<(), D> {
+        if Self::is_rigid(craft) {
+            return craft.solve_rigid(by, state, inputs, found, stiffness);
+        }
+        craft.solve_flexible(by, state, inputs, found)
+    }
+}
+
+impl<M: ModalStorage> StructureResults for Flexible<M> {
+    fn sums<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+    ) -> MotionSums<D::Scalar> {
+        if Self::is_rigid(craft) {
+            return craft.sums_rigid(state);
+        }
+        craft.sums_flexible(state).motion
+    }
+
+    fn first_moment<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+    ) -> [Vec3<D::Scalar>; 2] {
+        if Self::is_rigid(craft) {
+            return craft.first_moment_rigid(state);
+        }
+        craft.sums_flexible(state).first_moment
+    }
+
+    fn ledger<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        accelerations: &Accelerations<D, Self>,
+    ) -> Solved<Ledger<D::Scalar, Self>, D> {
+        if Self::is_rigid(craft) {
+            let modal = ModalLedger { strain: zero(), stiffness: zero(), damping: zero() };
+            return craft.ledger_rigid(state, inputs, accelerations, modal);
+        }
+        craft.ledger_flexible(state, inputs, accelerations)
+    }
+
+    fn loads<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        accelerations: &Accelerations<D, Self>,
+        axes: LoadAxes,
+    ) -> Solved<Loads<D, Self>, D> {
+        if Self::is_rigid(craft) {
+            let none = (M::modes(0, &zero()), M::mounts(0, &Wrench::none()));
+            let modal = ModalLoads { forces: none.0, mounts: none.1 };
+            return craft.loads_rigid(state, inputs, accelerations, axes, modal);
+        }
+        craft.loads_flexible(state, inputs, accelerations, axes)
+    }
+}
+
+impl<M: ModalStorage> StructureSteps for Flexible<M> {
+    fn jump<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+    ) -> Jump<State<D, A, Self>, D::Scalar> {
+        if Self::is_rigid(craft) {
+            return craft.jump_rigid(state, inputs);
+        }
+        craft.jump_flexible(state, inputs)
+    }
+
+    fn vibrates<D: Devices>(craft: &Spacecraft<D, Self>) -> bool {
+        craft.passive || !Self::is_rigid(craft)
+    }
+
+    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        start: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        dt: D::Scalar,
+        slowest: &SlowestRates<D>,
+    ) -> Solved<(), D> {
+        if Self::is_rigid(craft) {
+            return craft.check_stability_rigid(&slowest.at_slowest(start), inputs, dt);
+        }
+        craft.check_stability_flexible(start, inputs, dt, slowest)
+    }
+
+    fn follow<T: Scalar>(
+        (stage, start, sum): Stage<'_, ModalState<M, T>>,
+        accelerations: &ModalAccelerations<M, T>,
+        [weight, offset]: [T; 2],
+    ) {
+        let now = stage.eta.as_mut().iter_mut().zip(stage.eta_dot.as_mut());
+        let from = start.eta.as_ref().iter().zip(start.eta_dot.as_ref());
+        let sums = sum.eta.as_mut().iter_mut().zip(sum.eta_dot.as_mut());
+        for ((((eta, rate), (from, rate_from)), (sum, sum_of_rate)), acceleration) in
+            now.zip(from).zip(sums).zip(accelerations.eta_ddot.as_ref())
+        {
+            *sum = *sum + weight * *rate;
+            *sum_of_rate = *sum_of_rate + weight * *acceleration;
+            *eta = *from + offset * *rate;
+            *rate = *rate_from + offset * *acceleration;
+        }
+    }
+
+    fn add<T: Scalar>(to: &mut ModalState<M, T>, start: &ModalState<M, T>, sum: &ModalState<M, T>) {
+        add(to.eta.as_mut(), start.eta.as_ref(), sum.eta.as_ref());
+        add(to.eta_dot.as_mut(), start.eta_dot.as_ref(), sum.eta_dot.as_ref());
+    }
+
+    fn set_rates<T: Scalar>(state: &mut ModalState<M, T>, rate: T) {
+        state.eta_dot.as_mut().fill(rate);
+    }
+
+    fn add_rates<T: Scalar>((a, x): (T, &mut ModalState<M, T>), (b, y): (T, &ModalState<M, T>)) {
+        for (rate, other) in x.eta_dot.as_mut().iter_mut().zip(y.eta_dot.as_ref()) {
+            *rate = a * *rate + b * *other;
+        }
+    }
+}
+
+/// `to = start + sum`.
+fn add<T: Scalar>(to: &mut [T], start: &[T], sum: &[T]) {
+    for (to, (start, sum)) in to.iter_mut().zip(start.iter().zip(sum)) {
+        *to = *start + *sum;
     }
 }
 

@@ -10,6 +10,7 @@
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::system::Solution;
+use crate::integrate::structure::StructureSteps;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
@@ -20,7 +21,6 @@ use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::state::State;
-use crate::solve::structure::Structure;
 
 /// A state whose velocities have jumped.
 pub(crate) struct Jumped<V> {
@@ -34,7 +34,7 @@ pub(crate) struct Jumped<V> {
 pub(crate) type Jump<V, T> = Result<Jumped<V>, SolveError<T>>;
 
 /// The jump of the hub's and of the joints' velocities; `bn` are the columns of the attitude's matrix.
-pub(crate) fn jumped<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+pub(crate) fn jumped<D: Devices, A: Attitude<D::Scalar>, S: StructureSteps>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
     bn: &Columns<D::Scalar>,
@@ -84,7 +84,7 @@ pub(crate) fn energy_lost<T: Scalar, V>(
 }
 
 /// The state with no velocities but those that `inputs` has prescribed.
-pub(crate) fn prescribed<D: Devices, A: Clone, S: Structure>(
+pub(crate) fn prescribed<D: Devices, A: Clone, S: StructureSteps>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
 ) -> State<D, A, S> {
@@ -97,11 +97,12 @@ pub(crate) fn prescribed<D: Devices, A: Clone, S: Structure>(
             *rate = zero();
         }
     }
+    S::set_rates(&mut given.modal, zero());
     given
 }
 
 /// The first state with the velocities `a x + b y`.
-pub(crate) fn sum<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+pub(crate) fn sum<D: Devices, A: Attitude<D::Scalar>, S: StructureSteps>(
     (a, x): (D::Scalar, &State<D, A, S>),
     (b, y): (D::Scalar, &State<D, A, S>),
 ) -> State<D, A, S> {
@@ -112,5 +113,6 @@ pub(crate) fn sum<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
     for ([_, rate], [_, other]) in found.devices.states_mut().zip(y.devices.states()) {
         *rate = a * *rate + b * other;
     }
+    S::add_rates((a, &mut found.modal), (b, &y.modal));
     found
 }

@@ -8,3 +8,4 @@ pub(crate) mod longest_step;
 pub(crate) mod rk4;
 pub(crate) mod stability;
 pub(crate) mod stop;
+pub(crate) mod structure;

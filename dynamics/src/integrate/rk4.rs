@@ -9,16 +9,17 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::follow::{Follow, Followed, Reach, Reached};
-use crate::integrate::stability::PassiveStep;
+use crate::integrate::stability::{PassiveStep, SlowestRates};
+use crate::integrate::structure::StructureSteps;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
-use crate::solve::accelerations::{inputs_are_finite, overflow};
+use crate::solve::accelerations::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::{Rigid, Structure, StructureData};
+use crate::solve::structure::{Rigid, StructureData};
 
 /// Result of [`Spacecraft::step_with_work`]: the state after the step, and the work during it.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,23 +30,29 @@ pub struct Stepped<D: Devices, A, S: StructureData = Rigid> {
     pub work: Power<D::Scalar>,
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: StructureSteps> Spacecraft<D, S> {
     /// The state after `dt` seconds, with inputs constant in the axes in which they are expressed.
     ///
     /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs
     /// beyond a half turn become their shadow set. Joint angles are not wrapped; see
     /// [`State::wrapped`].
     ///
+    /// A step has to be short enough for springs, dampers and friction of the joints, and for the
+    /// modes of a flexible structure: checked for the fastest vibration of structure and devices
+    /// together, in the pose at the start of the step.
+    ///
     /// # Errors
     ///
-    /// As [`Spacecraft::accelerations`], [`Quantity::TimeStep`] for a `dt` that is not finite, and
-    /// [`SolveError::Unstable`] for one that is too long for a spring, damper or friction.
+    /// As [`Spacecraft::accelerations`], [`Quantity::TimeStep`] for a `dt` that is not finite,
+    /// [`SolveError::Unstable`] for one that is too long for a spring, damper or friction, which names
+    /// the joint, and [`SolveError::UnstableModes`] where the energy of the fastest vibration is mostly
+    /// that of the modes.
     pub fn step<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
-    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, S>, SolveError<D::Scalar>> {
         self.stepped(state, inputs, dt, |_, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)
         })
@@ -59,14 +66,14 @@ impl<D: Devices> Spacecraft<D> {
     /// As [`Self::step`].
     pub fn step_with_work<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
-    ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
+    ) -> Result<Stepped<D, A, S>, SolveError<D::Scalar>> {
         let mut work = Power::none();
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)?;
-            let power = self.ledger_of(stage, inputs, found)?.power;
+            let power = S::ledger(self, stage, inputs, found)?.power;
             work = work.plus_scaled(weight, &power);
             Ok(())
         })?;
@@ -81,20 +88,20 @@ impl<D: Devices> Spacecraft<D> {
     /// writes accelerations and, if there are springs or friction, stiffness.
     pub(crate) fn stepped<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
         evaluate: impl FnMut(
             D::Scalar,
-            &State<D, A>,
-            &mut Accelerations<D>,
+            &State<D, A, S>,
+            &mut Accelerations<D, S>,
             Option<&mut Stiffness<D::Scalar>>,
         ) -> Result<(), SolveError<D::Scalar>>,
-    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, S>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
-        if !inputs_are_finite(state, inputs) {
+        if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         self.advance(state, inputs, dt, evaluate)
@@ -106,18 +113,27 @@ impl<D: Devices> Spacecraft<D> {
     #[cold]
     fn cause_of_step<A: Attitude<D::Scalar>>(
         &self,
-        start: &State<D, A>,
-        inputs: &Inputs<D>,
+        start: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
         failure: SolveError<D::Scalar>,
     ) -> SolveError<D::Scalar> {
         let cause = self.diagnosis(start, inputs, failure);
         match cause {
-            SolveError::Singular { .. } | SolveError::Overflow { .. } if self.passive => {
+            SolveError::Singular { .. }
+            | SolveError::ModalMass { .. }
+            | SolveError::Overflow { .. }
+                if S::vibrates(self) =>
+            {
                 let begins = self.solve(start, inputs, &mut self.no_accelerations(), None).is_ok();
-                let stable = begins.then(|| self.check_stability(start, inputs, dt));
+                let stable = begins.then(|| {
+                    let slowest = SlowestRates::new(self, start);
+                    S::check_stability(self, start, inputs, dt, &slowest)
+                });
                 match stable {
-                    Some(Err(unstable @ SolveError::Unstable { .. })) => unstable,
+                    Some(Err(
+                        unstable @ (SolveError::Unstable { .. } | SolveError::UnstableModes { .. }),
+                    )) => unstable,
                     _ => cause,
                 }
             }
@@ -127,16 +143,16 @@ impl<D: Devices> Spacecraft<D> {
 
     fn advance<A: Attitude<D::Scalar>>(
         &self,
-        start: &State<D, A>,
-        inputs: &Inputs<D>,
+        start: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
         mut evaluate: impl FnMut(
             D::Scalar,
-            &State<D, A>,
-            &mut Accelerations<D>,
+            &State<D, A, S>,
+            &mut Accelerations<D, S>,
             Option<&mut Stiffness<D::Scalar>>,
         ) -> Result<(), SolveError<D::Scalar>>,
-    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+    ) -> Result<State<D, A, S>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
@@ -147,7 +163,7 @@ impl<D: Devices> Spacecraft<D> {
         let attitude = stage.attitude;
         let mut sum = State::at_rest_for(self);
         let mut rates = [(zero(), attitude.rate(&start.omega)); 4];
-        let mut passive = self.passive.then(|| PassiveStep::new(self, start));
+        let mut passive = S::vibrates(self).then(|| PassiveStep::new(self, start));
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
         for ((weight, offset), rate) in stages.into_iter().zip(&mut rates) {
             let stiffness = passive.as_mut().map(|passive| passive.stage(&stage));
@@ -168,7 +184,7 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
+impl<D: Devices, A: Attitude<D::Scalar>, S: StructureSteps> State<D, A, S> {
     /// Adds `weight` times the slope to `sum` and sets the next stage, `start` plus `offset` times
     /// the slope, s both; the attitude is left out.
     pub(crate) fn follow(
@@ -188,6 +204,8 @@ impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
         step(&mut sum.r_b_n, &mut self.r_b_n, &start.r_b_n, components(&self.r_b_n_dot));
         step(&mut sum.r_b_n_dot, &mut self.r_b_n_dot, &start.r_b_n_dot, acceleration);
         step(&mut sum.omega, &mut self.omega, &start.omega, components(&found.omega_dot));
+        let modal = (&mut self.modal, &start.modal, &mut sum.modal);
+        S::follow(modal, &found.modal, [weight, offset]);
         let data = (&mut self.devices, &start.devices, &mut sum.devices, &found.devices);
         let Ok(()) = D::visit::<Followed, _>(&craft.devices, data, &mut Follow { weight, offset });
     }
@@ -198,6 +216,7 @@ impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
         self.r_b_n = plus(&start.r_b_n, &sum.r_b_n);
         self.r_b_n_dot = plus(&start.r_b_n_dot, &sum.r_b_n_dot);
         self.omega = plus(&start.omega, &sum.omega);
+        S::add(&mut self.modal, &start.modal, &sum.modal);
         let data = (&mut self.devices, &start.devices, &sum.devices);
         let Ok(()) = D::visit::<Reached, _>(&craft.devices, data, &mut Reach);
     }

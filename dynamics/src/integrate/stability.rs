@@ -11,6 +11,7 @@ use crate::equations::mass_reduction::MassReduction;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::integrate::longest_step::{StepLimit, irregular, step_limit};
+use crate::integrate::structure::StructureSteps;
 use crate::model::kind::JointInfo;
 use crate::model::mode::HubMode;
 use crate::model::passive::Passive;
@@ -23,7 +24,6 @@ use crate::solve::accelerations::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
-use crate::solve::structure::Structure;
 
 /// Inverse iterations for the vibration that limits a step: the first leaves of others some 1e-7 of
 /// what an irregular direction has of them.
@@ -49,7 +49,10 @@ pub(crate) struct SlowestRates<D: Devices>(D::Per<data::PerJoint<Slowest<D::Scal
 
 impl<D: Devices> SlowestRates<D> {
     /// At the start.
-    pub(crate) fn new<A, S: Structure>(craft: &Spacecraft<D, S>, start: &State<D, A, S>) -> Self {
+    pub(crate) fn new<A, S: StructureSteps>(
+        craft: &Spacecraft<D, S>,
+        start: &State<D, A, S>,
+    ) -> Self {
         let mut slowest = D::new_data(&craft.devices, &data::PerJoint([zero(); 2]));
         for (slowest, [_, rate]) in slowest.values_mut().zip(start.devices.states()) {
             *slowest = [rate, rate.abs()];
@@ -58,20 +61,20 @@ impl<D: Devices> SlowestRates<D> {
     }
 
     /// At another stage, or at the end.
-    pub(crate) fn pass<A, S: Structure>(&mut self, stage: &State<D, A, S>) {
+    pub(crate) fn pass<A, S: StructureSteps>(&mut self, stage: &State<D, A, S>) {
         for (slowest, [_, rate]) in self.0.values_mut().zip(stage.devices.states()) {
             *slowest = pass(*slowest, rate);
         }
     }
 
     /// Whether friction of a joint has to be resolved near rest.
-    fn rests(&self, craft: &Spacecraft<D>) -> bool {
+    fn rests<S: StructureSteps>(&self, craft: &Spacecraft<D, S>) -> bool {
         let mut joints = self.0.values().zip(D::list::<Passives>(&craft.devices));
         joints.any(|(slowest, passive)| rests(slowest, &passive))
     }
 
     /// The state with these rates: those at which friction is stiffest.
-    pub(crate) fn at_slowest<A: Clone, S: Structure>(
+    pub(crate) fn at_slowest<A: Clone, S: StructureSteps>(
         &self,
         start: &State<D, A, S>,
     ) -> State<D, A, S> {
@@ -94,43 +97,49 @@ pub(crate) struct PassiveStep<D: Devices> {
 
 impl<D: Devices> PassiveStep<D> {
     /// At the start.
-    pub(crate) fn new<A>(craft: &Spacecraft<D>, start: &State<D, A>) -> Self {
+    pub(crate) fn new<A, S: StructureSteps>(
+        craft: &Spacecraft<D, S>,
+        start: &State<D, A, S>,
+    ) -> Self {
         let none = Stiffness::none(zero());
         Self { stiffness: none, largest: none, slowest: SlowestRates::new(craft, start) }
     }
 
     /// Before an evaluation: where it leaves its stiffness.
-    pub(crate) fn stage<A>(&mut self, stage: &State<D, A>) -> &mut Stiffness<D::Scalar> {
+    pub(crate) fn stage<A, S: StructureSteps>(
+        &mut self,
+        stage: &State<D, A, S>,
+    ) -> &mut Stiffness<D::Scalar> {
         self.largest = self.largest.max(self.stiffness);
         self.slowest.pass(stage);
         &mut self.stiffness
     }
 
     /// Rejects a step that was unstable.
-    pub(crate) fn check<A: Attitude<D::Scalar>>(
+    pub(crate) fn check<A: Attitude<D::Scalar>, S: StructureSteps>(
         mut self,
-        craft: &Spacecraft<D>,
-        start: &State<D, A>,
-        next: &State<D, A>,
-        inputs: &Inputs<D>,
+        craft: &Spacecraft<D, S>,
+        start: &State<D, A, S>,
+        next: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
         self.stage(next);
-        if self.largest.accepts(dt) && !self.slowest.rests(craft) {
+        if S::is_rigid(craft) && self.largest.accepts(dt) && !self.slowest.rests(craft) {
             return Ok(());
         }
-        craft.check_stability(&self.slowest.at_slowest(start), inputs, dt)
+        S::check_stability(craft, start, inputs, dt, &self.slowest)
     }
 }
 
-impl<D: Devices> Spacecraft<D> {
-    /// Rejects a step that spring, damper or friction of a joint makes unstable, in this pose; the
-    /// rates are those at which friction is evaluated.
+impl<D: Devices, S: StructureSteps> Spacecraft<D, S> {
+    /// Rejects a step that spring, damper or friction of a joint makes unstable on a hub that does not
+    /// deform, in this pose; the rates are those at which friction is evaluated.
     #[cold]
-    pub(crate) fn check_stability<A: Attitude<D::Scalar>>(
+    pub(crate) fn check_stability_rigid<A: Attitude<D::Scalar>>(
         &self,
-        posed: &State<D, A>,
-        inputs: &Inputs<D>,
+        posed: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
         let mut scratch = D::new_data(&self.devices, &data::Gains);
@@ -158,8 +167,8 @@ impl<D: Devices> Spacecraft<D> {
     /// The joint that has most of the energy of the vibration that limits a step.
     fn limiting_joint<A: Attitude<D::Scalar>>(
         &self,
-        posed: &State<D, A>,
-        inputs: &Inputs<D>,
+        posed: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         limit: &StepLimit<D::Scalar>,
     ) -> Option<(usize, &'static JointInfo)> {
         let mut motors = D::new_data(&self.devices, &data::Motors);
@@ -182,8 +191,8 @@ impl<D: Devices> Spacecraft<D> {
     /// Accelerations of all joints for torques, with the mass matrix reduced.
     fn response_to<A: Attitude<D::Scalar>>(
         &self,
-        posed: &State<D, A>,
-        inputs: &Inputs<D>,
+        posed: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         motors: &D::Per<data::Motors>,
         reduction: &MassReduction<D::Scalar>,
     ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
@@ -199,9 +208,7 @@ impl<D: Devices> Spacecraft<D> {
         };
         self.back_substitute(&scratch, &hub)
     }
-}
 
-impl<D: Devices, S: Structure> Spacecraft<D, S> {
     /// Of each joint, what a reduction takes from its inertia; of a share that it adds, nothing.
     pub(crate) fn weights<A>(
         &self,

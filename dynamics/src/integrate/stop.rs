@@ -13,6 +13,7 @@ use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::mass_reduction::MassReduction;
 use crate::equations::system::Solution;
 use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
+use crate::integrate::structure::StructureSteps;
 use crate::model::mode::HubMode;
 use crate::numbers::vec3::{columns, components, neg, rotate, zeros};
 use crate::sets::counts::check_counts;
@@ -34,11 +35,11 @@ pub struct Stopped<D: Devices, A, S: StructureData = Rigid> {
     pub energy_lost: D::Scalar,
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: StructureSteps> Spacecraft<D, S> {
     /// Stops every joint that `inputs` has locked, and the hub if it is fixed, impulsively.
     ///
-    /// Driven joints take what impulse reaches them through the structure, prescribed ones keep
-    /// their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy
+    /// Driven joints and the modes of a flexible structure take what impulse reaches them through the
+    /// structure, prescribed joints keep their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy
     /// is lost.
     ///
     /// ```
@@ -68,23 +69,24 @@ impl<D: Devices> Spacecraft<D> {
     /// As [`Self::accelerations`], but a moving joint may be locked.
     pub fn stop<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+    ) -> Result<Stopped<D, A, S>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
-        let Jumped { after: next, jump } =
-            self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
+        let Jumped { after: next, jump } = S::jump(self, state, inputs)
+            .map_err(|failure| self.diagnosis(state, inputs, failure))?;
         let velocities = (&jump, &prescribed(&next, inputs));
         let energy_lost = energy_lost(velocities, |state| self.energy(state), sum)?;
         self.check_reached(&next)?;
         Ok(Stopped { state: next, energy_lost })
     }
 
-    fn jump<A: Attitude<D::Scalar>>(
+    /// The jump of the velocities on a hub that does not deform.
+    pub(crate) fn jump_rigid<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Jump<State<D, A>, D::Scalar> {
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+    ) -> Jump<State<D, A, S>, D::Scalar> {
         let (still, motors) = (zeros(), D::new_data(&self.devices, &data::Motors));
         check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         let mut scratch = D::new_data(&self.devices, &data::Gains);
@@ -107,11 +109,11 @@ impl<D: Devices> Spacecraft<D> {
 
     /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors;
     /// with shares of damping and stiffness subtracted from the mass matrix, if any.
-    pub(super) fn eliminate_for_impulses<A>(
+    pub(crate) fn eliminate_for_impulses<A>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
         motors: &D::Per<data::Motors>,
-        inputs: &Inputs<D>,
+        inputs: &Inputs<D, S>,
         reduction: Option<MassReduction<D::Scalar>>,
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<Assembly<D::Scalar>, SolveError<D::Scalar>> {

@@ -14,9 +14,10 @@ use crate::equations::gravity::Field;
 use crate::equations::load_sums::{Along, LoadSums};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{Columns, components, dot, rotate, scale};
-use crate::results::momentum::{About, Momentum};
+use crate::results::momentum::{About, Momentum, MotionSums};
+use crate::results::structure::StructureResults;
 use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -115,6 +116,17 @@ impl<T: Scalar, S: StructureData> Ledger<T, S> {
         self.kinetic + self.gravity + self.springs
     }
 
+    /// Rejects one that is not finite.
+    pub(crate) fn finite(self) -> Result<Self, SolveError<T>> {
+        let rates = [self.residual, self.magnitude, self.kinetic_rate];
+        let energies = [self.kinetic, self.gravity, self.springs, self.energy()];
+        let power = self.power.is_finite() && rates.into_iter().all(Scalar::is_finite);
+        if power && energies.into_iter().all(Scalar::is_finite) {
+            return Ok(self);
+        }
+        Err(SolveError::Overflow { what: if power { Quantity::Energy } else { Quantity::Power } })
+    }
+
     /// The same ledger with the modal part of another structure.
     #[must_use]
     pub fn with_modal<R: StructureData>(self, modal: R::Ledger<T>) -> Ledger<T, R> {
@@ -134,43 +146,45 @@ impl<T: Scalar, S: StructureData> Ledger<T, S> {
     }
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: StructureResults> Spacecraft<D, S> {
     /// The energy ledger for a state, its inputs and the accelerations that they give.
     ///
     /// # Errors
     ///
     /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
-    /// [`SolveError::Count`] for a list of another length.
+    /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
     pub fn ledger<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        accelerations: &Accelerations<D>,
-    ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+    ) -> Result<Ledger<D::Scalar, S>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         self.reject_accelerations(state, accelerations)?;
-        let ledger = self.ledger_of(state, inputs, accelerations);
+        let ledger = S::ledger(self, state, inputs, accelerations);
         ledger.map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
-    /// [`Self::ledger`] without the search for an input that is not finite: of a stage of a step,
-    /// which nobody gave.
-    pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
+    /// [`Self::ledger`] of a hub that does not deform, without the search for an input that is not
+    /// finite: of a stage of a step, which nobody gave.
+    pub(crate) fn ledger_rigid<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        accelerations: &Accelerations<D>,
-    ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
-        let (bn, sums) = self.sums(state);
-        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+        modal: S::Ledger<D::Scalar>,
+    ) -> Result<Ledger<D::Scalar, S>, SolveError<D::Scalar>> {
+        let sums = self.sums_rigid(state);
+        let MotionSums { bn, bodies, .. } = &sums;
+        let field = inputs.gravity.field(bn, &state.r_b_n);
         let (_, hub, totals) =
             self.loads_and_sums(state, inputs, accelerations, field.as_ref(), &Along::Body);
-        let velocity = rotate(&bn, components(&state.r_b_n_dot));
+        let velocity = rotate(bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let of_hub = |wrench: &Wrench<D::Scalar>| wrench.power(velocity, omega);
         let joints = &totals.power;
 
-        let uniform = field.as_ref().map_or_else(zero, |field| dot(field.at_b, sums.linear));
+        let uniform = field.as_ref().map_or_else(zero, |field| dot(field.at_b, bodies.linear));
         let given = Wrench { force: inputs.force, moment: inputs.torque_b };
         let held = match inputs.hub {
             HubMode::Free | HubMode::Fixed => zero(),
@@ -193,37 +207,32 @@ impl<D: Devices> Spacecraft<D> {
         });
         let ledger = Ledger {
             // A sum of squares, but for the rounding of what cancels in it.
-            kinetic: sums.energy.max(zero()),
-            gravity: self.potential(state, &bn, field.as_ref(), &totals),
+            kinetic: bodies.energy.max(zero()),
+            gravity: self.potential(state, bn, field.as_ref(), &totals),
             springs: joints.stored,
             kinetic_rate,
             power,
             residual: kinetic_rate - power.total(),
             magnitude: terms + joints.magnitude,
-            momentum: self.momentum_of(state, &bn, &sums, About::InertialOrigin)?,
-            modal: (),
+            momentum: self.momentum_of(state, &sums, About::InertialOrigin)?,
+            modal,
         };
         self.check_joints(&totals)?;
-        let rates = [ledger.residual, ledger.magnitude, ledger.kinetic_rate];
-        let energies = [ledger.kinetic, ledger.gravity, ledger.springs, ledger.energy()];
-        let power = ledger.power.is_finite() && rates.into_iter().all(Scalar::is_finite);
-        if !(power && energies.into_iter().all(Scalar::is_finite)) {
-            let what = if power { Quantity::Energy } else { Quantity::Power };
-            return Err(SolveError::Overflow { what });
-        }
-        Ok(ledger)
+        ledger.finite()
     }
 
     /// Potential energy of gravity, J.
     fn potential<A>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
         bn: &Columns<D::Scalar>,
         field: Option<&Field<D::Scalar>>,
         totals: &LoadSums<D::Scalar>,
     ) -> D::Scalar {
         let Some(field) = field else { return zero() };
-        let moment = scale(self.mass(), self.centre(state)[0]);
+        let per_mass = self.mass().recip();
+        let [moment, _] = self.first_moment_rigid(state);
+        let moment = scale(self.mass(), scale(per_mass, moment));
         let r_b = rotate(bn, components(&state.r_b_n));
         field.potential(self.mass(), moment, &totals.second_moment, r_b)
     }

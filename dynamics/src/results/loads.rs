@@ -19,6 +19,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{columns, components, sub};
 use crate::results::carried_loads::CarriedLoads;
+use crate::results::structure::StructureResults;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated, parts};
@@ -26,7 +27,7 @@ use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::{Rigid, Structure, StructureData};
+use crate::solve::structure::{Rigid, StructureData};
 
 /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
 type Weights<D> = (
@@ -127,28 +128,41 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
     }
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: StructureResults> Spacecraft<D, S> {
     /// The loads that these accelerations need: inverse dynamics.
     ///
     /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
-    /// at that instant, and the torques that prescribed and locked joints need are in
+    /// at that instant, the elastic motion of mounts included, and the torques that prescribed and locked joints need are in
     /// [`DeviceLoads::motors`](crate::DeviceLoads::motors). With desired accelerations, they are
     /// the motor torques and the wrench on the hub that produce them. Motor torques and modes in
-    /// `inputs` are not read; forces, torques and gravity are.
+    /// `inputs` are not read; forces, torques, modal forces and gravity are.
     ///
     /// # Errors
     ///
     /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
-    /// [`SolveError::Count`] for a list of another length.
+    /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
     pub fn loads<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        accelerations: &Accelerations<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
         axes: LoadAxes,
-    ) -> Result<Loads<D>, SolveError<D::Scalar>> {
+    ) -> Result<Loads<D, S>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
         self.reject_accelerations(state, accelerations)?;
+        S::loads(self, state, inputs, accelerations, axes)
+            .map_err(|failure| self.diagnosis(state, inputs, failure))
+    }
+
+    /// [`Self::loads`] of a hub that does not deform.
+    pub(crate) fn loads_rigid<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+        axes: LoadAxes,
+        modal: S::Loads<D::Scalar>,
+    ) -> Result<Loads<D, S>, SolveError<D::Scalar>> {
         let bn = columns(&state.attitude.dcm());
         let along = match axes {
             LoadAxes::Body => Along::Body,
@@ -159,22 +173,20 @@ impl<D: Devices> Spacecraft<D> {
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (devices, hub, totals) =
             self.loads_and_sums(state, inputs, accelerations, field.as_ref(), &along);
-        let finite = self.check_joints(&totals).and_then(|()| {
-            let what = Quantity::HubLoad;
-            if hub.is_finite() { Ok(()) } else { Err(SolveError::Overflow { what }) }
-        });
-        match finite {
-            Ok(()) => Ok(Loads { devices, hub, modal: () }),
-            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
+        self.check_joints(&totals)?;
+        if hub.is_finite() {
+            Ok(Loads { devices, hub, modal })
+        } else {
+            Err(SolveError::Overflow { what: Quantity::HubLoad })
         }
     }
 
     /// Loads of the devices, what the hub needs in addition to the inputs, and the sums of both.
     pub(crate) fn loads_and_sums<A>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        accelerations: &Accelerations<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
         field: Option<&Field<D::Scalar>>,
         along: &Along<D::Scalar>,
     ) -> Weights<D> {
@@ -207,9 +219,7 @@ impl<D: Devices> Spacecraft<D> {
         let needed = totals.inertial.minus(&totals.applied).minus(&totals.gradient).minus(&inputs);
         (devices, needed, totals)
     }
-}
 
-impl<D: Devices, S: Structure> Spacecraft<D, S> {
     /// Rejects loads of a joint that are not finite.
     pub(crate) fn check_joints(
         &self,

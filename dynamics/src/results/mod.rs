@@ -7,3 +7,4 @@ pub(crate) mod carried_loads;
 pub(crate) mod ledger;
 pub(crate) mod loads;
 pub(crate) mod momentum;
+pub(crate) mod structure;

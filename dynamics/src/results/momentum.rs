@@ -17,6 +17,7 @@ use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, cross, finite, neg, rotate, rotate_transposed, scale,
     sub, vector, zeros,
 };
+use crate::results::structure::StructureResults;
 use crate::sets::bundle::Shared;
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
@@ -146,20 +147,30 @@ pub(crate) fn first_moments<D: DeviceSet>(
     moments
 }
 
-impl<D: Devices> Spacecraft<D> {
-    /// Kinetic energy of hub and devices, J. Gravity and springs have theirs in the
-    /// [ledger](Self::ledger).
+/// Sums over all bodies at a state.
+pub(crate) struct MotionSums<T> {
+    /// `[BN]`, by its columns.
+    pub(crate) bn: Columns<T>,
+    /// Energy and momenta, expressed in B.
+    pub(crate) bodies: BodySums<T>,
+    /// First moment about B, expressed in B, where it was computed.
+    pub(crate) first_moment: Option<Vec3<T>>,
+}
+
+impl<D: Devices, S: StructureResults> Spacecraft<D, S> {
+    /// Kinetic energy of hub or structure and devices, J; of a flexible structure (F3). Gravity and
+    /// springs have theirs in the [ledger](Self::ledger).
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
-    /// [`SolveError::Overflow`].
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN,
+    /// [`SolveError::Overflow`], [`SolveError::ModalCount`] for a list of another length.
     pub fn energy<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
     ) -> Result<D::Scalar, SolveError<D::Scalar>> {
         self.reject_state(state)?;
-        kinetic(&self.sums(state).1)
+        kinetic(&S::sums(self, state).bodies)
     }
 
     /// Linear momentum, and angular momentum about a point.
@@ -170,13 +181,12 @@ impl<D: Devices> Spacecraft<D> {
     /// NaN, or [`SolveError::Overflow`].
     pub fn momentum<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
         about: About<D::Scalar>,
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
         reject(not_finite_in_point(&about))?;
-        let (bn, sums) = self.sums(state);
-        self.momentum_of(state, &bn, &sums, about)
+        self.momentum_of(state, &S::sums(self, state), about)
     }
 
     /// [`Self::energy`] and [`Self::momentum`], the same bits, at the cost of one of them.
@@ -186,25 +196,24 @@ impl<D: Devices> Spacecraft<D> {
     /// As [`Self::momentum`].
     pub fn energy_and_momentum<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
         about: About<D::Scalar>,
     ) -> Result<EnergyAndMomentum<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
         reject(not_finite_in_point(&about))?;
-        let (bn, sums) = self.sums(state);
-        let momentum = self.momentum_of(state, &bn, &sums, about)?;
-        Ok(EnergyAndMomentum { energy: kinetic(&sums)?, momentum })
+        let sums = S::sums(self, state);
+        let momentum = self.momentum_of(state, &sums, about)?;
+        Ok(EnergyAndMomentum { energy: kinetic(&sums.bodies)?, momentum })
     }
 
     /// [`Self::momentum`] from the sums over the bodies.
-    pub(crate) fn momentum_of<A>(
+    pub(crate) fn momentum_of<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        bn: &Columns<D::Scalar>,
-        sums: &BodySums<D::Scalar>,
+        state: &State<D, A, S>,
+        MotionSums { bn, bodies, first_moment }: &MotionSums<D::Scalar>,
         about: About<D::Scalar>,
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
-        let BodySums { linear, angular_b, .. } = *sums;
+        let BodySums { linear, angular_b, .. } = *bodies;
         let linear_n = rotate_transposed(bn, linear);
         let about_b = rotate_transposed(bn, angular_b);
         // H about P is H_B + r_{B/P} x p, for any motion of B.
@@ -212,50 +221,53 @@ impl<D: Devices> Spacecraft<D> {
         let r_b_p = match about {
             About::InertialOrigin => r_b_n,
             About::Point(point) => sub(r_b_n, components(&point)),
-            About::CentreOfMass => neg(rotate_transposed(bn, self.centre(state)[0])),
+            About::CentreOfMass => {
+                let moment = first_moment.unwrap_or_else(|| S::first_moment(self, state)[0]);
+                neg(rotate_transposed(bn, scale(self.mass().recip(), moment)))
+            }
         };
         let angular_n = add(about_b, cross(r_b_p, linear_n));
         let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
         checked(Quantity::Momentum, found, finite(linear_n) && finite(angular_n))
     }
 
-    /// Centre of mass of hub and devices.
+    /// Centre of mass of hub or structure and devices.
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
-    /// [`SolveError::Overflow`].
+    /// As [`Self::energy`].
     pub fn centre_of_mass<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        state: &State<D, A, S>,
     ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
         self.reject_state(state)?;
-        let [c, c_prime] = self.centre(state);
+        let per_mass = self.mass().recip();
+        let [c, c_prime] = S::first_moment(self, state).map(|moment| scale(per_mass, moment));
         let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
         checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
     }
 
-    /// `[BN]` by its columns, and energy and momenta expressed in B.
-    pub(crate) fn sums<A: Attitude<D::Scalar>>(
+    /// Sums over a hub that does not deform and its devices.
+    pub(crate) fn sums_rigid<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-    ) -> (Columns<D::Scalar>, BodySums<D::Scalar>) {
+        state: &State<D, A, S>,
+    ) -> MotionSums<D::Scalar> {
         let bn = columns(&state.attitude.dcm());
         let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
-        let mut sums = self.hub.sums(r_b_n_dot, omega);
-        let mut addition = Addition { r_b_n_dot, omega, sums: &mut sums };
+        let mut bodies = self.hub.sums(r_b_n_dot, omega);
+        let mut addition = Addition { r_b_n_dot, omega, sums: &mut bodies };
         let Ok(()) = D::visit::<Shared<Joints>, _>(&self.devices, &state.devices, &mut addition);
-        (bn, sums)
+        MotionSums { bn, bodies, first_moment: None }
     }
 
-    /// `c` and `c'`, expressed in B.
-    pub(crate) fn centre<A>(&self, state: &State<D, A>) -> [Vec3<D::Scalar>; 2] {
+    /// First moment about B of a hub that does not deform and its devices, and its derivative seen
+    /// from B, expressed in B.
+    pub(crate) fn first_moment_rigid<A>(&self, state: &State<D, A, S>) -> [Vec3<D::Scalar>; 2] {
         let mut moment = [self.hub.first_moment, zeros()];
         let mut addition = FirstMoments(&mut moment);
         let Ok(()) = D::visit::<Shared<Joints>, _>(&self.devices, &state.devices, &mut addition);
-        let per_mass = self.mass().recip();
-        moment.map(|moment| scale(per_mass, moment))
+        moment
     }
 }
 

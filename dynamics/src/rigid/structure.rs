@@ -1,10 +1,23 @@
 //! [`Rigid`] as a [`Structure`]: no modal coordinates, so none that could be rejected.
 
+use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
+use crate::equations::stiffness::Stiffness;
+use crate::integrate::energy_lost::Jump;
+use crate::integrate::stability::SlowestRates;
+use crate::integrate::structure::{Stage, Structure, StructureSteps};
 use crate::numbers::real::Scalar;
-use crate::sets::devices::Devices;
+use crate::numbers::vec3::Vec3;
+use crate::results::ledger::Ledger;
+use crate::results::loads::{LoadAxes, Loads};
+use crate::results::momentum::MotionSums;
+use crate::results::structure::StructureResults;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::solve::elimination::Eliminate;
+use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
-use crate::solve::structure::{Rigid, Structure, StructureData, StructureServices};
+use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, StructureData, StructureEquations};
 
 impl Structure for Rigid {}
 
@@ -17,7 +30,10 @@ impl StructureData for Rigid {
     type Constants<D: Devices> = ();
 }
 
-impl StructureServices for Rigid {
+/// A result, or why there is none.
+type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
+
+impl StructureEquations for Rigid {
     fn mass<D: Devices>(craft: &Spacecraft<D>) -> D::Scalar {
         craft.body.m_b
     }
@@ -34,20 +50,104 @@ impl StructureServices for Rigid {
     }
 
     #[inline]
-    fn reject_state<D: Devices>(_: &Spacecraft<D>, (): &()) -> Result<(), SolveError<D::Scalar>> {
+    fn reject_state<D: Devices>(_: &Spacecraft<D>, (): &()) -> Solved<(), D> {
         Ok(())
     }
 
     #[inline]
-    fn reject_inputs<D: Devices>(_: &Spacecraft<D>, (): &()) -> Result<(), SolveError<D::Scalar>> {
+    fn reject_inputs<D: Devices>(_: &Spacecraft<D>, (): &()) -> Solved<(), D> {
         Ok(())
     }
 
     #[inline]
-    fn reject_accelerations<D: Devices>(
-        _: &Spacecraft<D>,
-        (): &(),
-    ) -> Result<(), SolveError<D::Scalar>> {
+    fn reject_accelerations<D: Devices>(_: &Spacecraft<D>, (): &()) -> Solved<(), D> {
         Ok(())
     }
+
+    #[inline]
+    fn is_rigid<D: Devices>(_: &Spacecraft<D>) -> bool {
+        true
+    }
+
+    #[inline]
+    fn solve<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        by: impl Eliminate<D::Scalar>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        found: &mut Accelerations<D>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Solved<(), D> {
+        craft.solve_rigid(by, state, inputs, found, stiffness)
+    }
+}
+
+impl StructureResults for Rigid {
+    fn sums<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        state: &State<D, A>,
+    ) -> MotionSums<D::Scalar> {
+        craft.sums_rigid(state)
+    }
+
+    fn first_moment<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        state: &State<D, A>,
+    ) -> [Vec3<D::Scalar>; 2] {
+        craft.first_moment_rigid(state)
+    }
+
+    fn ledger<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+    ) -> Solved<Ledger<D::Scalar>, D> {
+        craft.ledger_rigid(state, inputs, accelerations, ())
+    }
+
+    fn loads<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+        axes: LoadAxes,
+    ) -> Solved<Loads<D>, D> {
+        craft.loads_rigid(state, inputs, accelerations, axes, ())
+    }
+}
+
+impl StructureSteps for Rigid {
+    fn jump<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Jump<State<D, A>, D::Scalar> {
+        craft.jump_rigid(state, inputs)
+    }
+
+    #[inline]
+    fn vibrates<D: Devices>(craft: &Spacecraft<D>) -> bool {
+        craft.passive
+    }
+
+    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D>,
+        start: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+        slowest: &SlowestRates<D>,
+    ) -> Solved<(), D> {
+        craft.check_stability_rigid(&slowest.at_slowest(start), inputs, dt)
+    }
+
+    #[inline]
+    fn follow<T: Scalar>(_: Stage<'_, ()>, (): &(), _: [T; 2]) {}
+
+    #[inline]
+    fn add<T: Scalar>((): &mut (), (): &(), (): &()) {}
+
+    fn set_rates<T: Scalar>((): &mut (), _: T) {}
+
+    fn add_rates<T: Scalar>(_: (T, &mut ()), _: (T, &())) {}
 }

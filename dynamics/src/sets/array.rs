@@ -76,7 +76,8 @@ macro_rules! row {
                 visitor: &mut V,
             ) -> Result<(), V::Error> {
                 compare::<Self, B, V>(devices.len(), &data, visitor)?;
-                if V::ROWS {
+                // One device is no row: its code is that without lanes.
+                if V::ROWS && devices.len() > 1 {
                     let mut first = 0;
                     while let Some(rest @ [_, ..]) = devices.get(first..) {
                         let shown = D::visit_row::<Self, B, V>(rest, &mut data, first, visitor)?;

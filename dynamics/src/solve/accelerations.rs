@@ -26,11 +26,11 @@ use crate::solve::finite::all_finite;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::Structure;
+use crate::solve::structure::StructureEquations;
 
-impl<D: Devices> Spacecraft<D> {
-    /// All second derivatives of the state: six numbers and one per joint, from (16), (75), (80),
-    /// (101), (119).
+impl<D: Devices, S: StructureEquations> Spacecraft<D, S> {
+    /// All second derivatives of the state: six numbers, one per joint, from (16), (75), (80), (101),
+    /// (119), and one per mode of a flexible structure, (F9).
     ///
     /// A joint that is [prescribed or locked](crate::Mode), and a hub that is
     /// [fixed or prescribed](crate::HubMode), has its prescribed acceleration; [`Self::loads`]
@@ -43,13 +43,15 @@ impl<D: Devices> Spacecraft<D> {
     /// accelerations do not depend on, such as the position), [`SolveError::Overflow`] naming the
     /// acceleration that is not finite though every input is, [`SolveError::LockedJointMoves`] and
     /// [`SolveError::FixedHubMoves`] where what is locked moves, [`SolveError::NotDriven`] where a
-    /// joint's kind does not have its mode.
+    /// joint's kind does not have its mode, [`SolveError::Count`] for a list of another length. Of a
+    /// flexible structure [`SolveError::ModalMass`] where what the model contains at the mounts leaves
+    /// a mode without mass, and [`SolveError::ModalCount`].
     #[inline]
     pub fn accelerations<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+    ) -> Result<Accelerations<D, S>, SolveError<D::Scalar>> {
         self.accelerations_by(self.arithmetic, state, inputs)
     }
 
@@ -58,14 +60,14 @@ impl<D: Devices> Spacecraft<D> {
     pub(crate) fn accelerations_by<A: Attitude<D::Scalar>>(
         &self,
         by: impl Eliminate<D::Scalar>,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-        if !inputs_are_finite(state, inputs) {
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+    ) -> Result<Accelerations<D, S>, SolveError<D::Scalar>> {
+        if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         let mut found = self.no_accelerations();
-        match self.solve_by(by, state, inputs, &mut found, None) {
+        match S::solve(self, by, state, inputs, &mut found, None) {
             Ok(()) => Ok(found),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
@@ -76,20 +78,21 @@ impl<D: Devices> Spacecraft<D> {
     #[inline(always)]
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        found: &mut Accelerations<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        found: &mut Accelerations<D, S>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        self.solve_by(self.arithmetic, state, inputs, found, stiffness)
+        S::solve(self, self.arithmetic, state, inputs, found, stiffness)
     }
 
-    fn solve_by<A: Attitude<D::Scalar>>(
+    /// Those of a hub that does not deform.
+    pub(crate) fn solve_rigid<A: Attitude<D::Scalar>>(
         &self,
         by: impl Eliminate<D::Scalar>,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        found: &mut Accelerations<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        found: &mut Accelerations<D, S>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_fixed(state, inputs)?;
@@ -117,9 +120,7 @@ impl<D: Devices> Spacecraft<D> {
         }
         found.finish(inputs, &hub, *at_b, finite)
     }
-}
 
-impl<D: Devices, S: Structure> Spacecraft<D, S> {
     /// Whether what the accelerations may not depend on is finite, and the structure's part of state
     /// and inputs.
     #[inline(always)]
@@ -327,7 +328,7 @@ pub(crate) struct EvaluationStart<T> {
 /// The start of an evaluation: motion of the hub and gravity for the devices. A fixed hub that moves
 /// is for [`check_fixed`] to reject: within a [`Result`], the start is written twice.
 #[inline(always)]
-pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>, S: StructureEquations>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
 ) -> EvaluationStart<D::Scalar> {
@@ -346,7 +347,7 @@ pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>, S: Structure>
     start
 }
 
-impl<D: Devices, S: Structure> Accelerations<D, S> {
+impl<D: Devices, S: StructureEquations> Accelerations<D, S> {
     /// Fills the hub's in, no longer relative to the frame that falls with it; all must be finite.
     #[inline]
     pub(crate) fn finish(
@@ -371,7 +372,7 @@ impl<D: Devices, S: Structure> Accelerations<D, S> {
 }
 
 /// Rejects a fixed hub that moves.
-pub(crate) fn check_fixed<D: Devices, A, S: Structure>(
+pub(crate) fn check_fixed<D: Devices, A, S: StructureEquations>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
 ) -> Result<(), SolveError<D::Scalar>> {
@@ -386,13 +387,13 @@ pub(crate) fn check_fixed<D: Devices, A, S: Structure>(
 
 /// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they
 /// may show nowhere.
-fn rates_are_finite<D: Devices, A, S: Structure>(state: &State<D, A, S>) -> bool {
+fn rates_are_finite<D: Devices, A, S: StructureEquations>(state: &State<D, A, S>) -> bool {
     finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
 }
 
 /// Whether what the accelerations may not depend on is finite: the position, forces and rates on a
 /// hub that is held, motors of joints that are. All else shows in the result.
-pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>, S: Structure>(
+pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>, S: StructureEquations>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
 ) -> bool {

@@ -16,7 +16,7 @@ use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::Structure;
+use crate::solve::structure::StructureEquations;
 
 /// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is
 /// infinite or NaN.
@@ -38,7 +38,7 @@ pub(crate) fn reject<T: Scalar>(not_finite: Option<(Quantity, T)>) -> Result<(),
     }
 }
 
-impl<D: Devices, S: Structure> Spacecraft<D, S> {
+impl<D: Devices, S: StructureEquations> Spacecraft<D, S> {
     /// Rejects the first input that is not finite.
     pub(crate) fn reject<A: Attitude<D::Scalar>>(
         &self,
@@ -91,7 +91,11 @@ impl<D: Devices, S: Structure> Spacecraft<D, S> {
         let finite = vectors.into_iter().all(|v| finite(components(v)))
             && state.attitude.is_valid()
             && state.devices.states().all(|[x, rate]| x.is_finite() && rate.is_finite());
-        if finite { Ok(()) } else { self.reject_reached(state) }
+        if !finite {
+            return self.reject_reached(state);
+        }
+        let of_modes = |_| SolveError::Overflow { what: Quantity::ModalAcceleration };
+        S::reject_state(self, &state.modal).map_err(of_modes)
     }
 
     #[cold]

@@ -10,7 +10,7 @@ use crate::numbers::vec3::{add, components, cross, vector, zeros};
 use crate::sets::devices::{Devices, FixedSet, JointInfos, SetInputs, set_own_modes};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
-use crate::solve::structure::{Rigid, Structure, StructureData};
+use crate::solve::structure::{Rigid, StructureData, StructureEquations};
 
 /// Forces, torques and modes. Constant during a step, expressed in the axes that each field names.
 ///
@@ -41,7 +41,7 @@ pub struct Inputs<D: Devices, S: StructureData = Rigid> {
     pub modal: S::Inputs<D::Scalar>,
 }
 
-impl<D: Devices, S: Structure> Inputs<D, S> {
+impl<D: Devices, S: StructureEquations> Inputs<D, S> {
     /// Those of the joints.
     pub(crate) fn of_joints(&self) -> SetInputs<'_, D> {
         JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
@@ -71,7 +71,7 @@ impl<D: FixedSet> Inputs<D> {
     }
 }
 
-impl<D: Devices, S: Structure> Inputs<D, S> {
+impl<D: Devices, S: StructureEquations> Inputs<D, S> {
     /// As [`Inputs::none`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn none_for(spacecraft: &Spacecraft<D, S>) -> Self {
@@ -99,7 +99,7 @@ impl<D: Devices, S: Structure> Inputs<D, S> {
 
     /// The same forces, torques and modes, with the modal part of another structure.
     #[must_use]
-    pub fn with_modal<R: Structure>(self, modal: R::Inputs<D::Scalar>) -> Inputs<D, R> {
+    pub fn with_modal<R: StructureEquations>(self, modal: R::Inputs<D::Scalar>) -> Inputs<D, R> {
         let Self { force, torque_b, motors, modes, hub, gravity, bodies, .. } = self;
         Inputs { force, torque_b, motors, modes, hub, gravity, bodies, modal }
     }

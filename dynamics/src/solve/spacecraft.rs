@@ -6,7 +6,7 @@ use crate::model::parameters::Hub;
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, TriangleExcesses};
 use crate::sets::with_numbers::WithNumbers;
-use crate::solve::structure::{Rigid, Structure, StructureData};
+use crate::solve::structure::{Rigid, StructureData, StructureEquations};
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
@@ -83,9 +83,9 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-impl<D: Devices, S: Structure> Spacecraft<D, S> {
+impl<D: Devices, S: StructureEquations> Spacecraft<D, S> {
     /// The same hub and devices with another structure.
-    pub(crate) fn with_structure<R: Structure>(
+    pub(crate) fn with_structure<R: StructureEquations>(
         self,
         structure: R::Constants<D>,
     ) -> Spacecraft<D, R> {

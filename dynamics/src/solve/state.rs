@@ -13,7 +13,7 @@ use crate::numbers::vec3::{vector, zeros};
 use crate::sets::devices::{DeviceSet, Devices, FixedSet, JointInfos, Passives};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
-use crate::solve::structure::{Rigid, Structure, StructureData};
+use crate::solve::structure::{Rigid, StructureData, StructureEquations};
 
 /// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     }
 }
 
-impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
+impl<D: Devices, A: Attitude<D::Scalar>, S: StructureEquations> State<D, A, S> {
     /// As [`State::at_rest`], for a set whose devices are known only at run time, and for a flexible
     /// structure, undeformed.
     #[must_use]
@@ -85,7 +85,7 @@ impl<D: Devices, A: Attitude<D::Scalar>, S: Structure> State<D, A, S> {
 
     /// The same motion of hub and joints, with the modal part of another structure.
     #[must_use]
-    pub fn with_modal<R: Structure>(self, modal: R::State<D::Scalar>) -> State<D, A, R> {
+    pub fn with_modal<R: StructureEquations>(self, modal: R::State<D::Scalar>) -> State<D, A, R> {
         let Self { r_b_n, r_b_n_dot, attitude, omega, devices, .. } = self;
         State { r_b_n, r_b_n_dot, attitude, omega, devices, modal }
     }

@@ -1,12 +1,17 @@
-//! [`Structure`]: what carries the devices, a [`Rigid`] hub or a
-//! [`Flexible`](crate::Flexible) structure; what both have is written once for any.
+//! What carries the devices, a [`Rigid`] hub or a [`Flexible`](crate::Flexible) structure: its data, and
+//! what differs between the two in the equations. What both have is written once for any.
 
 use core::fmt::Debug;
 
+use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
+use crate::equations::stiffness::Stiffness;
 use crate::numbers::real::Scalar;
-use crate::sets::devices::Devices;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::solve::elimination::Eliminate;
+use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
 
 /// What a structure adds to state, inputs and results.
 pub trait StructureData: Copy + Debug + PartialEq + Send + Sync + 'static {
@@ -25,20 +30,15 @@ pub trait StructureData: Copy + Debug + PartialEq + Send + Sync + 'static {
     type Constants<D: Devices>: Clone + Debug;
 }
 
-/// What carries the devices of a [`Spacecraft`]: [`Rigid`] or [`Flexible`](crate::Flexible). A function
-/// for spacecraft of any structure has this for a bound.
-#[expect(private_bounds, reason = "only this crate has structures")]
-pub trait Structure: StructureServices {}
-
 /// A hub that does not deform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rigid;
 
 /// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as crate::sets::devices::DeviceSet>::Scalar>>;
+type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
 
-/// What the services of a spacecraft need of its structure.
-pub(crate) trait StructureServices: StructureData {
+/// What the equations of a spacecraft need of its structure.
+pub(crate) trait StructureEquations: StructureData + Sized {
     /// Mass of structure and devices, kg.
     fn mass<D: Devices>(craft: &Spacecraft<D, Self>) -> D::Scalar;
 
@@ -74,5 +74,19 @@ pub(crate) trait StructureServices: StructureData {
     fn reject_accelerations<D: Devices>(
         craft: &Spacecraft<D, Self>,
         accelerations: &Self::Accelerations<D::Scalar>,
+    ) -> Solved<(), D>;
+
+    /// Whether nothing deforms.
+    fn is_rigid<D: Devices>(craft: &Spacecraft<D, Self>) -> bool;
+
+    /// Writes the accelerations, each device eliminated `by` this; and the stiffness of springs and
+    /// friction on a hub that does not deform, if requested.
+    fn solve<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        by: impl Eliminate<D::Scalar>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        found: &mut Accelerations<D, Self>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Solved<(), D>;
 }

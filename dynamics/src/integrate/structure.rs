@@ -1,0 +1,63 @@
+//! [`Structure`]: a rigid hub or a flexible structure, and what differs between the two in a step and a
+//! stop.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::SolveError;
+use crate::integrate::energy_lost::Jump;
+use crate::integrate::stability::SlowestRates;
+use crate::numbers::real::Scalar;
+use crate::results::structure::StructureResults;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
+
+/// What carries the devices of a [`Spacecraft`]: [`Rigid`](crate::Rigid) or [`Flexible`](crate::Flexible). A function
+/// for spacecraft of any structure has this for a bound.
+pub trait Structure: StructureSteps {}
+
+/// A result, or why there is none.
+type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
+
+/// The state at a stage, at the start of the step, and the sum of the slopes.
+pub(crate) type Stage<'a, V> = (&'a mut V, &'a V, &'a mut V);
+
+/// What step and stop need of a structure.
+pub(crate) trait StructureSteps: StructureResults {
+    /// The jump of the velocities in an impulsive stop.
+    fn jump<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+    ) -> Jump<State<D, A, Self>, D::Scalar>;
+
+    /// Whether something vibrates that a step has to resolve.
+    fn vibrates<D: Devices>(craft: &Spacecraft<D, Self>) -> bool;
+
+    /// Rejects a step that is too long for the fastest vibration, at the slowest rates of the joints
+    /// during it.
+    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        start: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        dt: D::Scalar,
+        slowest: &SlowestRates<D>,
+    ) -> Solved<(), D>;
+
+    /// Adds `weight` times the slope of the structure's state to the sum, and sets that of the next
+    /// stage.
+    fn follow<T: Scalar>(
+        stage: Stage<'_, Self::State<T>>,
+        accelerations: &Self::Accelerations<T>,
+        weight_and_offset: [T; 2],
+    );
+
+    /// `to = start + sum`.
+    fn add<T: Scalar>(to: &mut Self::State<T>, start: &Self::State<T>, sum: &Self::State<T>);
+
+    /// Sets every rate.
+    fn set_rates<T: Scalar>(state: &mut Self::State<T>, rate: T);
+
+    /// The rates of the first state become `a x + b y`.
+    fn add_rates<T: Scalar>(x: (T, &mut Self::State<T>), y: (T, &Self::State<T>));
+}
