@@ -50,7 +50,9 @@ pub struct Device<K: Kind> {
 }
 
 impl<K: Kind> Device<K> {
-    /// Computes what depends only on parameters; they have been checked.
+    /// Computes what depends only on parameters; they have been checked. Compiled once a kind, and not
+    /// into every set.
+    #[inline(never)]
     pub(crate) fn new(parameters: &K) -> Self {
         let (made, lumped) = match (parameters.model(), parameters.balanced()) {
             (ImbalanceModel::Lumped, Some((balanced, lumped))) => (balanced, Some(lumped)),
