@@ -159,9 +159,9 @@ fn of_symbol(name: &str) -> Option<Unit> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derivation::by_body::share;
     use crate::derivation::chain::Chain;
     use crate::derivation::quantities::quantities;
+    use crate::derivation::reference::share;
     use crate::graph::{Graph, Stage};
     use crate::kinds::{DGVSCMG, KINDS, Units};
 

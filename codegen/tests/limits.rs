@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use precess_codegen::derivation::by_body::{momenta, share};
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::reference::{momenta, share};
 use precess_codegen::graph::{Expr, Graph, Node, Stage};
 use precess_codegen::kinds::{
     BALANCED_DGCMG, BALANCED_DGVSCMG, BALANCED_REACTION_WHEEL, BALANCED_SGCMG, BALANCED_VSCMG,

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use precess_codegen::derivation::chain::Chain;
-use precess_codegen::derivation::parallel::Parallel;
+use precess_codegen::derivation::chain::parallel_axes::ParallelAxes;
 use precess_codegen::graph::{Expr, Graph, Node, SymbolId};
 use precess_codegen::kernel::kernels;
 use precess_codegen::kinds::{
@@ -46,7 +46,7 @@ fn eliminated(
         let name = statement.name.as_str();
         if let Some(entry) = name.strip_prefix("across_") {
             // What is across the tip's axis, and along it, is an entry of the mass matrix.
-            let Parallel { cosine, .. } = Parallel::of(&chain).unwrap();
+            let ParallelAxes { cosine, .. } = ParallelAxes::of_chain(&chain).unwrap();
             let own = cosine * named["mass_ww"];
             let whole = graph.find(&format!("mass_{entry}")).unwrap();
             let across = statement.cut.unwrap_or(statement.value);

@@ -1,8 +1,8 @@
 //! The passes change what is computed and in which order, and nothing else: with none, with each and
 //! with all, what is emitted is proven by the same claims.
 
-use precess_codegen::derivation::base::Passes;
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::chain::passes::Passes;
 use precess_codegen::emit::{Home, of_kind};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use precess_codegen::derivation::assumed::{Assumed, Mount};
+use precess_codegen::derivation::chain::assumed::{Assumed, Mount};
 use precess_codegen::kinds::Kind;
 use precess_description::Device;
 

@@ -3,7 +3,7 @@
 //! Where the turns are stated, it is a matter of their axes only, and found in integers; else it is
 //! found in the numbers, within four epsilons.
 
-use precess_codegen::derivation::assumed::{Exchange, Mount, Turns};
+use precess_codegen::derivation::chain::assumed::{Exchange, Mount, Turns};
 use precess_description::{Axis, Turn};
 
 use crate::parameters::is_rounding;

@@ -7,8 +7,8 @@
 use rustc_hash::FxHashMap;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use precess_codegen::derivation::by_body::share;
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::reference::share;
 use precess_codegen::graph::Graph;
 use precess_description::{Description, Device};
 

@@ -3,8 +3,8 @@
 //! Invariant: shapes are in the order of their first device, and so are the devices of each; the
 //! hub's equations are added up in that order.
 
-use precess_codegen::derivation::assumed::{Assumed, Exchange, Mount, Turns};
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::chain::assumed::{Assumed, Exchange, Mount, Turns};
 use precess_codegen::emit::{Alone, alone};
 use precess_codegen::graph::Graph;
 use precess_codegen::kernel::{Record, parameters_of};

@@ -1,6 +1,6 @@
 //! What the templates of a shape are filled from.
 
-use precess_codegen::derivation::assumed::{Exchange, Mount};
+use precess_codegen::derivation::chain::assumed::{Exchange, Mount};
 use precess_codegen::emit::{capital, wrapped};
 use precess_codegen::kinds::{Link, Motion};
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! What the templates of the whole spacecraft are filled from.
 
-use precess_codegen::derivation::assumed::Mount;
+use precess_codegen::derivation::chain::assumed::Mount;
 use precess_description::Description;
 use serde::Serialize;
 use tera::Context;

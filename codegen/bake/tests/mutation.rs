@@ -5,8 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use precess_codegen::derivation::assumed::{Assumed, Exchange, Mount, Turns};
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::chain::assumed::{Assumed, Exchange, Mount, Turns};
 use precess_codegen::emit::{EmittedFile, alone};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{DGVSCMG, Kind, Link};

@@ -1,10 +1,18 @@
 //! The symbols of a device and of its hub.
 
-use super::assumed::{Assumed, Mount};
-use super::base::Passes;
+pub mod assumed;
+pub(crate) mod mass_properties;
+pub mod motion;
+pub mod parallel_axes;
+pub mod passes;
+pub mod placed;
+pub mod wrench;
+
+use self::assumed::{Assumed, Mount};
+use self::passes::Passes;
 use crate::graph::{Expr, Graph, Node, Stage};
 use crate::kinds::{self, Centre, Kind, Motion};
-use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector, XYZ};
+use crate::space::{BodyFrame, ENTRIES, Hub, ParentFrame, Symmetric, Turn, Vector, XYZ};
 
 /// A device kind with its symbols in a graph.
 pub struct Chain<'g> {
@@ -29,11 +37,11 @@ pub struct Chain<'g> {
 pub struct Link<'g> {
     /// From the parent body's axes to those in which the body's quantities are expressed: they turn
     /// with it where the kind says so.
-    pub turn: Turn<'g, Carrier, Own>,
+    pub turn: Turn<'g, ParentFrame, BodyFrame>,
     /// What the joint's coordinate is.
     pub coordinate: Coordinate<'g>,
     /// Unit vector of the joint's axis.
-    pub axis: Vector<'g, Own>,
+    pub axis: Vector<'g, BodyFrame>,
     /// Joint rate.
     pub rate: Expr<'g>,
     /// Joint acceleration.
@@ -43,13 +51,13 @@ pub struct Link<'g> {
     /// Whether that torque is given, or the acceleration; none where the kind prescribes it.
     pub mode: Option<Mode<'g>>,
     /// Origin of the joint from the parent body's origin; it moves along a sliding one.
-    pub origin: Vector<'g, Carrier>,
+    pub origin: Vector<'g, ParentFrame>,
     /// Mass.
     pub mass: Expr<'g>,
     /// Centre of mass from the body's origin.
-    pub centre: Vector<'g, Own>,
+    pub centre: Vector<'g, BodyFrame>,
     /// Inertia about the centre of mass.
-    pub inertia: Symmetric<'g, Own>,
+    pub inertia: Symmetric<'g, BodyFrame>,
     /// Mass of this body and all outboard of it: `m_d`, `m_v`.
     pub assembly_mass: Expr<'g>,
 }
@@ -70,7 +78,7 @@ pub struct Mode<'g> {
 #[derive(Clone, Copy)]
 pub enum Coordinate<'g> {
     /// An angle: from the parent body's axes to those that turn with the body.
-    Angle(Turn<'g, Carrier, Own>),
+    Angle(Turn<'g, ParentFrame, BodyFrame>),
     /// A length.
     Length(Expr<'g>),
 }
@@ -153,20 +161,20 @@ impl<'g> Chain<'g> {
     /// Along the device's axes, of a vector along those of the parent body of the first joint that
     /// moves.
     #[must_use]
-    pub fn on_first(&self, v: Vector<'g, Carrier>) -> Vector<'g, Carrier> {
+    pub fn on_first(&self, v: Vector<'g, ParentFrame>) -> Vector<'g, ParentFrame> {
         let inboard = self.links[..self.first_moving()].iter().rev();
-        inboard.fold(v, |v, link| v.handed_back().turned(link.turn.inverse()))
+        inboard.fold(v, |v, link| v.relabelled_inboard().turned(link.turn.inverse()))
     }
 
     /// From B to the origin of the first joint that moves, along the device's axes; of each joint up
     /// to it the origin is one of these.
     #[must_use]
-    pub fn reach(&self, origins: &[Vector<'g, Carrier>]) -> Vector<'g, Carrier> {
+    pub fn reach(&self, origins: &[Vector<'g, ParentFrame>]) -> Vector<'g, ParentFrame> {
         let first = self.first_moving();
         let outermost = origins[first];
         let inboard = self.links[..first].iter().zip(&origins[..first]).rev();
         inboard.fold(outermost, |reach, (link, origin)| {
-            *origin + reach.handed_back().turned(link.turn.inverse())
+            *origin + reach.relabelled_inboard().turned(link.turn.inverse())
         })
     }
 
@@ -181,13 +189,13 @@ impl<'g> Chain<'g> {
 impl<'g> Chain<'g> {
     /// Along B axes, of a vector along the device's axes.
     #[must_use]
-    pub fn mounted(&self, v: Vector<'g, Carrier>) -> Vector<'g, Hub> {
+    pub fn mounted(&self, v: Vector<'g, ParentFrame>) -> Vector<'g, Hub> {
         v.along(self.mount)
     }
 
     /// Along B axes, of a tensor along the device's axes.
     #[must_use]
-    pub fn mounted_tensor(&self, t: Symmetric<'g, Carrier>) -> Symmetric<'g, Hub> {
+    pub fn mounted_tensor(&self, t: Symmetric<'g, ParentFrame>) -> Symmetric<'g, Hub> {
         t.along(self.mount)
     }
 }
@@ -256,7 +264,7 @@ impl<'g> Link<'g> {
 
     /// Angular velocity of the body relative to its parent body.
     #[must_use]
-    pub fn spin(&self) -> Vector<'g, Own> {
+    pub fn spin(&self) -> Vector<'g, BodyFrame> {
         match self.coordinate {
             Coordinate::Angle(_) => self.rate * self.axis,
             Coordinate::Length(_) => Vector::zero(self.rate.graph()),
@@ -274,7 +282,7 @@ impl<'g> Mode<'g> {
 impl<'g> Coordinate<'g> {
     /// From the parent body's axes to those fixed in the body.
     #[must_use]
-    pub fn turn(self, graph: &'g Graph) -> Turn<'g, Carrier, Own> {
+    pub fn turn(self, graph: &'g Graph) -> Turn<'g, ParentFrame, BodyFrame> {
         match self {
             Self::Angle(turn) => turn,
             Self::Length(_) => Turn::none(graph),

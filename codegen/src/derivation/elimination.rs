@@ -6,17 +6,17 @@
 //! factors out again and does not use this file.
 //!
 //! Of a joint whose axis can be parallel to the tip's, the diagonal entry is another form of the same,
-//! without a difference of large numbers there: see [`super::parallel`].
+//! without a difference of large numbers there: see [`super::chain::parallel_axes`].
 //!
 //! A joint's mode is data. Where its acceleration is given instead of its torque, its gains are
 //! zero and `q` is what is given: the same statements, with the weight `driven` zero. `held` is one
 //! then, so that the reciprocal of an unused pivot is finite. A joint whose acceleration the kind
 //! prescribes has no row.
 
-use super::Share;
 use super::chain::{Chain, Mode};
 use super::heading::Heading;
 use super::script::Script;
+use super::share::Share;
 use crate::graph::Expr;
 use crate::kinds::{cited, units};
 use crate::space::Vector;
@@ -61,7 +61,7 @@ pub struct Eliminated<'g> {
 }
 
 /// One joint's current row: couplings to hub and inboard joints, diagonal, right side.
-struct Row<'g> {
+struct JointRow<'g> {
     joint: usize,
     tag: &'static str,
     /// Of the diagonal.
@@ -85,12 +85,12 @@ pub fn eliminate<'g>(
     let mut done = String::new();
     while let Some(row) = rows.pop() {
         // With nothing eliminated before it, the tip.
-        let across = share.across.filter(|_| done.is_empty());
+        let across = share.perpendicular.filter(|_| done.is_empty());
         let diagonal = diagonals[rows.len()].clone();
         let pivot = gains(&row, &rows, diagonal, across.is_some(), script);
         done.push_str(pivot.tag);
         let what = format!("Joint {} eliminated from the rows of the inboard joints", pivot.tag);
-        script.section("rest", Heading::of(what).equation("(D11)"));
+        script.section("rest", Heading::new(what).equation("(D11)"));
         for (l, inner) in rows.iter_mut().enumerate() {
             let (gain, coupling) = (pivot.gains[HUB.len() + l].1, pivot.couplings[HUB.len() + l]);
             let across = across.filter(|across| inner.joint == across.joints.inner);
@@ -117,10 +117,10 @@ pub fn eliminate<'g>(
 }
 
 /// The rows of the joints with a motor, with right sides `u - u_rest`.
-fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
+fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<JointRow<'g>> {
     let kind = chain.kind;
     let equations = cited(kind.driven(), |equations| equations.torque);
-    let heading = Heading::of(RIGHT_SIDE).equation(&equations);
+    let heading = Heading::new(RIGHT_SIDE).equation(&equations);
     let unit = units(kind.driven(), |units| units.drive);
     script.section("tau", heading.part("motor torque less bias", unit));
     let tag = |k: usize| kind.links[k].joint.tag;
@@ -135,7 +135,7 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
             .flat_map(|block| ["bx", "by", "bz"].map(|axis| format!("{block}_{own}_{axis}")));
         let nearer = modes[..place].iter().map(|&(i, _)| i);
         let inner = nearer.map(|i| (format!("mass_{}{own}", tag(i)), share.joint[i][k - i]));
-        Row {
+        JointRow {
             joint: k,
             tag: own,
             unit: kind.links[k].joint.motion.units().pivot,
@@ -151,8 +151,8 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
 /// Pivot, gains and free acceleration of one joint. Where another's axis can be parallel to it, the
 /// divisor is one if the acceleration is given: it divides what is then left out.
 fn gains<'g>(
-    row: &Row<'g>,
-    inner: &[Row<'g>],
+    row: &JointRow<'g>,
+    inner: &[JointRow<'g>],
     diagonal: Entry<'g>,
     across: bool,
     script: &mut Script<'g>,
@@ -167,7 +167,8 @@ fn gains<'g>(
         }
         _ => row.diagonal.clone(),
     };
-    let heading = Heading::of(format!("Joint {tag}")).equation("(D10)").part("its pivot", row.unit);
+    let heading =
+        Heading::new(format!("Joint {tag}")).equation("(D10)").part("its pivot", row.unit);
     script.section("gain", heading.part("gains", ""));
     let Mode { driven, held, given } = row.mode;
     let own = if across { driven * pivot.1 } else { pivot.1 };
@@ -196,7 +197,7 @@ fn gains<'g>(
 /// What the joints subtract from the hub's block and from its right side.
 fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
-        let heading = Heading::of("Subtracted from the hub's mass matrix").equation("(D12)");
+        let heading = Heading::new("Subtracted from the hub's mass matrix").equation("(D12)");
         script.section("hub", heading.part(format!("M_{block}"), ""));
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
@@ -206,7 +207,7 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
             }
         }
     }
-    let heading = Heading::of("Subtracted from the hub's right side").equation("(D12)");
+    let heading = Heading::new("Subtracted from the hub's right side").equation("(D12)");
     script.section("hub", heading.wrench(["N", "N m"], "B"));
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {

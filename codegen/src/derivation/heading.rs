@@ -21,7 +21,7 @@ pub struct Heading {
 impl Heading {
     /// A quantity, in words or by its symbol.
     #[must_use]
-    pub fn of(what: impl Into<String>) -> Self {
+    pub fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), ..Self::default() }
     }
 
@@ -136,20 +136,20 @@ mod tests {
 
     #[test]
     fn one_quantity_is_followed_by_its_unit() {
-        let heading = Heading::of("ω_{W/N}").equation("(59)").axes("its own axes").unit("rad/s");
+        let heading = Heading::new("ω_{W/N}").equation("(59)").axes("its own axes").unit("rad/s");
         assert_eq!(heading.to_string(), "ω_{W/N}, eq. (59), expressed in its own axes, rad/s.");
         assert_eq!(heading.label(), "ω_{W/N}, eq. (59), expressed in its own axes");
     }
 
     #[test]
     fn several_quantities_have_a_unit_each() {
-        let heading = Heading::of("On W").equation("(16), (75)").wrench(["N", "N m"], "B");
+        let heading = Heading::new("On W").equation("(16), (75)").wrench(["N", "N m"], "B");
         assert_eq!(
             heading.to_string(),
             "On W, eqs. (16), (75): force, N, and moment, N m, about B."
         );
         assert_eq!(heading.equations(), ["(16)", "(75)"]);
-        let heading = Heading::of("Share").part("mass", "kg").part("first moment", "kg m");
+        let heading = Heading::new("Share").part("mass", "kg").part("first moment", "kg m");
         let heading = heading.part("inertia", "kg m²").about("B").note("as given");
         assert_eq!(
             heading.to_string(),
@@ -159,9 +159,9 @@ mod tests {
 
     #[test]
     fn what_is_not_in_the_paper_cites_nothing() {
-        let heading = Heading::of("Its derivative").cited("as in", "(none)").unit("rad/s²");
+        let heading = Heading::new("Its derivative").cited("as in", "(none)").unit("rad/s²");
         assert_eq!(heading.to_string(), "Its derivative, rad/s².");
-        let heading = Heading::of("G").cited("as in", "(D16)");
+        let heading = Heading::new("G").cited("as in", "(D16)");
         assert_eq!(heading.to_string(), "G, as in eq. (D16).");
     }
 }

@@ -1,14 +1,17 @@
 //! The paper's quantities of each body and of the system's centre of mass, by name.
 //!
-//! Names are those of the hand-checked pages; frames are numbered as in [`super::placed`].
+//! Names are those of the hand-checked pages; frames are numbered as in [`super::chain::placed`].
+
+mod angular_momenta;
+mod motor_torques;
 
 use super::chain::Chain;
-use super::motion::{Motion, Observer, motions};
-use super::placed::Placed;
-use super::{angular, torques};
+use super::chain::motion::{Motion, Observer, motions};
+use super::chain::placed::Placed;
+
 use crate::graph::{Expr, Stage};
 use crate::kinds::Centre;
-use crate::space::{Axis, Carrier, Frame, Hub, Own, Symmetric, Vector};
+use crate::space::{Axis, BodyFrame, Frame, Hub, ParentFrame, Symmetric, Vector};
 
 /// One derived quantity.
 #[derive(Clone)]
@@ -47,8 +50,8 @@ pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
     list.chapter("Centre of mass and translation", "(16) and (75)");
     system(chain, &seen_from_b, &mut list);
     list.chapter("Angular momentum", "(75)");
-    angular::angular_momenta(chain, &mut list);
-    torques::motor_torques(chain, &mut list);
+    angular_momenta::angular_momenta(chain, &mut list);
+    motor_torques::motor_torques(chain, &mut list);
     list.quantities
 }
 
@@ -105,7 +108,7 @@ fn axes<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let hub = ["b_x", "b_y", "b_z"];
     for (frame, triad) in std::iter::once(hub).chain(triads).enumerate() {
         for (name, axis) in triad.into_iter().zip([Axis::X, Axis::Y, Axis::Z]) {
-            let unit = Vector::<Own>::unit(chain.graph, axis);
+            let unit = Vector::<BodyFrame>::unit(chain.graph, axis);
             list.vector(&format!("{name}_hat"), unit, frame);
         }
     }
@@ -169,7 +172,7 @@ fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
     let hub = &chain.hub;
     let per_sc = hub.m_sc.recip();
     let zero = Vector::<Hub>::zero(chain.graph);
-    let sum = |of: &dyn Fn(&Motion<'g>) -> Vector<'g, Carrier>| {
+    let sum = |of: &dyn Fn(&Motion<'g>) -> Vector<'g, ParentFrame>| {
         let mut sum = zero;
         for (k, motion) in motions.iter().enumerate() {
             sum = sum + chain.links[k].mass * to_hub(chain, k, of(motion));
@@ -194,7 +197,7 @@ fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
     list.vector("f_tilde", f_tilde, 0);
 }
 
-fn to_hub<'g>(chain: &Chain<'g>, carrier: usize, v: Vector<'g, Carrier>) -> Vector<'g, Hub> {
+fn to_hub<'g>(chain: &Chain<'g>, carrier: usize, v: Vector<'g, ParentFrame>) -> Vector<'g, Hub> {
     let Placed::Vector(v, _) = Placed::Vector(v.components(), carrier).along(chain, 0) else {
         unreachable!("a vector stays a vector")
     };

@@ -11,7 +11,7 @@ use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
 use super::device_parameters::named;
 use super::text::{COMMENT, documented, ident};
-use crate::derivation::assumed::mount_entry;
+use crate::derivation::chain::assumed::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 use crate::space::Axis;
 

@@ -118,7 +118,7 @@ mod tests {
     /// What is left of a function that returns these values, and what it cost and costs.
     fn costs<'g>(values: &[(&str, Expr<'g>)], graph: &'g Graph) -> (Vec<Expr<'g>>, [usize; 2]) {
         let mut script = Script::new(graph);
-        script.section("t", Heading::of("Test").equation("(1)"));
+        script.section("t", Heading::new("Test").equation("(1)"));
         script.names(values.iter().map(|(name, value)| ((*name).to_owned(), *value)));
         let outputs: Vec<_> = values.iter().map(|(name, _)| (*name).to_owned()).collect();
         let count = |sections| Function::new(graph, sections, &outputs, true).operations();

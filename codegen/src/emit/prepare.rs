@@ -268,7 +268,7 @@ fn sections<'g>(
         Statement { name, value, cut: None }
     };
     let statements = rest.into_iter().map(statement).collect();
-    let heading = Heading::of("Products and sums of parameters that occur more deeply");
+    let heading = Heading::new("Products and sums of parameters that occur more deeply");
     made.push(Section { heading, prefix: "prep".to_owned(), statements });
     made
 }

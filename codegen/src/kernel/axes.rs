@@ -1,9 +1,9 @@
 //! The kernel `axes`: axes and origins of the bodies.
 
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::axes::axes;
-use crate::derivation::by_body::bodies;
 use crate::derivation::chain::Chain;
+use crate::derivation::recursions::axes::axes;
+use crate::derivation::reference::bodies;
 use crate::derivation::script::Script;
 use crate::kinds::Kind;
 use crate::space::XYZ;
@@ -45,7 +45,7 @@ fn output(kind: &Kind) -> Record {
 /// The columns of each body's rotation, and its joint's origin.
 fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
     let mut made = Vec::new();
-    let mut carrier = crate::derivation::by_body::hub_body(chain).axes;
+    let mut carrier = crate::derivation::reference::hub_body(chain).axes;
     for ((link, data), body) in chain.links.iter().zip(chain.kind.links).zip(bodies(chain)) {
         let frame = data.body.frame;
         let own = if link.turn.is_none() { carrier } else { body.axes };

@@ -24,7 +24,7 @@ pub(super) fn kernel<'g>(
         hub.map(|name| graph.symbol(name, Stage::Acceleration)).collect();
     let given = |name: &str| graph.symbol(name, Stage::Rate);
     let mut script = Script::new(graph);
-    let heading = Heading::of("Row by row, outboard").equation("(D13)");
+    let heading = Heading::new("Row by row, outboard").equation("(D13)");
     script.section("row", heading.part("the free acceleration less the gains", ""));
     for link in chain.kind.links.iter().filter(|link| !link.is_locked()) {
         let (tag, name) = (link.joint.tag, link.joint.acceleration);

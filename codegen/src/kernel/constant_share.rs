@@ -1,9 +1,9 @@
 //! The kernel `constant_share`: what a device adds to the hub whatever its joints do.
 
 use super::{Claim, Kernel, Record, eliminate, records};
-use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
 use crate::derivation::inward_pass::constant_share;
+use crate::derivation::reference;
 use crate::derivation::script::Script;
 
 /// The kernel.
@@ -13,7 +13,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     constant_share(chain, &mut script);
     // Where no joint moves, it is the whole device, and what follows of the hub's motion.
     let whole = if chain.is_rigid() {
-        eliminate::claims(chain.kind, by_body::share(chain).named(chain.kind, |_| false))
+        eliminate::claims(chain.kind, reference::share(chain).named(chain.kind, |_| false))
     } else {
         Vec::new()
     };

@@ -3,11 +3,12 @@
 use super::function::inputs;
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::parallel_axes::ParallelAxes;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::inward_pass::inward_pass;
-use crate::derivation::parallel::Parallel;
+use crate::derivation::reference;
 use crate::derivation::script::Script;
-use crate::derivation::{Named, by_body};
+use crate::derivation::share::Named;
 use crate::kinds::{Kind, Link, Motion, cited};
 
 /// The kernel, the elimination it is built from, and what back substitution needs of its result.
@@ -27,7 +28,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
         output: output(kind, &eliminated, &gains),
         claims: claims(
             kind,
-            [by_body::share(chain).named(kind, Link::is_driven), across(chain)].concat(),
+            [reference::share(chain).named(kind, Link::is_driven), across(chain)].concat(),
         ),
     };
     (kernel, eliminated, gains)
@@ -123,8 +124,8 @@ fn gains(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
 /// What is across the tip's axis in the row of a joint that can be parallel to it, from the entries of
 /// the mass matrix.
 fn across<'g>(chain: &Chain<'g>) -> Vec<Named<'g>> {
-    let Some(joints) = Parallel::of(chain) else { return Vec::new() };
-    let values = joints.of_share(&by_body::share(chain));
+    let Some(joints) = ParallelAxes::of_chain(chain) else { return Vec::new() };
+    let values = reference::share(chain).perpendicular_to_tip(joints);
     let named = joints.names(chain.kind.links).into_iter().zip(values);
     named.map(|(name, value)| (name.clone(), vec![(name, value)])).collect()
 }

@@ -1,9 +1,9 @@
 //! The kernel `external`: what acts on the bodies, at the joints and on the hub.
 
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::by_body::acting;
 use crate::derivation::chain::Chain;
-use crate::derivation::external::{acting as symbols, external};
+use crate::derivation::recursions::external::{acting as symbols, external};
+use crate::derivation::reference::acting;
 use crate::derivation::script::Script;
 use crate::kinds::Kind;
 

@@ -1,8 +1,8 @@
 //! [`Kernel`]: one function to be emitted, and the [`Claim`]s that its names have to prove.
 
 use super::records::{Record, placed, rates};
+use crate::derivation::chain::wrench::Wrench;
 use crate::derivation::script::{Section, pairs, triple};
-use crate::derivation::wrench::Wrench;
 use crate::graph::{Expr, Node};
 use crate::kinds::{Kind, Link, Motion};
 use crate::space::{Frame, Vector, XYZ};

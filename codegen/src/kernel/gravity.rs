@@ -1,9 +1,9 @@
 //! The kernel `gravity`: a field of acceleration that grows linearly from B.
 
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::by_body::field;
 use crate::derivation::chain::Chain;
-use crate::derivation::gravity::gravity;
+use crate::derivation::recursions::gravity::gravity;
+use crate::derivation::reference::field;
 use crate::derivation::script::{Script, pairs, sextuple};
 use crate::kinds::Kind;
 

@@ -6,16 +6,16 @@
 
 use super::function::inputs;
 use super::{Claim, Kernel, Record};
-use crate::derivation::by_body::{BodyInHub, bodies};
 use crate::derivation::chain::Chain;
-use crate::derivation::composite;
+use crate::derivation::chain::motion::{Motion, Observer, motions};
+use crate::derivation::chain::placed::Placed;
 use crate::derivation::heading::Heading;
-use crate::derivation::motion::{Motion, Observer, motions};
-use crate::derivation::placed::Placed;
+use crate::derivation::recursions::composite;
+use crate::derivation::reference::{BodyInHub, bodies};
 use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::graph::{Expr, Node, Stage};
 use crate::kinds;
-use crate::space::{Carrier, Frame, Hub, Symmetric, Vector};
+use crate::space::{Frame, Hub, ParentFrame, Symmetric, Vector};
 
 /// One kernel per body, then the centre of mass.
 #[must_use]
@@ -111,18 +111,18 @@ fn body<'g>(
 
     let equations = &data.equations;
     let stem = format!("omega_{own}_b");
-    let heading = Heading::of(format!("ω_{{{body_letter}/B}}")).equation(equations.omega);
+    let heading = Heading::new(format!("ω_{{{body_letter}/B}}")).equation(equations.omega);
     let omega = vector(reference.omega_b, k + 1).components();
     b.vector(["rate", equations.omega, &stem, own, "rad/s"], heading, motion.omega, omega);
 
     arm(&mut b.script, chain, k, motion);
     let r = format!("r_{point}_b");
     let tag = equations.r_dprime;
-    let heading = Heading::of(format!("r_{{{point_letter}/B}}")).cited("see", tag);
+    let heading = Heading::new(format!("r_{{{point_letter}/B}}")).cited("see", tag);
     let whole = vector(reference.r, k).components();
     b.vector(["pos", "(step)", &r, carrier, "m"], heading, motion.centre.position, whole);
     let prime = format!("{r}_prime");
-    let heading = Heading::of(format!("r′_{{{point_letter}/B}}")).cited("see", tag);
+    let heading = Heading::new(format!("r′_{{{point_letter}/B}}")).cited("see", tag);
     let whole = vector(r_prime, k).components();
     b.vector(["vel", "(step)", &prime, carrier, "m/s"], heading, motion.centre.velocity, whole);
 
@@ -131,7 +131,7 @@ fn body<'g>(
     for (joint, data) in chain.links.iter().zip(chain.kind.links).take(k + 1) {
         let stem = format!("{r}_dprime_{}", data.joint.tag);
         let symbol = data.joint.symbols[1];
-        let heading = Heading::of(format!("r″_{{{point_letter}/B}} per {symbol}")).equation(tag);
+        let heading = Heading::new(format!("r″_{{{point_letter}/B}} per {symbol}")).equation(tag);
         let unit = match data.joint.motion {
             kinds::Motion::Turn(_) => "m",
             kinds::Motion::Slide(_) => "1",
@@ -143,13 +143,13 @@ fn body<'g>(
     }
     let stem = format!("{r}_dprime_rest");
     let heading = format!("r″_{{{point_letter}/B}} with no joint accelerating");
-    let heading = Heading::of(heading).equation(tag);
+    let heading = Heading::new(heading).equation(tag);
     let whole = whole.without(Stage::Acceleration).components();
     let rest = acceleration.without(Stage::Acceleration);
     b.vector(["acc", tag, &stem, carrier, "m/s²"], heading, rest, whole);
 
     let tensor_of = |what: String, numbers: &str| {
-        Heading::of(what).equation(numbers).axes(format!("the axes of the {}", data.title))
+        Heading::new(what).equation(numbers).axes(format!("the axes of the {}", data.title))
     };
     let i_prime = link.inertia.prime(motion.axes);
     let stem = format!("i_{own}_{point}_prime");
@@ -196,7 +196,7 @@ fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion
         matches!(e.node(), Node::Sum(..)) && parts.iter().any(|part| *part == e || *part == -e)
     };
     let stem = format!("r_{}_{}", body.point, body.origin);
-    let centre = link.centre.turned::<Carrier>(link.turn.inverse());
+    let centre = link.centre.turned::<ParentFrame>(link.turn.inverse());
     let components = pairs(triple(&stem, carrier), centre.components());
     let named: Vec<_> = components.filter(|(_, component)| is_part(*component)).collect();
     if named.is_empty() {
@@ -204,7 +204,7 @@ fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion
     }
     let [origin, point] = body.letters;
     let equation = body.equations.r_dprime;
-    let heading = Heading::of(format!("r_{{{point}/{origin}}}")).cited("as in", equation);
+    let heading = Heading::new(format!("r_{{{point}/{origin}}}")).cited("as in", equation);
     script.section("arm", heading.unit("m"));
     script.names(named);
 }
@@ -231,22 +231,22 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let mc = references.iter().fold(zero, |sum, body| sum + body.mass * body.r);
     let mc_prime = mc.component_rates();
     let mc_dprime = mc_prime.component_rates();
-    let heading = Heading::of("Σ m r, share of m_sc c").equation("(9)");
+    let heading = Heading::new("Σ m r, share of m_sc c").equation("(9)");
     let reference = mc.components();
     b.vector(["mom", "(9)", "mc", "b", "kg m"], heading, share.first_moment, reference);
-    let heading = Heading::of("Σ m r′, share of m_sc c′").cited("see", "(11)");
+    let heading = Heading::new("Σ m r′, share of m_sc c′").cited("see", "(11)");
     let reference = mc_prime.components();
     b.vector(["rate", "(step)", "mc_prime", "b", "kg m/s"], heading, momenta.linear, reference);
     for (k, data) in chain.kind.links.iter().enumerate() {
         // Expressed in the device's axes; expressed in B, the same is f of the system.
         let stem = format!("mc_dprime_{}", data.joint.tag);
         let (tag, symbol) = (data.joint.tag, data.joint.symbols[1]);
-        let heading = Heading::of(format!("f_{tag} = Σ m r″ per {symbol}")).equation("(17)");
+        let heading = Heading::new(format!("f_{tag} = Σ m r″ per {symbol}")).equation("(17)");
         let reference = mc_dprime.partial(chain.links[k].acceleration).components();
         let unit = data.joint.motion.units().force;
         b.vector(["col", "(17)", &stem, "b", unit], heading, share.force[k], reference);
     }
-    let heading = Heading::of("f̃ = Σ m r″ with no joint accelerating").equation("(17)");
+    let heading = Heading::new("f̃ = Σ m r″ with no joint accelerating").equation("(17)");
     let reference = mc_dprime.without(Stage::Acceleration).components();
     b.vector(["acc", "(17)", "f_tilde", "b", "N"], heading, share.bias_force, reference);
     Kernel {

@@ -2,9 +2,9 @@
 
 use super::function::inputs;
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::by_body::exerted;
 use crate::derivation::chain::Chain;
-use crate::derivation::loads::loads;
+use crate::derivation::recursions::loads::loads;
+use crate::derivation::reference::exerted;
 use crate::derivation::script::Script;
 use crate::kinds::{Kind, cited};
 

@@ -4,10 +4,11 @@ use super::eliminate::claims;
 use super::function::inputs;
 use super::{Kernel, records};
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::motion::Observer;
 use crate::derivation::heading::Heading;
-use crate::derivation::motion::Observer;
+use crate::derivation::recursions::composite;
+use crate::derivation::reference;
 use crate::derivation::script::{Script, pairs, triple};
-use crate::derivation::{by_body, composite};
 
 /// Kinetic energy and momenta of one device.
 #[must_use]
@@ -15,7 +16,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;
     let mut script = Script::new(chain.graph);
     let momenta = composite::momenta(chain, &Observer::inertial(chain), &mut script);
-    let heading = Heading::of("Kinetic energy and momenta of the device");
+    let heading = Heading::new("Kinetic energy and momenta of the device");
     let heading = heading.cited("as in", "(20)").axes("the device's axes").part("energy", "J");
     let heading = heading.part("linear momentum", "kg m/s");
     script.section("sum", heading.part("angular momentum", "kg m²/s").about("B"));
@@ -28,6 +29,6 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs: inputs(kind, [("b", records::body_velocity())]),
         sections: script.sections,
         output: records::energy_momentum(),
-        claims: claims(kind, by_body::momenta(chain).named()),
+        claims: claims(kind, reference::momenta(chain).named()),
     }
 }

@@ -1,8 +1,8 @@
 //! The parameters of a kind, and what is left of them where something is assumed.
 
 use super::records::Record;
-use crate::derivation::assumed::{Mount, mount_entry};
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::assumed::{Mount, mount_entry};
 use crate::kinds::{Centre, Kind, Link, Motion};
 use crate::space::ENTRIES;
 

@@ -8,12 +8,13 @@
 use super::kind::own_file;
 use super::{EmittedError, Prover, Row};
 use crate::derivation::chain::Chain;
-use crate::derivation::{Share, by_body};
+use crate::derivation::reference;
+use crate::derivation::share::Share;
 use crate::emit::EmittedFile;
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::Kind;
 use crate::normal::Ring;
-use crate::space::{Carrier, Hub, Symmetric, Vector};
+use crate::space::{Hub, ParentFrame, Symmetric, Vector};
 
 /// Every claim about the emitted file of a chain with assumptions, and the rows that hold its
 /// derivation against that of the `general` kind.
@@ -34,9 +35,9 @@ pub fn prove_assumed(
 /// Mass matrix and bias of the general kind under the substitution.
 fn substituted<'g>(chain: &Chain<'g>, general: &'static Kind) -> Vec<Row> {
     let graph = Graph::new();
-    let whole = by_body::share(&Chain::new(&graph, general));
+    let whole = reference::share(&Chain::new(&graph, general));
     let put = Substitution::new(chain, general);
-    let made = by_body::share(chain);
+    let made = reference::share(chain);
     let sizes = |share: &Share<'_>| {
         let entries = share.joint.iter().map(Vec::len).sum::<usize>();
         [share.force.len(), share.moment.len(), share.bias_joint.len(), entries]
@@ -118,7 +119,7 @@ impl<'a, 'g> Substitution<'a, 'g> {
         whole: &[Vector<'_, Hub>],
     ) -> Vec<(Expr<'g>, Expr<'g>)> {
         let pairs = made.iter().zip(whole).flat_map(|(own, of)| {
-            let of = Vector::<Carrier>::new(of.components().map(|e| self.number(e)));
+            let of = Vector::<ParentFrame>::new(of.components().map(|e| self.number(e)));
             let of = of.along(self.axes);
             own.components().into_iter().zip(of.components())
         });
@@ -132,7 +133,7 @@ impl<'a, 'g> Substitution<'a, 'g> {
         whole: Symmetric<'_, Hub>,
     ) -> Vec<(Expr<'g>, Expr<'g>)> {
         let entries = whole.entries().map(|e| self.number(e));
-        let of = Symmetric::<Carrier>::new(entries).along(self.axes);
+        let of = Symmetric::<ParentFrame>::new(entries).along(self.axes);
         made.entries().into_iter().zip(of.entries()).collect()
     }
 }

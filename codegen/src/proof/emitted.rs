@@ -14,9 +14,9 @@ use super::modes::divisor;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
 use super::unknowns::{Unknowns, moving};
 use super::{Row, factors, mounted, potential, stages};
-use crate::derivation::assumed::mount_entry;
-use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::assumed::mount_entry;
+use crate::derivation::reference;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters_of};
 use crate::normal::Ring;
@@ -74,7 +74,7 @@ impl<'a, 'g> Prover<'a, 'g> {
     #[must_use]
     pub fn derivation(&self) -> Vec<Row> {
         let mut ring = Ring::new(self.chain.graph);
-        let named = by_body::share(self.chain).named(self.chain.kind, |_| true);
+        let named = reference::share(self.chain).named(self.chain.kind, |_| true);
         let entries: BTreeMap<_, _> = named.into_iter().flat_map(|(_, entries)| entries).collect();
         let named = |name: &str| entries.get(name).copied();
         let all: Vec<_> = (0..self.unknowns.len()).collect();

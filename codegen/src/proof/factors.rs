@@ -14,7 +14,7 @@ use super::read_back::Reading;
 use super::stages;
 use super::unknowns::{HUB, Unknowns};
 use crate::derivation::chain::Chain;
-use crate::derivation::parallel::Parallel;
+use crate::derivation::chain::parallel_axes::ParallelAxes;
 use crate::graph::{Expr, Node};
 use crate::normal::Ring;
 
@@ -34,7 +34,7 @@ impl<'g> Sides<'g> {
     /// Writes the entries of a joint whose axis can be parallel to the tip's by what they are across
     /// that and along it, which is claimed of these by themselves.
     fn write_across(&mut self, chain: &Chain<'g>, named: impl Fn(&str) -> Option<Expr<'g>>) {
-        let Some(joints) = Parallel::of(chain) else { return };
+        let Some(joints) = ParallelAxes::of_chain(chain) else { return };
         let tag = |k: usize| chain.kind.links[k].joint.tag;
         let (inner, tip) = (tag(joints.inner), tag(joints.tip));
         let zero = joints.cosine.graph().zero();
@@ -89,7 +89,8 @@ pub(super) fn of_elimination<'g>(
         let pivot = output(&format!("pivot_{tag}"));
         // The pivot from which nothing is subtracted is the diagonal: it is returned once.
         diagonals.push(name.clone(), output(&name).or(pivot), entry);
-        let tip = Parallel::of(chain).map(|joints| chain.kind.links[joints.tip].joint.tag);
+        let tip =
+            ParallelAxes::of_chain(chain).map(|joints| chain.kind.links[joints.tip].joint.tag);
         let weight = named(&format!("driven_{tag}")).filter(|_| tip == Some(tag));
         let own = pivot.map(|pivot| weight.map_or(pivot, |driven| driven * pivot));
         let sum = own.zip(named(&format!("held_{tag}")));

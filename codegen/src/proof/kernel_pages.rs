@@ -9,8 +9,8 @@ use rustc_hash::FxHashMap;
 
 use super::Row;
 use super::pages::frame_of;
-use crate::derivation::assumed::mount_entry;
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::assumed::mount_entry;
 use crate::derivation::elimination::is_of_elimination;
 use crate::derivation::heading::Heading;
 use crate::derivation::script::Statement;

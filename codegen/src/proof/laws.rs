@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use super::Row;
 use super::unknowns::Unknowns;
-use crate::derivation::boltzmann_hamel::{BoltzmannHamel, boltzmann_hamel};
-use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
+use crate::derivation::reference;
+use crate::derivation::reference::boltzmann_hamel::{BoltzmannHamel, boltzmann_hamel};
 use crate::graph::Expr;
 use crate::normal::Ring;
 
@@ -80,7 +80,7 @@ impl<'g> Laws<'g> {
     /// Energy and momenta of the sums over bodies are T and its slopes.
     pub(super) fn of_momenta(&self, ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
         let Self(laws) = self;
-        let momenta = by_body::momenta(chain);
+        let momenta = reference::momenta(chain);
         let energy = [("(energy)", "energy", "T", vec![momenta.energy], vec![laws.energy])];
         let vectors = [
             ("(momentum)", "linear", "T_v", momenta.linear, laws.linear),

@@ -11,12 +11,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Row;
 use super::read_back::{EmittedError, Reading, function, read};
-use crate::derivation::assumed::mount_entry;
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::assumed::mount_entry;
 use crate::graph::{Expr, Node, Stage, SymbolId};
 use crate::kernel::{Kernel, parameters_of};
 use crate::normal::Ring;
-use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector, XYZ};
+use crate::space::{Axis, BodyFrame, ENTRIES, Hub, ParentFrame, Turn, Vector, XYZ};
 
 /// Vectors expressed in B that statements read or make.
 fn vectors(chain: &Chain<'_>) -> Vec<String> {
@@ -157,12 +157,12 @@ impl<'g> Turned<'g> {
         let angle = |name: &str| graph.angle(name, graph.zero());
         let back = |axis: Axis, name: &str| {
             let (sin, cos) = angle(name);
-            Turn::<Carrier, Own>::about(axis, sin, cos).inverse()
+            Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos).inverse()
         };
         let axes = [Axis::X, Axis::Y, Axis::Z].map(|axis| {
-            let v = Vector::<Own>::unit(graph, axis).turned(back(Axis::Z, "mount_c"));
-            let v = v.handed_back().turned(back(Axis::Y, "mount_b"));
-            v.handed_back().turned(back(Axis::Z, "mount_a")).on_hub()
+            let v = Vector::<BodyFrame>::unit(graph, axis).turned(back(Axis::Z, "mount_c"));
+            let v = v.relabelled_inboard().turned(back(Axis::Y, "mount_b"));
+            v.relabelled_inboard().turned(back(Axis::Z, "mount_a")).on_hub()
         });
         let mut made = Self { axes, along_b: Vec::new(), unit: Vec::new() };
         let symbol = |name: &str| match graph.find(name).map(Expr::node) {

@@ -5,14 +5,14 @@
 
 use super::Row;
 use super::laws::labelled;
-use crate::derivation::by_body::{acting, bodies, field};
 use crate::derivation::chain::Chain;
-use crate::derivation::gravity::gradient;
-use crate::derivation::wrench::Wrench;
+use crate::derivation::chain::wrench::Wrench;
+use crate::derivation::recursions::gravity::gradient;
+use crate::derivation::reference::{acting, bodies, field};
 use crate::graph::Expr;
 use crate::kinds::Link;
 use crate::normal::Ring;
-use crate::space::{ENTRIES, Hub, Own, Symmetric, Vector, XYZ};
+use crate::space::{BodyFrame, ENTRIES, Hub, Symmetric, Vector, XYZ};
 
 /// One row for each joint, and two for the hub: the force is G times the first moment, and the
 /// moment about B is what turns S.
@@ -28,7 +28,7 @@ pub(super) fn rows<'g>(
     let on_body = |(k, link): (usize, &Link)| {
         let frame = link.body.frame;
         let part = |letter: char| {
-            Vector::<Own>::new(XYZ.map(|axis| value(format!("{letter}_on_{frame}{axis}"))))
+            Vector::<BodyFrame>::new(XYZ.map(|axis| value(format!("{letter}_on_{frame}{axis}"))))
         };
         Wrench { force: part('f'), moment: part('n') }.along_b(chain, k)
     };

@@ -1,8 +1,8 @@
 //! The frames of a chain and the elementary rotation between two of them.
 //!
 //! A device is a chain of any length, so its frames have no fixed names here. One link at a time,
-//! there are three: the hub's, the parent body's ([`Carrier`]), and the child body's ([`Own`]).
-//! [`super::Vector::handed_on`] is the one place where a frame changes its role.
+//! there are three: the hub's, the parent body's ([`ParentFrame`]), and the child body's ([`BodyFrame`]).
+//! [`super::Vector::relabelled_outboard`] is the one place where a frame changes its role.
 
 use std::marker::PhantomData;
 
@@ -18,15 +18,15 @@ pub struct Hub;
 
 /// The frame of a joint's parent body, which may be the hub.
 #[derive(Clone, Copy, Debug)]
-pub struct Carrier;
+pub struct ParentFrame;
 
 /// The frame of the joint's child body.
 #[derive(Clone, Copy, Debug)]
-pub struct Own;
+pub struct BodyFrame;
 
 impl Frame for Hub {}
-impl Frame for Carrier {}
-impl Frame for Own {}
+impl Frame for ParentFrame {}
+impl Frame for BodyFrame {}
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

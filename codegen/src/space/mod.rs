@@ -4,6 +4,6 @@ mod frame;
 mod tensor;
 mod vector;
 
-pub use frame::{Axis, Carrier, Frame, Hub, Own, Turn};
+pub use frame::{Axis, BodyFrame, Frame, Hub, ParentFrame, Turn};
 pub use tensor::{ENTRIES, Symmetric};
 pub use vector::{Vector, XYZ};

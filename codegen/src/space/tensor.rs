@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
 
-use super::frame::{Axis, Carrier, Frame, Hub, Own, Turn};
+use super::frame::{Axis, BodyFrame, Frame, Hub, ParentFrame, Turn};
 use super::vector::Vector;
 use crate::graph::{Expr, Graph};
 
@@ -224,10 +224,10 @@ impl<'g, F: Frame> Symmetric<'g, F> {
     }
 }
 
-impl<'g> Symmetric<'g, Carrier> {
+impl<'g> Symmetric<'g, ParentFrame> {
     /// Towards the hub: the parent body's frame is the next body's own.
     #[must_use]
-    pub fn handed_back(self) -> Symmetric<'g, Own> {
+    pub fn relabelled_inboard(self) -> Symmetric<'g, BodyFrame> {
         Symmetric::new(self.entries)
     }
 
@@ -289,8 +289,8 @@ mod tests {
         let rate = g.symbol("q_dot", Stage::Rate);
         let (sin, cos) = g.angle("q", rate);
         for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
-            let i = inertia::<Own>(&g);
+            let turn = Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos);
+            let i = inertia::<BodyFrame>(&g);
             let moving = i.prime(rate * Vector::unit(&g, axis)).turned(turn.inverse());
             assert_equal(&g, moving, i.turned(turn.inverse()).component_rates());
         }
@@ -300,10 +300,10 @@ mod tests {
     fn turning_commutes_with_taking_moments() {
         let g = Graph::new();
         let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
-        let v = Vector::<Carrier>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        let v = Vector::<ParentFrame>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
         for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
-            let i = inertia::<Carrier>(&g);
+            let turn = Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos);
+            let i = inertia::<ParentFrame>(&g);
             let (before, after) = (i.times(v).turned(turn), i.turned(turn).times(v.turned(turn)));
             let mut ring = Ring::new(&g);
             for component in (before - after).components() {
@@ -317,9 +317,9 @@ mod tests {
         let g = Graph::new();
         let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
         for about in [Axis::X, Axis::Y, Axis::Z] {
-            let turn = Turn::<Carrier, Own>::about(about, sin, cos);
+            let turn = Turn::<ParentFrame, BodyFrame>::about(about, sin, cos);
             for from in [Axis::X, Axis::Y, Axis::Z] {
-                let i = inertia::<Carrier>(&g);
+                let i = inertia::<ParentFrame>(&g);
                 assert_equal(&g, i.turned_from(turn, from), i.turned(turn));
             }
         }
@@ -329,8 +329,8 @@ mod tests {
     fn without_the_moment_that_it_is_written_from_the_other_has_the_cosine_as_factor() {
         let g = Graph::new();
         let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
-        let turn = Turn::<Carrier, Own>::about(Axis::Y, sin, cos);
-        let made = inertia::<Carrier>(&g).with(0, 0, g.zero()).turned_from(turn, Axis::X);
+        let turn = Turn::<ParentFrame, BodyFrame>::about(Axis::Y, sin, cos);
+        let made = inertia::<ParentFrame>(&g).with(0, 0, g.zero()).turned_from(turn, Axis::X);
         assert!(made.at(2, 2).with(&[(symbol(cos), g.zero())]).is_zero());
     }
 
@@ -342,7 +342,7 @@ mod tests {
     #[test]
     fn a_cloud_of_masses_has_the_couple_of_its_points() {
         let g = Graph::new();
-        let field = Symmetric::<Own>::new(
+        let field = Symmetric::<BodyFrame>::new(
             ENTRIES.map(|entry| g.symbol(&format!("g_{entry}"), Stage::Parameter)),
         );
         let point = |name: &str| {
@@ -367,11 +367,11 @@ mod tests {
     #[test]
     fn the_field_of_a_far_mass_turns_a_body_as_textbooks_say() {
         let g = Graph::new();
-        let n = Vector::<Own>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        let n = Vector::<BodyFrame>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
         let (one, three) = (g.constant(1), g.constant(3));
         let half = g.constant(2).recip();
         let field = (three * half) * Symmetric::outer_pair(n, n) - Symmetric::isotropic(one);
-        let i = inertia::<Own>(&g);
+        let i = inertia::<BodyFrame>(&g);
         let mut ring = Ring::new(&g);
         let off = i.second_moment().couple(field) - three * n.cross(i.times(n));
         for component in off.components() {
@@ -382,7 +382,7 @@ mod tests {
     #[test]
     fn tilde_pair_of_a_vector_with_itself_is_twice_tilde_squared() {
         let g = Graph::new();
-        let v = Vector::<Own>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        let v = Vector::<BodyFrame>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
         let twice = g.constant(2) * Symmetric::tilde_squared(v);
         assert_equal(&g, Symmetric::tilde_pair(v, v), twice);
     }

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Neg, Sub};
 
-use super::frame::{Axis, Carrier, Frame, Hub, Own, Turn};
+use super::frame::{Axis, BodyFrame, Frame, Hub, ParentFrame, Turn};
 use crate::graph::{Expr, Graph, Stage};
 
 /// Suffixes of three components.
@@ -113,18 +113,18 @@ impl<'g, F: Frame> Vector<'g, F> {
     }
 }
 
-impl<'g> Vector<'g, Own> {
+impl<'g> Vector<'g, BodyFrame> {
     /// Away from the hub: this body's frame is the parent frame of the next joint.
     #[must_use]
-    pub fn handed_on(self) -> Vector<'g, Carrier> {
+    pub fn relabelled_outboard(self) -> Vector<'g, ParentFrame> {
         Vector::new(self.components)
     }
 }
 
-impl<'g> Vector<'g, Carrier> {
+impl<'g> Vector<'g, ParentFrame> {
     /// Towards the hub: the parent body's frame is the next body's own.
     #[must_use]
-    pub fn handed_back(self) -> Vector<'g, Own> {
+    pub fn relabelled_inboard(self) -> Vector<'g, BodyFrame> {
         Vector::new(self.components)
     }
 
@@ -138,7 +138,7 @@ impl<'g> Vector<'g, Carrier> {
 impl<'g> Vector<'g, Hub> {
     /// The hub is the parent body of the first joint.
     #[must_use]
-    pub fn as_carrier(self) -> Vector<'g, Carrier> {
+    pub fn as_parent_frame(self) -> Vector<'g, ParentFrame> {
         Vector::new(self.components)
     }
 }
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn prime_of_body_fixed_vector_is_omega_cross_it() {
         let g = Graph::new();
-        let (u, omega) = (symbols::<Own>(&g, "u"), symbols(&g, "w"));
+        let (u, omega) = (symbols::<BodyFrame>(&g, "u"), symbols(&g, "w"));
         assert_equal(&g, u.prime(omega), omega.cross(u));
     }
 
@@ -202,8 +202,8 @@ mod tests {
         let g = Graph::new();
         let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
         for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
-            let u = symbols::<Carrier>(&g, "u");
+            let turn = Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos);
+            let u = symbols::<ParentFrame>(&g, "u");
             assert_equal(&g, u.turned(turn).turned(turn.inverse()), u);
         }
     }
@@ -211,8 +211,8 @@ mod tests {
     #[test]
     fn a_quarter_turn_about_z_takes_new_x_to_old_y() {
         let g = Graph::new();
-        let turn = Turn::<Carrier, Own>::about(Axis::Z, g.constant(1), g.constant(0));
-        let new_x = Vector::<Own>::unit(&g, Axis::X).turned(turn.inverse());
+        let turn = Turn::<ParentFrame, BodyFrame>::about(Axis::Z, g.constant(1), g.constant(0));
+        let new_x = Vector::<BodyFrame>::unit(&g, Axis::X).turned(turn.inverse());
         assert_equal(&g, new_x, Vector::unit(&g, Axis::Y));
     }
 
@@ -222,8 +222,8 @@ mod tests {
         let rate = g.symbol("q_dot", Stage::Rate);
         let (sin, cos) = g.angle("q", rate);
         for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
-            let u = symbols::<Own>(&g, "u");
+            let turn = Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos);
+            let u = symbols::<BodyFrame>(&g, "u");
             let moving = u.prime(rate * Vector::unit(&g, axis)).turned(turn.inverse());
             assert_equal(&g, moving, u.turned(turn.inverse()).component_rates());
         }

@@ -106,9 +106,21 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
 
 /// The files of the derivation, by path from the root.
 fn sources() -> Result<Vec<Page>, String> {
-    let files = read_texts(&root().join(DERIVATION), "rs")?;
-    let named = |page: Page| Page { name: format!("{DERIVATION}/{}", page.name), ..page };
-    Ok(files.into_iter().map(named).collect())
+    let wrong = |error: &std::io::Error| format!("cannot read {DERIVATION}: {error}");
+    let mut folders = vec![DERIVATION.to_owned()];
+    for entry in fs::read_dir(root().join(DERIVATION)).map_err(|error| wrong(&error))? {
+        let entry = entry.map_err(|error| wrong(&error))?;
+        if entry.path().is_dir() {
+            folders.push(format!("{DERIVATION}/{}", entry.file_name().to_string_lossy()));
+        }
+    }
+    folders.sort();
+    let mut files = Vec::new();
+    for folder in folders {
+        let pages = read_texts(&root().join(&folder), "rs")?.into_iter();
+        files.extend(pages.map(|page| Page { name: format!("{folder}/{}", page.name), ..page }));
+    }
+    Ok(files)
 }
 
 /// A bar on a terminal, nothing where there is none.

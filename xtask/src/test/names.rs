@@ -29,6 +29,8 @@ const MOVED: &[(&str, &str)] = &[
         "dynamics/tests/floors.rs an_arrow_upwards_is_seen",
         "tests/tests/architecture/graph.rs a_circle_is_named_with_file_and_import",
     ),
+    ("codegen/src/derivation/assumed.rs ", "codegen/src/derivation/chain/assumed.rs "),
+    ("codegen/src/derivation/parallel.rs ", "codegen/src/derivation/chain/parallel_axes.rs "),
     (
         "codegen/review/src/mutation/physics/mod.rs ",
         "codegen/review/src/mutation/physics/trial.rs ",

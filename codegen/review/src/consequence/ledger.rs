@@ -8,9 +8,9 @@
 use super::state::{INPUTS, State, VELOCITY, plus};
 use super::tape::Tape;
 use super::{ConsequenceError, Drift};
-use precess_codegen::derivation::Momenta;
-use precess_codegen::derivation::by_body::{BodyInHub, bodies, hub_body, momenta};
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::reference::{BodyInHub, bodies, hub_body, momenta};
+use precess_codegen::derivation::share::Momenta;
 use precess_codegen::graph::Expr;
 use precess_codegen::space::{Hub, Vector};
 

@@ -170,9 +170,9 @@ mod tests {
             Claim { tag: tag.to_owned(), name: String::new(), components }
         };
         let claims = ["(D14)", "(D15)"].map(claim);
-        let heading = Heading::of("Right side").equation("(80), (101)");
+        let heading = Heading::new("Right side").equation("(80), (101)");
         let tag = |name| tag(name, &heading, &claims).unwrap();
         assert_eq!((tag("claimed"), tag("other")), ("(D14), (D15)".into(), "(80), (101)".into()));
-        assert_eq!(super::tag("other", &Heading::of("As it is"), &claims), None);
+        assert_eq!(super::tag("other", &Heading::new("As it is"), &claims), None);
     }
 }

@@ -231,7 +231,7 @@ mod tests {
         let g = Graph::new();
         let (s, c) = g.angle("q", g.symbol("q_dot", Stage::Rate));
         let mut script = Script::new(&g);
-        script.section("a", Heading::of("Bare").equation("(3)"));
+        script.section("a", Heading::new("Bare").equation("(3)"));
         script.name("x", c);
         script.name("y", s + s);
         let field =

@@ -242,7 +242,7 @@ mod tests {
         let rate = g.symbol("rate", Stage::Rate);
         let (s, c) = g.angle("q", rate);
         let mut script = Script::new(&g);
-        script.section("a", Heading::of("A cut and what is made of it"));
+        script.section("a", Heading::new("A cut and what is made of it"));
         let cut = script.cut("cut", s * rate);
         script.name("z", cut - c);
         script.name("w", c);

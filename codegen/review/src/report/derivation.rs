@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::errata::tag_and_case;
 use crate::notation::{Accent, Balance, aligned, equation, expression, frame, symbol, terms, unit};
 use precess_codegen::derivation::chain::Chain;
-use precess_codegen::derivation::placed::Placed;
+use precess_codegen::derivation::chain::placed::Placed;
 use precess_codegen::derivation::quantities::{Quantity, quantities};
 use precess_codegen::graph::Expr;
 use precess_codegen::kernel::{Kernel, kernels, parameters};

@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 
-use precess_codegen::derivation::by_body::{BodyInHub, bodies};
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::reference::{BodyInHub, bodies};
 use precess_codegen::graph::Expr;
 use precess_codegen::kinds::Centre;
 

@@ -8,8 +8,8 @@ use super::seen::unit;
 use super::{Device, Fault};
 use crate::mutation::state::{Accelerations, Case, Motion, Wrench};
 use crate::mutation::tape::Returned;
-use precess_codegen::derivation::external::acting;
-use precess_codegen::derivation::gravity::gradient;
+use precess_codegen::derivation::recursions::external::acting;
+use precess_codegen::derivation::recursions::gravity::gradient;
 use precess_codegen::kinds;
 
 /// Where a body stands, along B.

@@ -11,18 +11,15 @@
 //!
 //! `M_jj` has gone. Between perpendicular axes, `c = 0`, there is nothing to take out.
 
-use super::Share;
 use super::assumed::Assumed;
-use super::chain::{Chain, Coordinate};
-use super::mass_properties::MassProperties;
-use super::wrench::Wrench;
+use super::{Chain, Coordinate};
 use crate::graph::{Expr, Stage};
 use crate::kinds::Link as Data;
-use crate::space::{Axis, Carrier, Own, Symmetric, Turn, Vector};
+use crate::space::ParentFrame;
 
 /// The two joints, by their numbers, and the cosine between their axes.
 #[derive(Clone, Copy)]
-pub struct Parallel<'g> {
+pub struct ParallelAxes<'g> {
     /// The inboard one.
     pub inner: usize,
     /// The tip's.
@@ -33,21 +30,21 @@ pub struct Parallel<'g> {
 
 /// What the inboard joint's row has across the tip's axis.
 #[derive(Clone, Copy)]
-pub struct Across<'g> {
+pub struct PerpendicularEntries<'g> {
     /// The joints.
-    pub joints: Parallel<'g>,
+    pub joints: ParallelAxes<'g>,
     /// `A_kk`.
     pub diagonal: Expr<'g>,
     /// `A_kj`.
     pub coupling: Expr<'g>,
 }
 
-impl<'g> Parallel<'g> {
+impl<'g> ParallelAxes<'g> {
     /// The pair of this chain, where the joint between them turns one axis towards the other and both
     /// have a row. A body that is known to have inertia about the inboard joint's axis keeps it in any
     /// pose: nothing small is left there.
     #[must_use]
-    pub fn of(chain: &Chain<'g>) -> Option<Self> {
+    pub fn of_chain(chain: &Chain<'g>) -> Option<Self> {
         let tip = chain.links.len() - 1;
         let inner = tip.checked_sub(2).filter(|inner| *inner >= chain.first_moving())?;
         let [k, ..] = chain.kind.links[inner].joint.motion.axis().cycle();
@@ -61,8 +58,8 @@ impl<'g> Parallel<'g> {
             (turns && link.mode.is_some()).then_some(link.axis)
         };
         let (axis, other) = (row(tip)?, row(inner)?);
-        let axis = axis.turned::<Carrier>(chain.links[tip - 1].turn.inverse());
-        let cosine = axis.handed_back().dot(other);
+        let axis = axis.turned::<ParentFrame>(chain.links[tip - 1].turn.inverse());
+        let cosine = axis.relabelled_inboard().dot(other);
         (cosine.stage() > Stage::Parameter).then_some(Self { inner, tip, cosine })
     }
 
@@ -71,68 +68,6 @@ impl<'g> Parallel<'g> {
     pub fn names(self, links: &[Data]) -> [String; 2] {
         let [inner, tip] = [self.inner, self.tip].map(|k| links[k].joint.tag);
         [format!("across_{inner}{inner}"), format!("across_{inner}{tip}")]
-    }
-
-    /// `A_kk` and `A_kj` of a mass matrix.
-    #[must_use]
-    pub fn of_share(self, share: &Share<'g>) -> [Expr<'g>; 2] {
-        let Self { inner, tip, cosine } = self;
-        let own = cosine * share.joint[tip][0];
-        [share.joint[inner][0] - cosine * own, share.joint[inner][tip - inner] - own]
-    }
-}
-
-/// The composite without inertia about the tip's axis, and what the tip's joint requires of it, on
-/// their way to the inboard joint.
-#[derive(Clone, Copy)]
-pub(super) struct Carried<'g> {
-    axis: Axis,
-    inertia: Symmetric<'g, Own>,
-    column: Wrench<'g, Own>,
-}
-
-impl<'g> Carried<'g> {
-    /// Of the tip's composite and column.
-    pub(super) fn of_tip(
-        axis: Axis,
-        composite: &MassProperties<'g>,
-        column: Wrench<'g, Own>,
-    ) -> Self {
-        let [k, ..] = axis.cycle();
-        let zero = composite.mass.graph().zero();
-        let mut moment = column.moment.components();
-        moment[k] = zero;
-        Self {
-            axis,
-            inertia: composite.inertia.with(k, k, zero),
-            column: Wrench { moment: Vector::new(moment), ..column },
-        }
-    }
-
-    /// With the next body inboard, expressed in the axes that `back` leads to.
-    pub(super) fn with_body(self, body: &MassProperties<'g>, back: Turn<'g, Own, Carrier>) -> Self {
-        let turned = |v: Vector<'g, Own>| v.turned(back).handed_back();
-        Self {
-            inertia: (body.inertia + self.inertia).turned_from(back, self.axis).handed_back(),
-            column: Wrench { force: turned(self.column.force), moment: turned(self.column.moment) },
-            ..self
-        }
-    }
-
-    /// About a point from which the present origin lies at `arm`; the composite has this first moment.
-    pub(super) fn shifted(self, arm: Vector<'g, Own>, composite: &MassProperties<'g>) -> Self {
-        let Wrench { force, moment } = self.column;
-        Self {
-            inertia: MassProperties { inertia: self.inertia, ..*composite }.shifted(arm).inertia,
-            column: Wrench { force, moment: moment + arm.cross(force) },
-            ..self
-        }
-    }
-
-    /// `A_kk` and `A_kj` along the axis of the inboard joint.
-    pub(super) fn along(&self, axis: Axis) -> [Expr<'g>; 2] {
-        let [k, ..] = axis.cycle();
-        [self.inertia.at(k, k), self.column.moment.components()[k]]
     }
 }
 
@@ -146,7 +81,7 @@ mod tests {
     fn only_a_wheel_that_is_free_in_two_gimbals_or_tilts_has_an_axis_that_can_be_parallel_to_another()
      {
         let can = |kind: &&'static crate::kinds::Kind| {
-            Parallel::of(&Chain::new(&Graph::new(), kind)).is_some()
+            ParallelAxes::of_chain(&Chain::new(&Graph::new(), kind)).is_some()
         };
         let names: Vec<_> = KINDS.iter().copied().filter(can).map(|kind| kind.name).collect();
         let expected = ["dgvscmg", "balanced_dgvscmg", "flexible_reaction_wheel", "flexible_vscmg"];
@@ -157,7 +92,8 @@ mod tests {
     fn the_cosine_is_that_of_the_axes() {
         let graph = Graph::new();
         let kind = KINDS.iter().find(|kind| kind.name == "dgvscmg").expect("it is built in");
-        let joints = Parallel::of(&Chain::new(&graph, kind)).expect("its axes can be parallel");
+        let joints =
+            ParallelAxes::of_chain(&Chain::new(&graph, kind)).expect("its axes can be parallel");
         assert_eq!((joints.inner, joints.tip), (0, 2));
         assert_eq!(joints.cosine, -graph.find("sin_gamma_i").expect("a sine"));
     }

@@ -4,13 +4,13 @@
 //! with `S x G p` and with the torque of the gradient on an extended body, which depends on the
 //! second moment only up to a multiple of the unit tensor. G need not be free of a trace.
 
-use super::chain::{Chain, Link};
-use super::heading::Heading;
-use super::mass_properties::MassProperties;
-use super::script::{Script, pairs, sextuple, triple};
-use super::wrench::Wrench;
+use crate::derivation::chain::mass_properties::MassProperties;
+use crate::derivation::chain::wrench::Wrench;
+use crate::derivation::chain::{Chain, Link};
+use crate::derivation::heading::Heading;
+use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::graph::{Graph, Stage};
-use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Vector};
+use crate::space::{BodyFrame, ENTRIES, Hub, ParentFrame, Symmetric, Vector};
 
 /// Writes to `script` what the field does to each body, expressed in own axes, about its joint's
 /// origin, and `S = integral of r r^T dm` of the device, about B.
@@ -21,27 +21,27 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let (frame, origin) = (data.body.frame, data.body.origin);
         let (title, letter) = (data.body.title, data.body.letters[0]);
         let own = here.across(link);
-        let heading = Heading::of("G").cited("as in", "(D16)");
+        let heading = Heading::new("G").cited("as in", "(D16)");
         script.section("field", heading.axes(format!("the axes of the {title}")).unit("1/s²"));
         script.names(pairs(sextuple(&format!("g_{frame}")), own.gradient.entries()));
-        let heading = Heading::of(format!("G r at {letter}")).equation("(D16)");
+        let heading = Heading::new(format!("G r at {letter}")).equation("(D16)");
         script.section("field", heading.axes("the same axes").unit("m/s²"));
         script.names(pairs(triple(&format!("g_r_{origin}"), frame), own.origin.components()));
-        let body = MassProperties::of(link, data, script);
-        let heading = Heading::of(format!("On the {title} only")).equation("(D17)");
+        let body = MassProperties::of_body(link, data, script);
+        let heading = Heading::new(format!("On the {title} only")).equation("(D17)");
         script.section("pull", heading.wrench(["N", "N m"], letter));
         script.names(own.on(&body).named("on", frame));
         bodies.push(body);
-        here = own.handed_on();
+        here = own.relabelled_outboard();
     }
     let mut composite = MassProperties::zero(chain.graph);
     for ((link, data), body) in chain.links.iter().zip(chain.kind.links).zip(bodies).rev() {
         composite = composite.plus(body);
         composite.name(data, script);
-        composite = composite.carried(link);
+        composite = composite.in_parent_frame(link);
     }
     let second_moment = composite.inertia.second_moment();
-    let heading = Heading::of("S = ∫ r rᵀ dm of the device about B").equation("(D18)");
+    let heading = Heading::new("S = ∫ r rᵀ dm of the device about B").equation("(D18)");
     script.section("axis", heading.axes("the device's axes").unit("kg m²"));
     script.names(pairs(sextuple("second_moment"), second_moment.entries()));
 }
@@ -61,7 +61,7 @@ struct Field<'g, F> {
     origin: Vector<'g, F>,
 }
 
-impl<'g> Field<'g, Carrier> {
+impl<'g> Field<'g, ParentFrame> {
     /// About B.
     fn about_b(graph: &'g Graph) -> Self {
         let gradient = Symmetric::new(gradient(graph).entries());
@@ -69,22 +69,22 @@ impl<'g> Field<'g, Carrier> {
     }
 
     /// About a joint's origin, expressed in own axes.
-    fn across(self, link: &Link<'g>) -> Field<'g, Own> {
+    fn across(self, link: &Link<'g>) -> Field<'g, BodyFrame> {
         let origin = self.origin + self.gradient.times(link.origin);
         Field { gradient: self.gradient.turned(link.turn), origin: origin.turned(link.turn) }
     }
 }
 
-impl<'g> Field<'g, Own> {
+impl<'g> Field<'g, BodyFrame> {
     /// Away from the hub: the body's frame is the parent frame of the next joint.
-    fn handed_on(self) -> Field<'g, Carrier> {
+    fn relabelled_outboard(self) -> Field<'g, ParentFrame> {
         let gradient = Symmetric::new(self.gradient.entries());
-        Field { gradient, origin: self.origin.handed_on() }
+        Field { gradient, origin: self.origin.relabelled_outboard() }
     }
 
     /// Force and moment on a body. S and I are `tr(I) / 2 - I` and I up to a multiple of the
     /// unit tensor.
-    fn on(self, body: &MassProperties<'g>) -> Wrench<'g, Own> {
+    fn on(self, body: &MassProperties<'g>) -> Wrench<'g, BodyFrame> {
         let s = body.first_moment;
         Wrench {
             force: body.mass * self.origin + self.gradient.times(s),

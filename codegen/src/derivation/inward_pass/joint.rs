@@ -1,9 +1,9 @@
 //! One joint: Coriolis and centrifugal wrench of its rate (D8), and its own equation (D9).
 
-use super::chain::Coordinate;
-use super::mass_properties::MassProperties;
 use super::parent_motion::ParentMotion;
-use super::wrench::Wrench;
+use crate::derivation::chain::Coordinate;
+use crate::derivation::chain::mass_properties::MassProperties;
+use crate::derivation::chain::wrench::Wrench;
 use crate::graph::Expr;
 use crate::space::{Axis, Frame, Vector};
 

@@ -1,8 +1,8 @@
 //! What each parent body exerts: sums of mass times acceleration and of rates of angular momentum.
 
-use super::super::chain::Chain;
-use super::super::wrench::Wrench;
 use super::{bodies, share};
+use crate::derivation::chain::Chain;
+use crate::derivation::chain::wrench::Wrench;
 use crate::graph::Expr;
 use crate::space::{Hub, Vector};
 

@@ -4,9 +4,9 @@
 //! the position *from B*. It is differentiated as it stands: its components in B, and the transport
 //! theorem with omega; the paper's (25) to (74) rearrange what comes out.
 
-use super::by_body::{BodyInHub, bodies, hub_body};
-use super::chain::Chain;
-use super::quantities::List;
+use super::List;
+use crate::derivation::chain::Chain;
+use crate::derivation::reference::{BodyInHub, bodies, hub_body};
 use crate::space::{Hub, Symmetric, Vector};
 
 /// A body's position and momenta with their inertial derivatives.
@@ -22,7 +22,7 @@ pub(super) struct Momentum<'g> {
 
 impl<'g> Momentum<'g> {
     /// Of a body, with B turning at `omega`.
-    pub(super) fn of(body: &BodyInHub<'g>, omega: Vector<'g, Hub>) -> Self {
+    pub(super) fn of_body(body: &BodyInHub<'g>, omega: Vector<'g, Hub>) -> Self {
         let r_dot = body.r.prime(omega);
         let h_c = body.inertia.times(omega + body.omega_b);
         let h_b = h_c + body.mass * body.r.cross(r_dot);
@@ -40,7 +40,7 @@ impl<'g> Momentum<'g> {
 /// (20) to (76): hub, gimbals, wheel, and their sum.
 pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let hub = &chain.hub;
-    let of_hub = Momentum::of(&hub_body(chain), hub.omega);
+    let of_hub = Momentum::of_body(&hub_body(chain), hub.omega);
     // (26); (23), (24); (25), (27), (28), (30).
     list.vector("r_bc_b_ddot", of_hub.r_ddot, 0);
     list.vector("h_b_bc", of_hub.h_c, 0);
@@ -50,7 +50,7 @@ pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let mut i_sc_b = hub.i_b_bc + hub.m_b * Symmetric::tilde_squared(hub.r_bc_b);
     for (body, link) in bodies(chain).iter().zip(chain.kind.links) {
         let (frame, point) = (link.body.frame, link.body.point);
-        let of_body = Momentum::of(body, hub.omega);
+        let of_body = Momentum::of_body(body, hub.omega);
         // (68) of the wheel; (38), (53), (69).
         list.vector(&format!("r_{point}_b_dot"), of_body.r_dot, 0);
         list.vector(&format!("r_{point}_b_ddot"), of_body.r_ddot, 0);

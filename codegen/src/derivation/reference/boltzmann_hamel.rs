@@ -13,8 +13,8 @@
 //! the velocities of the centres of mass and of the body's axes, so that no angular velocity of a
 //! body, no parallel axes and no force is ever stated.
 
-use super::by_body::{BodyInHub, bodies};
-use super::chain::Chain;
+use super::{BodyInHub, bodies};
+use crate::derivation::chain::Chain;
 use crate::graph::Expr;
 use crate::space::{Hub, Vector};
 
@@ -66,7 +66,7 @@ pub fn boltzmann_hamel<'g>(chain: &Chain<'g>) -> BoltzmannHamel<'g> {
 fn energy<'g>(chain: &Chain<'g>) -> Expr<'g> {
     let half = chain.graph.constant(2).recip();
     let (v, omega) = (chain.hub.r_b_n_dot, chain.hub.omega);
-    let of_body = |(body, link): (BodyInHub<'g>, &super::chain::Link<'g>)| {
+    let of_body = |(body, link): (BodyInHub<'g>, &crate::derivation::chain::Link<'g>)| {
         let r_dot = v + body.r.prime(omega);
         let axes_dot = body.axes.map(|axis| axis.prime(omega));
         let half_trace = half * link.inertia.trace();

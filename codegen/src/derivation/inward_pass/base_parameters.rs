@@ -14,49 +14,20 @@
 //! What the passes leave is a polynomial in the parameters, stated as its normal form: a large
 //! moment that was added and subtracted again, `m l^2` of a long arm, cancels without rounding.
 
-use super::chain::{Chain, Coordinate};
-use super::heading::Heading;
-use super::mass_properties::MassProperties;
-use super::script::{Script, pairs, sextuple, triple};
+use crate::derivation::chain::mass_properties::MassProperties;
+use crate::derivation::chain::{Chain, Coordinate};
+use crate::derivation::heading::Heading;
+use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::graph::Expr;
 use crate::kinds::{Link, Motion};
 use crate::normal::Ring;
-use crate::space::{Axis, Carrier, Own, Symmetric, Vector};
-
-/// Which passes are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Passes {
-    /// Slide origins along their axes.
-    pub slide: bool,
-    /// Regroup to the parent body.
-    pub regroup: bool,
-    /// Take common factors out of the functions' sums.
-    pub factor: bool,
-}
-
-impl Passes {
-    /// What is emitted.
-    pub const ALL: Self = Self { factor: true, ..Self::CHAIN };
-    /// Both passes over the chain.
-    pub const CHAIN: Self = Self { slide: true, regroup: true, factor: false };
-    /// Bodies, origins and sums as they are given.
-    pub const NONE: Self = Self { slide: false, regroup: false, factor: false };
-    /// Each by itself, those over the chain together, and all.
-    pub const EACH: [Self; 6] = [
-        Self::NONE,
-        Self { slide: true, ..Self::NONE },
-        Self { regroup: true, ..Self::NONE },
-        Self::CHAIN,
-        Self { factor: true, ..Self::NONE },
-        Self::ALL,
-    ];
-}
+use crate::space::{Axis, BodyFrame, ParentFrame, Symmetric, Vector};
 
 /// A joint's origin and what turns or slides with it, after the passes.
 #[derive(Clone, Copy)]
 pub(super) struct Base<'g> {
     /// From the parent body's origin.
-    pub(super) origin: Vector<'g, Carrier>,
+    pub(super) origin: Vector<'g, ParentFrame>,
     /// About the joint's origin.
     pub(super) mass_properties: MassProperties<'g>,
 }
@@ -66,7 +37,7 @@ pub(super) struct Based<'g> {
     /// From the hub outwards.
     pub(super) links: Vec<Base<'g>>,
     /// Constant share of the hub, about B, expressed in the device's axes.
-    pub(super) constant_share: MassProperties<'g, Carrier>,
+    pub(super) constant_share: MassProperties<'g, ParentFrame>,
 }
 
 /// Makes the passes; the bodies' own lumps go to `script`.
@@ -75,7 +46,7 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
     let bodies = chain.links.iter().zip(chain.kind.links);
     let links = bodies.map(|(link, data)| Base {
         origin: link.origin,
-        mass_properties: MassProperties::of(link, data, script),
+        mass_properties: MassProperties::of_body(link, data, script),
     });
     let mut links: Vec<_> = links.collect();
     if passes.slide {
@@ -92,7 +63,7 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
 
 impl<'g> Based<'g> {
     /// From B to the origin of the first joint that moves, along the device's axes.
-    pub(super) fn reach(&self, chain: &Chain<'g>) -> Vector<'g, Carrier> {
+    pub(super) fn reach(&self, chain: &Chain<'g>) -> Vector<'g, ParentFrame> {
         let origins: Vec<_> = self.links.iter().map(|link| link.origin).collect();
         chain.reach(&origins)
     }
@@ -118,7 +89,7 @@ impl<'g> Based<'g> {
 impl<'g> Base<'g> {
     fn name(&self, data: &Link, origin: &str, carrier: &str, script: &mut Script<'g>) {
         let (joint, body) = (&data.joint, &data.body);
-        let heading = Heading::of(format!("Base inertial parameters of the {}", body.title));
+        let heading = Heading::new(format!("Base inertial parameters of the {}", body.title));
         let heading =
             heading.equation("(D3), (D4)").part(format!("{origin} from the parent's origin"), "m");
         let heading = heading.part("first moment", "kg m").part("inertia", "kg m²").about("it");
@@ -152,7 +123,8 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
         };
         let step = [0, 1, 2].map(|c| if c == along { by } else { zero });
         links[k].origin = links[k].origin + Vector::new(step);
-        links[k].mass_properties = links[k].mass_properties.shifted(-Vector::<Own>::new(step));
+        links[k].mass_properties =
+            links[k].mass_properties.shifted(-Vector::<BodyFrame>::new(step));
         if let Some(next) = links.get_mut(k + 1) {
             let mut rest = next.origin.components();
             rest[along] = zero;
@@ -162,17 +134,17 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
 }
 
 /// (D4), from the tip to the hub.
-fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> MassProperties<'g, Carrier> {
+fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> MassProperties<'g, ParentFrame> {
     let mut constant_share = MassProperties::zero(chain.graph);
     for (k, link) in chain.links.iter().enumerate().rev() {
         let own = &mut links[k];
-        own.mass_properties = own.mass_properties.plus(constant_share.handed_back());
+        own.mass_properties = own.mass_properties.plus(constant_share.relabelled_inboard());
         if chain.kind.links[k].is_locked() {
             // It never moves in its parent body.
             let origin = own.origin;
             let mass_properties =
                 std::mem::replace(&mut own.mass_properties, MassProperties::zero(chain.graph));
-            constant_share = mass_properties.turned_back(link).shifted(origin);
+            constant_share = mass_properties.in_parent_axes(link).shifted(origin);
             continue;
         }
         let axis = chain.kind.links[k].joint.motion.axis();

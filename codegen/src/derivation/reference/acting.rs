@@ -1,8 +1,8 @@
 //! What acts on the bodies, as sums over them and as virtual work.
 
-use super::super::chain::Chain;
-use super::super::wrench::Wrench;
 use super::bodies;
+use crate::derivation::chain::Chain;
+use crate::derivation::chain::wrench::Wrench;
 use crate::graph::Expr;
 use crate::space::{Hub, Vector};
 

@@ -1,15 +1,15 @@
 //! Composite, columns and bias of the whole device, expressed in B, about B.
 
-use super::Share;
-use super::base::Based;
-use super::chain::{Chain, Coordinate};
-use super::heading::Heading;
-use super::inward_pass::{CORIOLIS, FIRST_ORIGIN, InwardPass};
-use super::reach::{Reach, along_own};
-use super::script::{Script, pairs, sextuple, triple};
+use super::base_parameters::Based;
+use super::first_origin::{OriginAxes, in_first_body_axes};
+use super::{CORIOLIS, FIRST_ORIGIN, InwardPass};
+use crate::derivation::chain::{Chain, Coordinate};
+use crate::derivation::heading::Heading;
+use crate::derivation::script::{Script, pairs, sextuple, triple};
+use crate::derivation::share::Share;
 use crate::graph::Expr;
 use crate::kinds::units;
-use crate::space::{Hub, Own, Symmetric, Vector};
+use crate::space::{BodyFrame, Hub, Symmetric, Vector};
 
 impl<'g> InwardPass<'g> {
     /// Transforms the composite to B axes, about B.
@@ -21,16 +21,17 @@ impl<'g> InwardPass<'g> {
         script: &mut Script<'g>,
     ) -> Share<'g> {
         let first = chain.first_moving();
-        let own_reach = (self.reach == Reach::Own).then(|| along_own(chain, based.reach(chain)));
+        let own_reach = (self.origin_axes == OriginAxes::FirstBody)
+            .then(|| in_first_body_axes(chain, based.reach(chain)));
         let reach = chain.mounted(based.reach(chain));
         let what = "Origin of the first joint from B, moved by (D3)";
-        script.section("place", Heading::of(what).equation("(D2)").axes("B").unit("m"));
+        script.section("place", Heading::new(what).equation("(D2)").axes("B").unit("m"));
         let reach = named(script, "reach", reach);
-        let along_b = |v: Vector<'g, Own>| v.along(axes);
+        let along_b = |v: Vector<'g, BodyFrame>| v.along(axes);
         let links = &chain.kind.links[first..];
         let whole = links[0].assembly;
         let wrench = [units(links, |units| units.force), units(links, |units| units.moment)];
-        let heading = Heading::of("M_vi and M_wi").equation("(17), (75), (D7)").axes("B");
+        let heading = Heading::new("M_vi and M_wi").equation("(17), (75), (D7)").axes("B");
         let heading = heading.wrench(wrench.each_ref().map(String::as_str), "B");
         script.section("col", heading.note("per unit joint acceleration"));
         // Bodies inboard of it have no equation.
@@ -51,7 +52,7 @@ impl<'g> InwardPass<'g> {
             moment.push(cut(script, &format!("n_{}", link.joint.tag), n));
         }
         let what = format!("{} without its constant share of the hub", whole.to_uppercase());
-        let heading = Heading::of(what).equation("(9), (76), (D6)").axes("B").about("B");
+        let heading = Heading::new(what).equation("(9), (76), (D6)").axes("B").about("B");
         let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
         script.section("moment", heading);
         let first_moment = along_b(self.composite.first_moment);
@@ -62,7 +63,7 @@ impl<'g> InwardPass<'g> {
         let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
         let inertia = Symmetric::new(entries.try_into().expect("six entries"));
 
-        let heading = Heading::of(format!("{CORIOLIS} the joints' rates require"));
+        let heading = Heading::new(format!("{CORIOLIS} the joints' rates require"));
         let heading = heading.equation("(16), (75), (D8)").axes("B").wrench(["N", "N m"], "B");
         script.section("bias", heading);
         let bias_force = cut(script, "f_rates", along_b(self.rates.force));
@@ -78,7 +79,7 @@ impl<'g> InwardPass<'g> {
             force,
             moment,
             joint,
-            across: self.across,
+            perpendicular: self.perpendicular,
             bias_force,
             bias_moment,
             bias_joint,
@@ -96,10 +97,10 @@ impl<'g> InwardPass<'g> {
     ) -> Vec<Expr<'g>> {
         let links = &chain.kind.links[chain.first_moving()..];
         let unit = units(links, |units| units.drive);
-        let carried = (self.reach == Reach::Hub).then(|| {
+        let carried = (self.origin_axes == OriginAxes::Hub).then(|| {
             script.section(
                 "reach",
-                Heading::of(FIRST_ORIGIN).equation("(D5)").axes("B").unit("m/s²"),
+                Heading::new(FIRST_ORIGIN).equation("(D5)").axes("B").unit("m/s²"),
             );
             let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
             named(script, "r_first_rest", carried)
@@ -108,7 +109,7 @@ impl<'g> InwardPass<'g> {
             Some(_) => "Bias of each joint row, with that acceleration of the first joint's origin",
             None => "Bias of each joint row",
         };
-        script.section("bias", Heading::of(what).equation("(D9)").unit(&unit));
+        script.section("bias", Heading::new(what).equation("(D9)").unit(&unit));
         let bias = self.bias_joint.iter().zip(force).zip(links);
         let bias = bias.map(|((required, force), link)| {
             let required = carried.map_or(*required, |carried| *required + force.dot(carried));

@@ -6,36 +6,40 @@
 //! on, and forces with a zero component have shorter moments. Expressed in B, each row takes a product
 //! of its own, but nothing has to be turned.
 
-use super::base::Based;
-use super::chain::{Chain, Coordinate};
-use crate::space::{Carrier, Own, Vector};
+use super::base_parameters::Based;
+use crate::derivation::chain::{Chain, Coordinate};
+use crate::space::{BodyFrame, ParentFrame, Vector};
 
 /// The axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Reach {
+pub(super) enum OriginAxes {
     /// The first body's.
-    Own,
+    FirstBody,
     /// Those of B.
     Hub,
 }
 
-impl Reach {
+impl OriginAxes {
     /// The axes in which fewer operations are needed: the first body's where the first joint slides, and
     /// where there are two rows or more and the next origins, too, are at other places.
-    pub(super) fn of<'g>(chain: &Chain<'g>, based: &Based<'g>) -> Self {
+    pub(super) fn choose<'g>(chain: &Chain<'g>, based: &Based<'g>) -> Self {
         let first = chain.first_moving();
         let slides = matches!(chain.links[first].coordinate, Coordinate::Length(_));
         let rows = chain.links.iter().filter(|link| link.mode.is_some()).count();
         let mut arms = based.links[first + 1..].iter().flat_map(|link| link.origin.components());
         let several = rows > 1 && arms.any(|arm| !arm.is_zero());
-        if slides || several { Self::Own } else { Self::Hub }
+        if slides || several { Self::FirstBody } else { Self::Hub }
     }
 }
 
 /// The vector from B to that origin, given along the device's axes, expressed in the first body's.
-pub(super) fn along_own<'g>(chain: &Chain<'g>, reach: Vector<'g, Carrier>) -> Vector<'g, Own> {
+pub(super) fn in_first_body_axes<'g>(
+    chain: &Chain<'g>,
+    reach: Vector<'g, ParentFrame>,
+) -> Vector<'g, BodyFrame> {
     let first = chain.first_moving();
     let inboard = chain.links[..first].iter();
-    let parent = inboard.fold(reach, |v, link| v.turned::<Own>(link.turn).handed_on());
+    let parent =
+        inboard.fold(reach, |v, link| v.turned::<BodyFrame>(link.turn).relabelled_outboard());
     parent.turned(chain.links[first].turn)
 }

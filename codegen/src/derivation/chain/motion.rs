@@ -1,8 +1,8 @@
 //! Outwards along the chain: angular velocities and paths, by the transport theorem.
 
-use super::chain::Chain;
+use super::Chain;
 use crate::graph::Graph;
-use crate::space::{Carrier, Frame, Hub, Own, Vector};
+use crate::space::{BodyFrame, Frame, Hub, ParentFrame, Vector};
 
 /// The observer: the motion of B in the observer's frame.
 #[derive(Clone, Copy)]
@@ -54,13 +54,13 @@ pub struct Path<'g, F> {
 #[derive(Clone, Copy)]
 pub struct Motion<'g> {
     /// Angular velocity of the body, expressed in its own axes.
-    pub omega: Vector<'g, Own>,
+    pub omega: Vector<'g, BodyFrame>,
     /// Angular velocity of these axes: the same, but for axes that do not turn with the body.
-    pub axes: Vector<'g, Own>,
+    pub axes: Vector<'g, BodyFrame>,
     /// The joint's origin, expressed in the parent body's axes.
-    pub origin: Path<'g, Carrier>,
+    pub origin: Path<'g, ParentFrame>,
     /// The body's centre of mass, expressed in the parent body's axes.
-    pub centre: Path<'g, Carrier>,
+    pub centre: Path<'g, ParentFrame>,
 }
 
 impl<'g, F: Frame> Path<'g, F> {
@@ -87,9 +87,9 @@ impl<'g, F: Frame> Path<'g, F> {
 #[must_use]
 pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>> {
     let zero = Vector::zero(chain.graph);
-    let mut omega = observer.omega.as_carrier();
-    let velocity = observer.velocity.as_carrier();
-    let acceleration = observer.acceleration.as_carrier();
+    let mut omega = observer.omega.as_parent_frame();
+    let velocity = observer.velocity.as_parent_frame();
+    let acceleration = observer.acceleration.as_parent_frame();
     let mut path = Path { position: zero, velocity, acceleration };
     let mut made = Vec::new();
     for link in &chain.links {
@@ -100,8 +100,8 @@ pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>
         let omega_own = carried + link.spin();
         let axes = if link.turn.is_none() { carried } else { omega_own };
         made.push(Motion { omega: omega_own, axes, origin, centre });
-        path = origin.map(|v| v.turned(link.turn).handed_on());
-        omega = axes.handed_on();
+        path = origin.map(|v| v.turned(link.turn).relabelled_outboard());
+        omega = axes.relabelled_outboard();
     }
     made
 }

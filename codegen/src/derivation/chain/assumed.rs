@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Expr, Graph, Stage};
-use crate::space::{Axis, Carrier, Hub, Own, Turn, Vector};
+use crate::space::{Axis, BodyFrame, Hub, ParentFrame, Turn, Vector};
 
 /// What is assumed of a device's parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -146,12 +146,13 @@ impl Exchange {
 
 /// The columns of R.
 fn turned<'g>(graph: &'g Graph, turns: Turns) -> [Vector<'g, Hub>; 3] {
-    let back = |v: Vector<'g, Own>, axis: Axis, name: &str| {
+    let back = |v: Vector<'g, BodyFrame>, axis: Axis, name: &str| {
         let (sin, cos) = graph.constant_angle(name);
-        v.turned(Turn::<Carrier, Own>::about(axis, sin, cos).inverse()).handed_back()
+        v.turned(Turn::<ParentFrame, BodyFrame>::about(axis, sin, cos).inverse())
+            .relabelled_inboard()
     };
     [Axis::X, Axis::Y, Axis::Z].map(|axis| {
-        let v = Vector::<Own>::unit(graph, axis);
+        let v = Vector::<BodyFrame>::unit(graph, axis);
         let v = if turns == Turns::Two { back(v, Axis::Y, "mount_b") } else { v };
         let v = if turns == Turns::None { v } else { back(v, Axis::Z, "mount_a") };
         Vector::new(v.components())

@@ -5,9 +5,9 @@
 //! together, as the proof does, it becomes a number: zero for the hub, k for the body outboard of
 //! joint k.
 
-use super::chain::Chain;
+use super::Chain;
 use crate::graph::Expr;
-use crate::space::{Carrier, Own, Symmetric, Vector};
+use crate::space::{BodyFrame, ParentFrame, Symmetric, Vector};
 
 /// Components and the number of their frame.
 #[derive(Clone, Copy)]
@@ -60,11 +60,11 @@ impl<'g> Placed<'g> {
         match self {
             Self::Scalar(_) => self,
             Self::Vector(v, _) => {
-                let turned = Vector::<Carrier>::new(v).turned(turn);
+                let turned = Vector::<ParentFrame>::new(v).turned(turn);
                 Self::Vector(turned.components(), joint + 1)
             }
             Self::Tensor(t, _) => {
-                let turned = Symmetric::<Carrier>::new(t).turned(turn);
+                let turned = Symmetric::<ParentFrame>::new(t).turned(turn);
                 Self::Tensor(turned.entries(), joint + 1)
             }
         }
@@ -76,11 +76,11 @@ impl<'g> Placed<'g> {
         match self {
             Self::Scalar(_) => self,
             Self::Vector(v, _) => {
-                let turned = Vector::<Own>::new(v).turned(turn);
+                let turned = Vector::<BodyFrame>::new(v).turned(turn);
                 Self::Vector(turned.components(), joint)
             }
             Self::Tensor(t, _) => {
-                let turned = Symmetric::<Own>::new(t).turned(turn);
+                let turned = Symmetric::<BodyFrame>::new(t).turned(turn);
                 Self::Tensor(turned.entries(), joint)
             }
         }
@@ -93,7 +93,7 @@ impl<'g> Placed<'g> {
             Self::Scalar(e) => vec![(String::new(), e)],
             Self::Vector(v, _) => axes.iter().cloned().zip(v).collect(),
             Self::Tensor(t, _) => {
-                let t = Symmetric::<Own>::new(t);
+                let t = Symmetric::<BodyFrame>::new(t);
                 let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
                 places.map(|(i, j)| (format!("{}{}", i + 1, j + 1), t.at(i, j))).collect()
             }

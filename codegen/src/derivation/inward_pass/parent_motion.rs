@@ -4,13 +4,13 @@
 //! the place from there. The hub's own part is the same for all and is added by the solver with the
 //! hub's inertia; here are its rates, expressed in each body's axes.
 
-use super::base::{Based, origin_words};
-use super::chain::{Chain, Coordinate};
-use super::heading::Heading;
-use super::reach::Reach;
-use super::script::{Script, pairs, triple};
+use super::base_parameters::{Based, origin_words};
+use super::first_origin::OriginAxes;
+use crate::derivation::chain::{Chain, Coordinate};
+use crate::derivation::heading::Heading;
+use crate::derivation::script::{Script, pairs, triple};
 use crate::graph::Expr;
-use crate::space::{Frame, Own, Vector};
+use crate::space::{BodyFrame, Frame, Vector};
 
 /// Motion of a joint's parent body, expressed in axes in which the joint's axis is a coordinate
 /// axis.
@@ -57,9 +57,9 @@ impl<'g, F: Frame> ParentMotion<'g, F> {
 pub(super) fn parent_motions<'g>(
     chain: &Chain<'g>,
     based: &Based<'g>,
-    hub: ParentMotion<'g, Own>,
+    hub: ParentMotion<'g, BodyFrame>,
     script: &mut Script<'g>,
-) -> Vec<ParentMotion<'g, Own>> {
+) -> Vec<ParentMotion<'g, BodyFrame>> {
     let mut before = hub;
     let mut list = Vec::new();
     for (k, next) in based.links.iter().enumerate().skip(chain.first_moving() + 1) {
@@ -67,11 +67,11 @@ pub(super) fn parent_motions<'g>(
         let [frame, letter] = [data.body.frame, data.body.letters[0]];
         let spin = link.spin();
         let omega = before.omega + spin;
-        let heading = Heading::of(format!("ω_{{{letter}/N}}")).equation(data.body.equations.omega);
+        let heading = Heading::new(format!("ω_{{{letter}/N}}")).equation(data.body.equations.omega);
         script.section("rate", heading.axes("its own axes").unit("rad/s"));
         script.names(pairs(triple(&format!("omega_{frame}_n"), frame), omega.components()));
         let alpha = before.alpha + before.omega.cross(spin);
-        let heading = Heading::of("Its derivative, no joint accelerating");
+        let heading = Heading::new("Its derivative, no joint accelerating");
         let heading = heading.cited("as in", data.body.equations.h_dot);
         script.section("turn", heading.axes("the same axes").unit("rad/s²"));
         script.names(pairs(triple(&format!("alpha_{frame}"), frame), alpha.components()));
@@ -84,13 +84,17 @@ pub(super) fn parent_motions<'g>(
             }
         };
         let own = ParentMotion { omega, alpha, origin };
-        let place = next.origin.handed_back();
+        let place = next.origin.relabelled_inboard();
         let origin = origin + own.field(place);
         let (outer, body) = (&chain.kind.links[k].body, data.body.title);
-        let heading = Heading::of(format!(
+        let heading = Heading::new(format!(
             "Acceleration of {}, no joint accelerating, without that of B{}",
             origin_words(chain, k),
-            if Reach::of(chain, based) == Reach::Own { "" } else { " and the hub's part" },
+            if OriginAxes::choose(chain, based) == OriginAxes::FirstBody {
+                ""
+            } else {
+                " and the hub's part"
+            },
         ));
         let axes = format!("the axes of the {body}");
         script.section("path", heading.equation("(D5)").axes(axes).unit("m/s²"));
@@ -98,7 +102,7 @@ pub(super) fn parent_motions<'g>(
             .names(pairs(triple(&format!("r_{}_rest", outer.origin), frame), origin.components()));
         let parent = ParentMotion { origin, ..own };
         list.push(parent);
-        let turned = |v: Vector<'g, Own>| v.handed_on().turned(chain.links[k].turn);
+        let turned = |v: Vector<'g, BodyFrame>| v.relabelled_outboard().turned(chain.links[k].turn);
         before = ParentMotion {
             omega: turned(parent.omega),
             alpha: turned(parent.alpha),

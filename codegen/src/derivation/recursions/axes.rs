@@ -1,9 +1,9 @@
 //! Outwards along the chain: origin of each joint and axes of its body, expressed in B.
 
-use super::chain::{Chain, Link};
-use super::heading::Heading;
-use super::script::{Script, pairs, triple};
-use crate::space::{Axis, Carrier, Frame, Hub, Own, Vector, XYZ};
+use crate::derivation::chain::{Chain, Link};
+use crate::derivation::heading::Heading;
+use crate::derivation::script::{Script, pairs, triple};
+use crate::space::{Axis, BodyFrame, Frame, Hub, ParentFrame, Vector, XYZ};
 
 /// Writes the axes of every body and the origin of its joint to `script`.
 pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
@@ -15,12 +15,12 @@ pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let (frame, title) = (data.body.frame, data.body.title);
         let letter = data.body.letters[0];
         let whose = if link.turn.is_none() { "parent body of the " } else { "" };
-        let heading = Heading::of(format!("Axes of the {whose}{title}")).equation("(D1)");
+        let heading = Heading::new(format!("Axes of the {whose}{title}")).equation("(D1)");
         script.section("axis", heading.axes("the device's axes").unit("1"));
         for (column, axis) in here.columns.into_iter().zip(XYZ) {
             script.names(pairs(triple(&format!("{frame}_{axis}"), "b"), column.components()));
         }
-        let heading = Heading::of(format!("{letter} from B")).equation("(D2)");
+        let heading = Heading::new(format!("{letter} from B")).equation("(D2)");
         script.section("pos", heading.axes("the device's axes").unit("m"));
         script.names(pairs(triple(&format!("origin_{frame}"), "b"), here.origin.components()));
     }
@@ -42,7 +42,7 @@ impl<'g> Axes<'g> {
         // All three axes at once, expressed in B: rows of the rotation turn as vectors do.
         let row = |place: usize| {
             let row = self.columns.map(|column| column.components()[place]);
-            Vector::<Carrier>::new(row).turned::<Own>(link.turn).components()
+            Vector::<ParentFrame>::new(row).turned::<BodyFrame>(link.turn).components()
         };
         let rows = [0, 1, 2].map(row);
         let columns = [0, 1, 2].map(|axis| Vector::new(rows.map(|row| row[axis])));

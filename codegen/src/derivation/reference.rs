@@ -1,8 +1,8 @@
 //! Mass matrix, bias and momenta as sums over the bodies, everything expressed in B.
 //!
 //! B's axes do not turn for an observer on B, so primes are plain time derivatives of components
-//! here and no transport theorem is used: an independent derivation of what [`super::motion`],
-//! [`super::composite`] and [`super::inward_pass`] build in local frames. It expands to many terms and
+//! here and no transport theorem is used: an independent derivation of what [`super::chain::motion`],
+//! [`super::recursions::composite`] and [`super::inward_pass`] build in local frames. It expands to many terms and
 //! is never emitted.
 //!
 //! Newton and Euler per body, as in (25), (34), (47), (62) of the paper; the joint rows are the
@@ -10,11 +10,12 @@
 //! joint.
 
 pub mod acting;
+pub mod boltzmann_hamel;
 pub mod exerted;
 pub mod field;
 
 use super::chain::Chain;
-use super::{Momenta, Share};
+use super::share::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::Motion;
 use crate::space::{Frame, Hub, Symmetric, Vector};
@@ -137,7 +138,7 @@ pub fn share<'g>(chain: &Chain<'g>) -> Share<'g> {
         force: vec![zero; joints],
         moment: vec![zero; joints],
         joint: (0..joints).map(|i| vec![graph.zero(); joints - i]).collect(),
-        across: None,
+        perpendicular: None,
         bias_force: zero,
         bias_moment: zero,
         bias_joint: vec![graph.zero(); joints],

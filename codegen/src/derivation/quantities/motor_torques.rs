@@ -4,10 +4,10 @@
 //! joint's origin p is `sum d([I] omega)/dt + (r - p) x m r_ddot_{/N}`. The paper takes it about
 //! A's centre of mass first; those quantities are derived here as well, from their definitions.
 
-use super::angular::Momentum;
-use super::by_body::{BodyInHub, bodies};
-use super::chain::Chain;
-use super::quantities::List;
+use super::List;
+use super::angular_momenta::Momentum;
+use crate::derivation::chain::Chain;
+use crate::derivation::reference::{BodyInHub, bodies};
 use crate::graph::Expr;
 use crate::kinds::Motion;
 use crate::space::{Hub, Vector};
@@ -62,7 +62,7 @@ fn joint<'g>(
     let mut whole_force = zero;
     for (body, data) in behind.iter().zip(&chain.kind.links[k..]) {
         let (frame, point) = (data.body.frame, data.body.point);
-        let of_body = Momentum::of(body, omega);
+        let of_body = Momentum::of_body(body, omega);
         let arm = body.r - r_ac_b;
         let arm_ddot = arm.prime(omega).prime(omega);
         let h_dot = of_body.h_c_dot + body.mass * arm.cross(arm_ddot);

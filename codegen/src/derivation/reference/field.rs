@@ -1,9 +1,9 @@
 //! A field of acceleration `G r` on every body, by its centre of mass and its second moment.
 
-use super::super::chain::Chain;
-use super::super::gravity::gradient;
-use super::super::wrench::Wrench;
 use super::{BodyInHub, bodies};
+use crate::derivation::chain::Chain;
+use crate::derivation::chain::wrench::Wrench;
+use crate::derivation::recursions::gravity::gradient;
 use crate::graph::Expr;
 use crate::space::{Axis, Hub, Symmetric, Vector};
 

@@ -1,10 +1,10 @@
 //! A force with its moment, expressed in the current axes, about the current origin.
 
-use super::chain::{Chain, Coordinate, Link};
 use super::placed::Placed;
-use super::script::{pairs, triple};
+use super::{Chain, Coordinate, Link};
+use crate::derivation::script::{pairs, triple};
 use crate::graph::{Expr, Graph};
-use crate::space::{Frame, Hub, Own, Vector};
+use crate::space::{BodyFrame, Frame, Hub, Vector};
 
 /// A force and its moment about the current origin.
 #[derive(Clone, Copy)]
@@ -39,13 +39,13 @@ impl<'g, F: Frame> Wrench<'g, F> {
     }
 }
 
-impl<'g> Wrench<'g, Own> {
+impl<'g> Wrench<'g, BodyFrame> {
     /// Expressed in the parent body's axes, about its origin.
     #[must_use]
-    pub fn carried(self, link: &Link<'g>) -> Self {
+    pub fn in_parent_frame(self, link: &Link<'g>) -> Self {
         let force = self.force.turned(link.turn.inverse());
         let moment = self.moment.turned(link.turn.inverse()) + link.origin.cross(force);
-        Self { force: force.handed_back(), moment: moment.handed_back() }
+        Self { force: force.relabelled_inboard(), moment: moment.relabelled_inboard() }
     }
 
     /// Its component along the joint: the moment about its axis, or the force along it.
@@ -60,7 +60,7 @@ impl<'g> Wrench<'g, Own> {
     /// Of the body outboard of joint k: expressed in B, about the same origin.
     #[must_use]
     pub fn along_b(self, chain: &Chain<'g>, k: usize) -> Wrench<'g, Hub> {
-        let along = |v: Vector<'g, Own>| resolved(v.components(), k + 1, chain, 0);
+        let along = |v: Vector<'g, BodyFrame>| resolved(v.components(), k + 1, chain, 0);
         Wrench { force: along(self.force), moment: along(self.moment) }
     }
 }
@@ -69,7 +69,7 @@ impl<'g> Wrench<'g, Hub> {
     /// Expressed in frame `target`, zero for the hub, k for that outboard of joint k; about the
     /// same origin.
     #[must_use]
-    pub fn resolved(self, chain: &Chain<'g>, target: usize) -> Wrench<'g, Own> {
+    pub fn resolved(self, chain: &Chain<'g>, target: usize) -> Wrench<'g, BodyFrame> {
         let along = |v: Vector<'g, Hub>| resolved(v.components(), 0, chain, target);
         Wrench { force: along(self.force), moment: along(self.moment) }
     }
