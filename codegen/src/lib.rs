@@ -2,18 +2,18 @@
 
 pub mod derivation;
 pub mod emit;
+mod external_kind;
 pub mod graph;
 pub mod kernel;
 pub mod kinds;
 pub mod normal;
-mod outside;
 pub mod page;
 pub mod proof;
 pub mod space;
 pub mod threads;
 pub mod unit;
 
-pub use outside::{emit_kind, prove_kind};
+pub use external_kind::{emit_kind, prove_kind};
 
 /// The page whose Rust blocks are compiled and run as documentation tests.
 #[cfg(doctest)]

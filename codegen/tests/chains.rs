@@ -9,7 +9,7 @@ use precess_codegen::kinds::{
     Body, Centre, HINGED_PANEL, Inertia, Joint, Kind, Link, Motion, REACTION_WHEEL, SLOSH_MASS,
     Triple, VSCMG,
 };
-use precess_codegen::proof::{Prover, Row, prove_kind};
+use precess_codegen::proof::{Comparison, Prover, prove_kind};
 use precess_codegen::space::Axis;
 
 const PANEL: Link = HINGED_PANEL.links[0];
@@ -78,7 +78,8 @@ fn any_chain_of_joints_is_derived_emitted_and_proven() {
         let graph = Graph::new();
         let chain = Chain::new(&graph, kind);
         let rows = prove_kind(&chain, &emitted(&chain)).unwrap();
-        let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).map(Row::to_string).collect();
+        let failed: Vec<_> =
+            rows.iter().filter(|row| !row.holds()).map(Comparison::to_string).collect();
         assert!(failed.is_empty(), "{}:\n{}", kind.name, failed.join("\n"));
         assert!(rows.len() > 30, "{}: {} rows", kind.name, rows.len());
     }
@@ -118,7 +119,8 @@ fn assert_proven(kind: &'static Kind) {
     let graph = Graph::new();
     let chain = Chain::new(&graph, kind);
     let rows = prove_kind(&chain, &emitted(&chain)).unwrap();
-    let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).map(Row::to_string).collect();
+    let failed: Vec<_> =
+        rows.iter().filter(|row| !row.holds()).map(Comparison::to_string).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));
     assert!(rows.len() > 150, "{} rows", rows.len());
 }

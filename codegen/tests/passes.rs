@@ -3,7 +3,7 @@
 
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::chain::passes::Passes;
-use precess_codegen::emit::{Home, of_kind};
+use precess_codegen::emit::{TargetCrate, of_kind};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{
     BALANCED_VSCMG, DGVSCMG, HINGED_PANEL, Kind, REACTION_WHEEL, SLOSH_MASS, VSCMG,
@@ -14,7 +14,7 @@ use precess_codegen::proof::prove_kind;
 fn holds(kind: &'static Kind, passes: Passes) {
     let graph = Graph::new();
     let chain = Chain::after(&graph, kind, passes);
-    let emitted = of_kind(&chain, Home::Dynamics).unwrap();
+    let emitted = of_kind(&chain, TargetCrate::Dynamics).unwrap();
     let rows = prove_kind(&chain, &emitted.files).unwrap();
     assert!(rows.len() > 50, "{} has {} rows", kind.name, rows.len());
     if let Some(row) = rows.iter().find(|row| !row.holds()) {

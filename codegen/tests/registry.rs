@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use precess_codegen::derivation::chain::Chain;
-use precess_codegen::emit::{Home, of_kind, shared};
+use precess_codegen::emit::{TargetCrate, of_kind, shared};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{Entry, Kind, Link, REGISTRY};
 use precess_codegen::space::Axis;
@@ -109,7 +109,7 @@ fn c_gives_each_kind_its_number_and_no_other() {
 fn kind_added_to_the_registry_is_in_every_emitted_list() {
     let (registry, added) = extended();
     let graph = Graph::new();
-    let emitted = of_kind(&Chain::new(&graph, added.kind), Home::Dynamics).unwrap();
+    let emitted = of_kind(&Chain::new(&graph, added.kind), TargetCrate::Dynamics).unwrap();
     let files = shared(&registry, &[emitted]).unwrap();
     let text = |end: &str| &files.iter().find(|file| file.path.ends_with(end)).unwrap().text;
     let (list, operations) = (text("mod.rs"), text("operations.md"));

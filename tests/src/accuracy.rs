@@ -22,7 +22,7 @@ use crate::blocks::{Figures, largest};
 use crate::case::{Case, Set};
 use crate::double_double::DoubleDouble as Wide;
 use drawn::Drawn;
-use kinds::Whole;
+use kinds::RandomDgvscmg;
 
 /// How many seeded spacecraft are measured at each distance: every number of devices fifty times.
 pub const SPACECRAFT: u64 = 450;
@@ -43,7 +43,7 @@ pub struct Errors {
 
 impl Errors {
     /// The errors of accelerations in `f64`; a block of the joints is one joint of every device.
-    fn of<A: Kind<Scalar = f64>, B: Kind<Scalar = Wide>>(
+    fn between<A: Kind<Scalar = f64>, B: Kind<Scalar = Wide>>(
         found: &Accelerations<Vec<A>>,
         expected: &Accelerations<Vec<B>>,
     ) -> Self {
@@ -71,7 +71,7 @@ fn block(found: &[f64], expected: &[Wide]) -> f64 {
 
 /// What was measured at one distance, over many spacecraft.
 #[derive(Clone, Debug, Default)]
-pub struct Row {
+pub struct AccuracyAtDistance {
     /// The distance, rad or m.
     pub distance: f64,
     /// Of each spacecraft that is solved, its worst block.
@@ -88,7 +88,7 @@ pub struct Row {
     pub rejected: usize,
 }
 
-impl Row {
+impl AccuracyAtDistance {
     /// Nothing measured yet.
     fn new(distance: f64) -> Self {
         Self { distance, ..Self::default() }
@@ -114,7 +114,7 @@ impl Row {
             Err(error) => panic!("{whose}: {error}"),
         };
         let expected = expected().unwrap_or_else(|error| panic!("{whose}, double-double: {error}"));
-        let errors = Errors::of(&found, &expected);
+        let errors = Errors::between(&found, &expected);
         self.solved += 1;
         self.r_b_n_ddot.add(errors.r_b_n_ddot);
         self.omega_dot.add(errors.omega_dot);
@@ -130,7 +130,7 @@ impl Row {
 /// If the solver gives an error, naming the case.
 #[must_use]
 pub fn reference<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
-    let found = Drawn::new(case).solved::<Whole>(whose);
+    let found = Drawn::new(case).solved::<RandomDgvscmg>(whose);
     let found = found.unwrap_or_else(|error| panic!("{whose}, double-double: {error}"));
     Accelerations {
         r_b_n_ddot: found.r_b_n_ddot,

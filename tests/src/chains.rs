@@ -175,7 +175,7 @@ impl<T: Scalar> Craft<T> {
         for (&k, value) in free.iter().zip(elimination::solve(rows, right)?) {
             found[k] = value;
         }
-        Some(Motion::of(&found))
+        Some(Motion::from_accelerations(&found))
     }
 
     /// What accelerations need: inverse dynamics.
@@ -204,7 +204,8 @@ impl<T: Scalar> Craft<T> {
 
     /// What accelerations need beyond what there is: on the hub, then of each motor.
     fn missing(&self, accelerations: &[T], with: With) -> Vec<T> {
-        let Needed { hub, motors, .. } = self.weighed(&Motion::of(accelerations), with);
+        let Needed { hub, motors, .. } =
+            self.weighed(&Motion::from_accelerations(accelerations), with);
         let links = self.chains.iter().flat_map(|chain| &chain.links);
         let joints = motors.into_iter().zip(links).map(|(needed, link)| match with {
             With::RatesAndForces => needed - link.motor,
@@ -243,7 +244,7 @@ impl<T: Scalar> Craft<T> {
 }
 
 impl<T: Scalar> Motion<T> {
-    fn of(accelerations: &[T]) -> Self {
+    fn from_accelerations(accelerations: &[T]) -> Self {
         let three = |first: usize| Vector(core::array::from_fn(|k| accelerations[first + k]));
         let joints = accelerations[6..].to_vec();
         Self { r_b_n_ddot: three(0), omega_dot: three(3), joints }

@@ -140,7 +140,7 @@ impl Sample {
         }
     }
 
-    fn of(steps: u32, state: &State<Set, Mrp>) -> Self {
+    fn from_state(steps: u32, state: &State<Set, Mrp>) -> Self {
         Self {
             steps,
             position: state.r_b_n.into(),
@@ -232,7 +232,7 @@ impl Stored {
                 state = spacecraft.step(&state, &inputs, self.step)?;
                 made += 1;
             }
-            found.push(Sample::of(made, &state));
+            found.push(Sample::from_state(made, &state));
         }
         Ok(found)
     }

@@ -22,7 +22,7 @@ const LANES: [&str; 4] = ["precess-attack", "precess-counts", "precess-lanes", "
 
 impl Members {
     /// The group of a package: that of the solver's suites depends on whether everything is tested.
-    pub(crate) fn of(package: &str, everything: bool) -> Self {
+    pub(crate) fn of_package(package: &str, everything: bool) -> Self {
         let in_lanes = LANES.contains(&package) || (everything && SOLVER.contains(&package));
         if in_lanes { Self::InLanes } else { Self::Plain }
     }

@@ -22,7 +22,7 @@ pub(crate) const DISTRIBUTE: Program =
 
 impl Program {
     /// The program with this command.
-    pub(crate) fn of(command: &str) -> Option<Self> {
+    pub(crate) fn of_command(command: &str) -> Option<Self> {
         match command {
             "regen" | "bake" | "mutate" => Some(DERIVE),
             "flight" | "dist" | "python" => Some(DISTRIBUTE),
@@ -32,7 +32,7 @@ impl Program {
 
     /// Whether a command is its own, or starts one of its own.
     pub(crate) fn is_needed_by(self, command: &str) -> bool {
-        Self::of(command) == Some(self) || (self == DERIVE && command == "demo")
+        Self::of_command(command) == Some(self) || (self == DERIVE && command == "demo")
     }
 
     /// Builds it; what rustc takes is noted in a file, if there is one.

@@ -154,7 +154,7 @@ fn number(
         device.body.get(k)?.locked_at
     };
     Some(match source {
-        Source::Place(place) => place.value(device),
+        Source::Location(place) => place.value(device),
         Source::Mount(row, column) => *device.mount.get(row)?.get(column)?,
         Source::Turn("sin_a") => turned?.sin_a,
         Source::Turn("cos_a") => turned?.cos_a,

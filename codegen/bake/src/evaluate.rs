@@ -113,15 +113,17 @@ fn shown(tokens: &impl ToTokens) -> String {
 mod tests {
     use super::*;
 
-    fn of(text: &str) -> Result<Vec<(String, f64)>, BakeError> {
+    fn evaluated(text: &str) -> Result<Vec<(String, f64)>, BakeError> {
         let p = [("a".to_owned(), 0.1), ("b".to_owned(), 0.2)].into();
         evaluate(&syn::parse_file(text).unwrap(), "f", &p)
     }
 
     #[test]
     fn each_operation_is_rounded_by_itself() {
-        let found = of("fn f() -> R { let x = -(p.a + p.b) * p.a; let y = x + p.b * p.b; \
-                        R { y, z: y.like(0.5).recip(), w: x - y } }");
+        let found = evaluated(
+            "fn f() -> R { let x = -(p.a + p.b) * p.a; let y = x + p.b * p.b; \
+                        R { y, z: y.like(0.5).recip(), w: x - y } }",
+        );
         let x = -(0.1 + 0.2) * 0.1;
         let y = x + 0.2 * 0.2;
         let names = ["y", "z", "w"].map(str::to_owned);
@@ -134,7 +136,7 @@ mod tests {
         for text in
             ["fn f() -> R { R { x: p.a / p.b } }", "fn f() -> R { R { x: p.c } }", "fn g() {}"]
         {
-            assert!(matches!(of(text), Err(BakeError::Statement(..))), "{text}");
+            assert!(matches!(evaluated(text), Err(BakeError::Statement(..))), "{text}");
         }
     }
 }

@@ -26,13 +26,13 @@ mod reference;
 mod rust;
 mod shape;
 mod sources;
+mod spacecraft;
 mod templates;
 mod test_values;
 mod values;
-mod whole;
 
 use precess_codegen::emit::EmittedFile;
-use precess_codegen::proof::Row;
+use precess_codegen::proof::Comparison;
 pub use precess_description::Description;
 
 pub use error::BakeError;
@@ -44,7 +44,7 @@ pub struct Baked {
     /// The files, by paths from the folder that they are for.
     pub files: Vec<EmittedFile>,
     /// One row for each claim.
-    pub proof: Vec<Row>,
+    pub proof: Vec<Comparison>,
     /// What is assumed, a line for each.
     pub assumptions: Vec<String>,
     /// Operations of an evaluation.
@@ -60,14 +60,15 @@ pub fn bake(description: &Description, options: Options) -> Result<Baked, BakeEr
     let shapes = shape::shapes(description)?;
     let derived = shapes.iter().map(|shape| shape.derived(options));
     let derived: Vec<_> = derived.collect::<Result<_, _>>()?;
-    let proof: Vec<Row> =
+    let proof: Vec<Comparison> =
         derived.iter().flat_map(|derived| derived.proof.iter().cloned()).collect();
     if let Some(row) = proof.iter().find(|row| !row.holds()) {
         return Err(BakeError::NotProven(row.to_string()));
     }
     let operations = shape::operations(&shapes, &derived)?;
     let assumptions = shapes.iter().flat_map(shape::Shape::assumptions).collect();
-    let mut whole = whole::whole(description, &shapes, &derived, operations, options.constants);
+    let mut whole =
+        spacecraft::context(description, &shapes, &derived, operations, options.constants);
     if options.constants {
         constants::fold(description, &shapes, &derived, &mut whole)?;
     }

@@ -13,7 +13,7 @@ use crate::error::BakeError;
 
 /// Where a number stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum ParameterLocation {
     /// Mass of a body.
     Mass(usize),
     /// Component of the origin of a joint; of the first one along the device's axes.
@@ -28,16 +28,16 @@ pub(crate) enum Place {
 #[derive(Clone, Debug)]
 pub(crate) struct Parameter {
     pub(crate) name: String,
-    pub(crate) place: Place,
+    pub(crate) place: ParameterLocation,
 }
 
 /// What a kind says of its bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Fixed {
     /// The number there is zero.
-    Zero(Place),
+    Zero(ParameterLocation),
     /// The two are equal.
-    Equal(Place, Place),
+    Equal(ParameterLocation, ParameterLocation),
 }
 
 /// Every parameter of a kind but the mount, in the order of its record.
@@ -47,24 +47,24 @@ pub(crate) fn parameters(kind: &Kind) -> Vec<Parameter> {
         let (joint, body) = (&link.joint, &link.body);
         let mut push = |name: &str, place| list.push(Parameter { name: name.to_owned(), place });
         for (c, name) in joint.place().into_iter().flat_map(|place| place.names).enumerate() {
-            push(name, Place::Origin(k, c));
+            push(name, ParameterLocation::Origin(k, c));
         }
         match body.centre {
             Centre::Free(triple) => {
                 for (c, name) in triple.names.into_iter().enumerate() {
-                    push(name, Place::Centre(k, c));
+                    push(name, ParameterLocation::Centre(k, c));
                 }
             }
-            Centre::On(axis, name) => push(name, Place::Centre(k, index(axis))),
+            Centre::On(axis, name) => push(name, ParameterLocation::Centre(k, index(axis))),
             Centre::At => {}
         }
-        body.mass.into_iter().for_each(|mass| push(mass, Place::Mass(k)));
+        body.mass.into_iter().for_each(|mass| push(mass, ParameterLocation::Mass(k)));
         let names = body.inertia.names();
         for (entry, name) in names.iter().enumerate() {
             let first = names[..entry].iter().all(|other| other != name);
             if let Some(name) = name.as_ref().filter(|_| first) {
                 let (row, column) = ENTRIES[entry];
-                push(name, Place::Inertia(k, row, column));
+                push(name, ParameterLocation::Inertia(k, row, column));
             }
         }
     }
@@ -80,14 +80,17 @@ pub(crate) fn fixed(kind: &Kind) -> Vec<Fixed> {
             Centre::On(axis, _) => vec![index(axis)],
             Centre::At => Vec::new(),
         };
-        let centre = (0..3).filter(|c| !kept.contains(c)).map(|c| Fixed::Zero(Place::Centre(k, c)));
+        let centre = (0..3)
+            .filter(|c| !kept.contains(c))
+            .map(|c| Fixed::Zero(ParameterLocation::Centre(k, c)));
         list.extend(centre);
         let origin = (0..3).filter(|_| link.joint.place().is_none());
-        list.extend(origin.map(|c| Fixed::Zero(Place::Origin(k, c))));
-        list.extend(link.body.mass.is_none().then_some(Fixed::Zero(Place::Mass(k))));
+        list.extend(origin.map(|c| Fixed::Zero(ParameterLocation::Origin(k, c))));
+        list.extend(link.body.mass.is_none().then_some(Fixed::Zero(ParameterLocation::Mass(k))));
         let names = link.body.inertia.names();
         for (entry, name) in names.iter().enumerate() {
-            let place = |entry: usize| Place::Inertia(k, ENTRIES[entry].0, ENTRIES[entry].1);
+            let place =
+                |entry: usize| ParameterLocation::Inertia(k, ENTRIES[entry].0, ENTRIES[entry].1);
             let same = names[..entry].iter().position(|other| other == name);
             match (name, same) {
                 (None, _) => list.push(Fixed::Zero(place(entry))),
@@ -106,7 +109,7 @@ fn index(axis: Axis) -> usize {
     axis.cycle()[0]
 }
 
-impl Place {
+impl ParameterLocation {
     /// The number there.
     pub(crate) fn value(self, device: &Device) -> f64 {
         match self {
@@ -153,7 +156,7 @@ impl Place {
 }
 
 /// As a reader of the description finds it: `body 2: inertia, entry 23`.
-impl fmt::Display for Place {
+impl fmt::Display for ParameterLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "body {}: ", self.body() + 1)?;
         match self {

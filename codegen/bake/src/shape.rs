@@ -5,11 +5,11 @@
 
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::chain::assumed::{Assumed, Exchange, Mount, Turns};
-use precess_codegen::emit::{Alone, alone};
+use precess_codegen::emit::{StandaloneKernels, standalone_kernels};
 use precess_codegen::graph::Graph;
 use precess_codegen::kernel::{Record, parameters_of};
 use precess_codegen::kinds::{KINDS, Kind, Link};
-use precess_codegen::proof::{Row, prove_assumed};
+use precess_codegen::proof::{Comparison, prove_assumed};
 use precess_description::{Body, Description, Device};
 use serde::Serialize;
 
@@ -33,10 +33,10 @@ pub(crate) struct Shape<'a> {
 
 /// What is emitted and shown of a shape.
 pub(crate) struct Derived {
-    pub(crate) emitted: Alone,
+    pub(crate) emitted: StandaloneKernels,
     /// What is left of the parameters.
     pub(crate) parameters: Record,
-    pub(crate) proof: Vec<Row>,
+    pub(crate) proof: Vec<Comparison>,
 }
 
 /// Modules of every emitted crate, fields of its records and locals of its functions.
@@ -198,7 +198,7 @@ impl Shape<'_> {
     pub(crate) fn derived(&self, options: Options) -> Result<Derived, BakeError> {
         let graph = Graph::new();
         let chain = Chain::assuming(&graph, self.kind, self.assumed.clone());
-        let mut emitted = alone(&chain, COMMAND)?;
+        let mut emitted = standalone_kernels(&chain, COMMAND)?;
         // A module of a rigid shape is for the tests as a whole.
         if options.constants && options.language == Language::Rust && !self.is_rigid() {
             emitted.file.text = only_tested(&emitted.file.text);
@@ -256,7 +256,7 @@ pub(crate) fn operations(
         let own: usize = own.map(|(.., count)| count).sum();
         let graph = Graph::new();
         let whole = Chain::assuming(&graph, shape.general, Assumed::default());
-        let whole = alone(&whole, COMMAND)?.functions;
+        let whole = standalone_kernels(&whole, COMMAND)?.functions;
         let whole = whole.iter().filter(|(name, ..)| evaluated(name));
         let whole: usize = whole.map(|(.., count)| count).sum();
         if !shape.is_rigid() {

@@ -2,13 +2,13 @@
 
 use precess_codegen::kinds::{Kind, Link, Motion};
 
-use crate::parameters::{Place, parameters};
+use crate::parameters::{ParameterLocation, parameters};
 
 /// Where a parameter of `prepare` comes from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Source {
     /// A number of a body.
-    Place(Place),
+    Location(ParameterLocation),
     /// Row and column of the mount.
     Mount(usize, usize),
     /// Sine or cosine of a turn that the mount is made of.
@@ -32,7 +32,7 @@ const TURNS: [(&str, &str); 4] = [
 /// The source of the parameter `name` of a kind.
 pub(crate) fn source(kind: &Kind, name: &str) -> Option<Source> {
     if let Some(parameter) = parameters(kind).iter().find(|parameter| parameter.name == name) {
-        return Some(Source::Place(parameter.place));
+        return Some(Source::Location(parameter.place));
     }
     if let Some((_, field)) = TURNS.iter().find(|(turn, _)| *turn == name) {
         return Some(Source::Turn(field));
@@ -56,7 +56,7 @@ impl Source {
     /// As the emitted constructor writes it.
     pub(crate) fn written(self) -> String {
         match self {
-            Self::Place(place) => written(place),
+            Self::Location(place) => written(place),
             Self::Mount(row, column) => format!("m[{row}][{column}]"),
             Self::Turn(field) => format!("turned.{field}"),
             Self::Sine(link) => format!("sin_{}", link.joint.coordinate),
@@ -67,12 +67,12 @@ impl Source {
 }
 
 /// How a place is written.
-pub(crate) fn written(place: Place) -> String {
+pub(crate) fn written(place: ParameterLocation) -> String {
     match place {
-        Place::Mass(k) => format!("b[{k}].mass"),
-        Place::Origin(0, c) => format!("origin[{c}]"),
-        Place::Origin(k, c) => format!("b[{k}].origin[{c}]"),
-        Place::Centre(k, c) => format!("b[{k}].centre_of_mass[{c}]"),
-        Place::Inertia(k, row, column) => format!("b[{k}].inertia[{row}][{column}]"),
+        ParameterLocation::Mass(k) => format!("b[{k}].mass"),
+        ParameterLocation::Origin(0, c) => format!("origin[{c}]"),
+        ParameterLocation::Origin(k, c) => format!("b[{k}].origin[{c}]"),
+        ParameterLocation::Centre(k, c) => format!("b[{k}].centre_of_mass[{c}]"),
+        ParameterLocation::Inertia(k, row, column) => format!("b[{k}].inertia[{row}][{column}]"),
     }
 }

@@ -6,7 +6,7 @@ use tera::Context;
 
 use crate::error::BakeError;
 use crate::numbers::{float, list, matrix, vector};
-use crate::parameters::{Parameter, Place, parameters};
+use crate::parameters::{Parameter, ParameterLocation, parameters};
 use crate::reference::{Case, JointCase, cases};
 use crate::shape::Shape;
 use crate::sources::written;
@@ -203,23 +203,23 @@ fn case_text(case: &Case, name: &'static str, shapes: &[Shape<'_>], upper: &str)
 fn broken(shape: &Shape<'_>) -> Option<Broken> {
     let list = parameters(shape.general);
     let zero = |parameter: &&Parameter| {
-        let along_b = matches!(parameter.place, Place::Origin(0, _));
+        let along_b = matches!(parameter.place, ParameterLocation::Origin(0, _));
         shape.assumed.zero.contains(&parameter.name) && !along_b
     };
     let parameter = list.iter().find(zero)?;
     let place = written(parameter.place);
     let scale = match parameter.place {
         // Well above the bound, and far below what the body has.
-        Place::Inertia(..) => float(1e-12 * parameter.place.scale(shape.devices[0])),
+        ParameterLocation::Inertia(..) => float(1e-12 * parameter.place.scale(shape.devices[0])),
         _ => "1e-12".to_owned(),
     };
     let module = shape.kind.name;
     // An inertia stays symmetric.
     let mut change = format!("{place} = {scale};");
-    if let Place::Inertia(k, row, column) = parameter.place
+    if let ParameterLocation::Inertia(k, row, column) = parameter.place
         && row != column
     {
-        let other = written(Place::Inertia(k, column, row));
+        let other = written(ParameterLocation::Inertia(k, column, row));
         change = format!("{change} {other} = {scale};");
     }
     Some(Broken {

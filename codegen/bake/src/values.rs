@@ -7,7 +7,7 @@ use serde::Serialize;
 use tera::Context;
 
 use crate::numbers::array;
-use crate::parameters::{Fixed, Parameter, Place, fixed, parameters};
+use crate::parameters::{Fixed, Parameter, ParameterLocation, fixed, parameters};
 use crate::records_c::parts_c;
 use crate::shape::{Derived, Shape};
 use crate::sources::{source, written};
@@ -71,11 +71,11 @@ fn joint(link: &Link) -> JointText {
 }
 
 /// How its scale is written.
-fn scale(place: Place) -> String {
+fn scale(place: ParameterLocation) -> String {
     match place {
-        Place::Mass(k) => format!("b[{k}].mass"),
-        Place::Origin(..) | Place::Centre(..) => "length".to_owned(),
-        Place::Inertia(k, ..) => format!("trace(&b[{k}].inertia)"),
+        ParameterLocation::Mass(k) => format!("b[{k}].mass"),
+        ParameterLocation::Origin(..) | ParameterLocation::Centre(..) => "length".to_owned(),
+        ParameterLocation::Inertia(k, ..) => format!("trace(&b[{k}].inertia)"),
     }
 }
 

@@ -58,7 +58,8 @@ fn every_claim_is_proven_and_operations_are_few() {
     for (name, percent) in MISSIONS {
         let baked = baked(&description(name));
         assert!(
-            baked.proof.len() > 25 && baked.proof.iter().all(precess_codegen::proof::Row::holds)
+            baked.proof.len() > 25
+                && baked.proof.iter().all(precess_codegen::proof::Comparison::holds)
         );
         let of_general = baked.proof.iter().filter(|row| row.claim.contains("substituted"));
         assert!(of_general.count() >= 8, "{name} is not held against the general kind");

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::chain::assumed::{Assumed, Exchange, Mount, Turns};
-use precess_codegen::emit::{EmittedFile, alone};
+use precess_codegen::emit::{EmittedFile, standalone_kernels};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{DGVSCMG, Kind, Link};
 use precess_codegen::proof::prove_assumed;
@@ -63,7 +63,7 @@ fn every_mutant_fails_a_claim() {
     let (kind, assumed) = device();
     let emitted = {
         let graph = Graph::new();
-        alone(&Chain::assuming(&graph, kind, assumed.clone()), "precess bake").unwrap()
+        standalone_kernels(&Chain::assuming(&graph, kind, assumed.clone()), "precess bake").unwrap()
     };
     let text = &emitted.file.text;
     let holds = |text: String| {
@@ -71,7 +71,7 @@ fn every_mutant_fails_a_claim() {
         let chain = Chain::assuming(&graph, kind, assumed.clone());
         let file = EmittedFile { path: emitted.file.path.clone(), text };
         prove_assumed(&chain, &DGVSCMG, &[file])
-            .is_ok_and(|rows| rows.iter().all(precess_codegen::proof::Row::holds))
+            .is_ok_and(|rows| rows.iter().all(precess_codegen::proof::Comparison::holds))
     };
     assert!(holds(text.clone()), "the text itself is not proven");
     let mutants = mutants(text);

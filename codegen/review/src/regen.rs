@@ -7,12 +7,12 @@ use crate::report::{self, KindText, ReportError};
 use crate::verdict::{JudgementError, VerdictError, Verdicts, verdicts};
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::derivation::quantities::quantities;
-use precess_codegen::emit::{self, EmitError, Emitted, EmittedFile, Home, shared};
+use precess_codegen::emit::{self, EmitError, Emitted, EmittedFile, TargetCrate, shared};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{DGVSCMG, KINDS, Kind, REGISTRY};
 use precess_codegen::normal::Ring;
 use precess_codegen::page::{Page, PageError, read};
-use precess_codegen::proof::{EmittedError, KernelPages, Row, against_pages, prove_kind};
+use precess_codegen::proof::{Comparison, EmittedError, KernelPages, against_pages, prove_kind};
 use precess_codegen::threads::{joined, side_by_side};
 
 /// The hand-checked pages, and what is printed.
@@ -34,7 +34,7 @@ pub struct Regeneration {
     /// The files, by path from the repository's root.
     pub files: Vec<EmittedFile>,
     /// The proofs.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Comparison>,
     /// What is said of each equation as it is printed; nothing when a proof before it fails.
     pub verdicts: Verdicts,
 }
@@ -43,7 +43,7 @@ impl Regeneration {
     /// Whether every row is a proof.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.rows.iter().all(Row::holds)
+        self.rows.iter().all(Comparison::holds)
     }
 }
 
@@ -137,7 +137,7 @@ pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
     let mut files: Vec<_> = files.collect();
     // The print is judged by pages that hold, and documents state nothing else: what was found
     // meanwhile is worth nothing where a proof fails.
-    if !rows.iter().all(Row::holds) {
+    if !rows.iter().all(Comparison::holds) {
         return Ok(Regeneration { files, rows, verdicts: Verdicts::default() });
     }
     let verdicts = verdicts?;
@@ -152,16 +152,16 @@ pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
 struct Proven {
     files: Emitted,
     text: KindText,
-    rows: Vec<Row>,
+    rows: Vec<Comparison>,
 }
 
 /// One kind, from its derivation to its proofs.
 fn of_kind(kind: &'static Kind) -> Result<Proven, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, kind);
-    let files = emit::of_kind(&chain, Home::Dynamics)?;
+    let files = emit::of_kind(&chain, TargetCrate::Dynamics)?;
     let rows = prove_kind(&chain, &files.files)?;
-    Ok(Proven { text: KindText::of(&chain, &files), files, rows })
+    Ok(Proven { text: KindText::of_chain(&chain, &files), files, rows })
 }
 
 /// The documents that print what was derived.
@@ -176,19 +176,19 @@ pub fn documents(pages: &[Page]) -> Result<Vec<EmittedFile>, RegenError> {
 }
 
 /// Compares the pages with the derivation; they are of one kind only.
-fn prove_pages(pages: &[Page]) -> Result<Vec<Row>, RegenError> {
+fn prove_pages(pages: &[Page]) -> Result<Vec<Comparison>, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     let equations = read(&graph, pages)?;
     let rows = against_pages(&mut Ring::new(&graph), &chain, &quantities(&chain), &equations);
-    Ok(rows.into_iter().map(|row| row.of(&DGVSCMG)).collect())
+    Ok(rows.into_iter().map(|row| row.about(&DGVSCMG)).collect())
 }
 
 /// Compares the pages of our own equations with the kernels that rest on them.
-fn prove_kernel_pages(pages: &Pages) -> Result<Vec<Row>, RegenError> {
+fn prove_kernel_pages(pages: &Pages) -> Result<Vec<Comparison>, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     let mut rows = KernelPages::composites(&chain, &pages.paper, &pages.kernels)?.rows();
     rows.extend(KernelPages::elimination(&chain, &pages.elimination)?.rows());
-    Ok(rows.into_iter().map(|row| row.of(&DGVSCMG)).collect())
+    Ok(rows.into_iter().map(|row| row.about(&DGVSCMG)).collect())
 }

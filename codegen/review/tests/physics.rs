@@ -3,8 +3,8 @@
 
 use precess_codegen::kinds::{DGVSCMG, KINDS};
 use precess_review::mutation::{
-    Computed, EngineError, Engines, Fate, Kind, Law, Mutant, MutationError, NOTICED, Outcome,
-    Report, Selection, mutate, mutate_all,
+    Computed, EngineError, Engines, Kind, Law, Mutant, MutantStatus, MutationError, NOTICED,
+    Outcome, Report, Selection, mutate, mutate_all,
 };
 use precess_review::report::mutation;
 use serde_json::Value;
@@ -75,7 +75,7 @@ fn every_kind_of_check_kills_by_itself() {
     let report = run(&Selection { kernel: Some("back_substitute"), every: 5 }).unwrap();
     let total = report.total();
     assert_eq!(total.killed, [total.mutants; 3]);
-    assert!(report.outcomes.iter().all(|outcome| outcome.fate == Fate::Killed));
+    assert!(report.outcomes.iter().all(|outcome| outcome.status == MutantStatus::Killed));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use folder::pages;
 use precess_codegen::normal::Term;
 use precess_codegen::page::Page;
-use precess_codegen::proof::{Row, Verdict};
+use precess_codegen::proof::{Comparison, Verdict};
 use precess_review::verdict::{Counts, HandChecked, JudgementError, Printed, Verdicts, verdicts};
 
 #[test]
@@ -117,7 +117,7 @@ fn with(right: &str, wrong: &str) -> Result<Verdicts, JudgementError> {
     verdicts(&hand_checked, &printed)
 }
 
-fn failed(verdicts: Verdicts) -> Vec<Row> {
+fn failed(verdicts: Verdicts) -> Vec<Comparison> {
     verdicts.rows.into_iter().filter(|row| !row.holds()).collect()
 }
 

@@ -16,7 +16,7 @@ use super::device_items::{Items, set};
 use super::device_parameters::{Parameter, parameters};
 use super::error::EmitError;
 use super::file::{EmittedFile, rust_file};
-use super::home::Home;
+use super::target_crate::TargetCrate;
 use super::text::{COMMENT, capital, documented, fnv1a64, ident, pretty_items};
 use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
 
@@ -32,25 +32,25 @@ pub(super) struct Signature {
     pub(super) fields: Vec<String>,
 }
 
-/// Lays out the file of a kind for its home.
+/// Lays out the file of a kind for its target.
 pub(super) fn device_file(
     tera: &Tera,
     kind: &Kind,
-    home: Home<'_>,
+    target: TargetCrate<'_>,
     signatures: &Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let records = [structure(kind), joints(kind), motors(kind), per_joint(kind)];
     let items = Items { kind, signatures }.all();
     let items = quote!(#(#records)* #items);
-    let imports = imports(&home.dynamics()?, &items);
+    let imports = imports(&target.dynamics()?, &items);
     let mut context = Context::new();
-    context.insert("command", home.command());
+    context.insert("command", target.command());
     context.insert("source", kind.source);
     let made_from = format!("{kind:?}{signatures:?}");
     context.insert("hash", &fnv1a64(&(made_from + include_str!("templates/device.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("items", &pretty_items(quote!(#imports #items)));
-    rust_file(home.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
+    rust_file(target.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
 }
 
 /// What the items name of other modules; of the dynamics crate only that.

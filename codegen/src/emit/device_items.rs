@@ -6,10 +6,10 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::Index;
 
-use super::by_number::by_number;
 use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
 use super::device_parameters::named;
+use super::map_and_zip::map_and_zip;
 use super::text::{COMMENT, documented, ident};
 use crate::derivation::chain::assumed::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
@@ -151,8 +151,8 @@ impl Items<'_> {
                     }
                 }
             },
-            by_number("Joints", ["T", "Value"], &states),
-            by_number("PerJoint", ["V", "Value"], &bodies),
+            map_and_zip("Joints", ["T", "Value"], &states),
+            map_and_zip("PerJoint", ["V", "Value"], &bodies),
             values(quote!(T), quote!(MotorTorques), &self.each(|link| ident(link.joint.torque))),
             values(
                 quote!(T),

@@ -7,14 +7,14 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::body::Counts;
-use super::by_number::by_number;
 use super::cost::{CountText, chain_passes, count, factoring};
 use super::device::{Signature, Signatures, device_file};
 use super::error::EmitError;
-use super::home::Home;
 use super::inputs::Stated;
+use super::map_and_zip::map_and_zip;
 use super::parts::{INLINED, Part, Parts, parts};
 use super::prepare::numbered;
+use super::target_crate::TargetCrate;
 use super::text::{
     COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, within_lines, wrapped,
 };
@@ -98,11 +98,11 @@ impl Emitted {
 ///
 /// # Errors
 /// When a template fails or a file would not parse.
-pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> {
+pub fn of_kind(chain: &Chain<'_>, target: TargetCrate<'_>) -> Result<Emitted, EmitError> {
     let mut counts = Vec::new();
     let (tera, mut signatures) = (templates()?, Signatures::new());
-    let kernels = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
-    let device = device_file(&tera, chain.kind, home, &signatures)?;
+    let kernels = kind_file(&tera, chain, target, &mut counts, &mut signatures)?;
+    let device = device_file(&tera, chain.kind, target, &signatures)?;
     let files = vec![kernels, device];
     let passes = chain_passes(chain.kind);
     let factoring = factoring(chain.kind, &counts);
@@ -136,7 +136,7 @@ pub(super) fn rust_file(path: String, mut text: String) -> Result<EmittedFile, E
 pub(super) fn kind_file(
     tera: &Tera,
     chain: &Chain<'_>,
-    home: Home<'_>,
+    target: TargetCrate<'_>,
     rows: &mut Vec<CountText>,
     signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
@@ -157,13 +157,13 @@ pub(super) fn kind_file(
         }
     }
     let mut texts: Vec<_> = records.iter().map(record_text).collect();
-    if matches!(home, Home::Alone(_)) {
+    if matches!(target, TargetCrate::Standalone(_)) {
         for record in &mut texts {
             record.by_number.clear();
         }
     }
     let read = |name: &String| {
-        let alone = matches!(home, Home::Alone(_));
+        let alone = matches!(target, TargetCrate::Standalone(_));
         let taken = |part: &Part| part.inputs.iter().any(|(_, record)| record.name == *name);
         let found = |part: &Part| part.output.with_nested().iter().any(|own| own.name == *name);
         !alone || parts.iter().any(|part| taken(part) || found(part))
@@ -172,16 +172,16 @@ pub(super) fn kind_file(
     let mut imports: Vec<_> = shared.filter(read).collect();
     imports.sort_unstable();
     let mut context = Context::new();
-    context.insert("command", home.command());
-    context.insert("has_device", &!matches!(home, Home::Alone(_)));
+    context.insert("command", target.command());
+    context.insert("has_device", &!matches!(target, TargetCrate::Standalone(_)));
     context.insert("source", kind.source);
     context.insert("hash", &fnv1a64(&(inputs + include_str!("templates/kind.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
-    context.insert("imports", &pretty_items(home.imports(&imports)?));
+    context.insert("imports", &pretty_items(target.imports(&imports)?));
     context.insert("records", &texts);
     context.insert("functions", &functions);
-    rust_file(home.path(&format!("{}.rs", kind.name)), tera.render("kind.rs", &context)?)
+    rust_file(target.path(&format!("{}.rs", kind.name)), tera.render("kind.rs", &context)?)
 }
 
 /// What is said of a body whose axes do not turn with it.
@@ -240,7 +240,7 @@ pub(super) fn record_text(record: &Record) -> RecordText {
         fields: record.fields.iter().map(field).collect(),
         by_number: if LANED.contains(&record.name.as_str()) {
             let names: Vec<_> = record.fields.iter().map(|field| field.name.as_str()).collect();
-            let functions = by_number(&record.name, ["T", "Copy"], &names);
+            let functions = map_and_zip(&record.name, ["T", "Copy"], &names);
             pretty_items(functions).lines().map(str::to_owned).collect()
         } else {
             Vec::new()

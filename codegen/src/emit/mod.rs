@@ -5,9 +5,7 @@
 //! in a function, or once in `prepare` when it depends on parameters only; no line passes 100
 //! columns. `rustfmt` skips the modules of emitted files.
 
-mod alone;
 mod body;
-mod by_number;
 pub mod c;
 mod cost;
 mod device;
@@ -20,19 +18,21 @@ mod error;
 mod factor;
 mod file;
 mod functions;
-mod home;
 mod inputs;
+mod map_and_zip;
 mod parts;
 mod prepare;
 mod render;
 mod shared;
+mod standalone;
+mod target_crate;
 mod text;
 
-pub use alone::{Alone, alone, alone_records};
 pub use body::{Counts, FunctionBody};
 pub use error::EmitError;
 pub use file::{Emitted, EmittedFile, of_kind};
 pub use functions::{Functions, functions};
-pub use home::Home;
 pub use shared::{every_kind, files, shared};
+pub use standalone::{StandaloneKernels, standalone_kernels, standalone_records};
+pub use target_crate::TargetCrate;
 pub use text::{capital, pretty_items, wrapped};

@@ -6,7 +6,7 @@ use tera::Context;
 
 use super::error::EmitError;
 use super::file::{Emitted, EmittedFile, of_kind, record_text, rust_file, templates};
-use super::home::Home;
+use super::target_crate::TargetCrate;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;
 use crate::graph::Graph;
@@ -18,7 +18,7 @@ use crate::kinds::{Entry, KINDS, REGISTRY};
 /// # Errors
 /// When a template fails or a file would not parse.
 pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
-    let kinds = chains.iter().map(|chain| of_kind(chain, Home::Dynamics));
+    let kinds = chains.iter().map(|chain| of_kind(chain, TargetCrate::Dynamics));
     let kinds = kinds.collect::<Result<Vec<_>, _>>()?;
     let shared = shared(&REGISTRY, &kinds)?;
     Ok(kinds.into_iter().flat_map(|kind| kind.files).chain(shared).collect())
@@ -31,14 +31,14 @@ pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
 /// When a template fails or a file would not parse.
 pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     let tera = templates()?;
-    let rust_file = |name: &str, text| rust_file(Home::Dynamics.path(name), text);
+    let rust_file = |name: &str, text| rust_file(TargetCrate::Dynamics.path(name), text);
     let records: Vec<_> = shared_records().iter().map(record_text).collect();
     let mut context = Context::new();
     context.insert(
         "hash",
         &fnv1a64(&(format!("{:?}", shared_records()) + include_str!("templates/hub.rs.tera"))),
     );
-    context.insert("command", Home::Dynamics.command());
+    context.insert("command", TargetCrate::Dynamics.command());
     context.insert("records", &records);
     let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
 

@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::dgvscmg::{ARM, INNER_GIMBAL, OUTER_GIMBAL};
-use super::wheel::{Whole, balanced};
+use super::wheel::{WheelAssembly, balanced};
 
 /// The wheel's angle enters no equation.
 pub const BALANCED_DGCMG: Kind = Kind {
@@ -12,6 +12,6 @@ pub const BALANCED_DGCMG: Kind = Kind {
     links: &[
         OUTER_GIMBAL,
         INNER_GIMBAL,
-        balanced(ARM, ["s_x", "s_y", "g_z"], Whole::Wheel).prescribed(),
+        balanced(ARM, ["s_x", "s_y", "g_z"], WheelAssembly::Wheel).prescribed(),
     ],
 };

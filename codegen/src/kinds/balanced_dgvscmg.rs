@@ -2,12 +2,16 @@
 
 use super::Kind;
 use super::dgvscmg::{ARM, INNER_GIMBAL, OUTER_GIMBAL};
-use super::wheel::{Whole, balanced};
+use super::wheel::{WheelAssembly, balanced};
 
 /// The wheel's angle enters no equation.
 pub const BALANCED_DGVSCMG: Kind = Kind {
     name: "balanced_dgvscmg",
     title: "double-gimbal variable-speed control moment gyro with a balanced wheel",
     source: "codegen/src/kinds/balanced_dgvscmg.rs",
-    links: &[OUTER_GIMBAL, INNER_GIMBAL, balanced(ARM, ["s_x", "s_y", "g_z"], Whole::Wheel)],
+    links: &[
+        OUTER_GIMBAL,
+        INNER_GIMBAL,
+        balanced(ARM, ["s_x", "s_y", "g_z"], WheelAssembly::Wheel),
+    ],
 };

@@ -29,7 +29,7 @@ pub struct LinkBuilder {
     motion: Motion,
     drive: Drive,
     /// Axis and name of the distance, or the whole vector.
-    centre: Place,
+    centre: CentreOfMass,
     inertia: fn(&'static str) -> Inertia,
     bodiless: bool,
     concentric: bool,
@@ -37,7 +37,7 @@ pub struct LinkBuilder {
 }
 
 #[derive(Clone, Debug)]
-enum Place {
+enum CentreOfMass {
     Free,
     On(Axis, String),
     At,
@@ -105,7 +105,7 @@ impl KindBuilder {
 impl LinkBuilder {
     fn new([letter, title, coordinate]: [&str; 3], motion: Motion) -> Self {
         let [letter, title, coordinate] = [letter, title, coordinate].map(str::to_owned);
-        let (centre, inertia) = (Place::Free, Inertia::Full as fn(_) -> _);
+        let (centre, inertia) = (CentreOfMass::Free, Inertia::Full as fn(_) -> _);
         let drive = Drive::Motor;
         let (bodiless, concentric, equations) = (false, false, None);
         Self {
@@ -131,13 +131,13 @@ impl LinkBuilder {
     /// Its centre of mass lies on one of its axes, at a distance of this name from its origin.
     #[must_use]
     pub fn centre_on(self, axis: Axis, distance: &str) -> Self {
-        Self { centre: Place::On(axis, distance.to_owned()), ..self }
+        Self { centre: CentreOfMass::On(axis, distance.to_owned()), ..self }
     }
 
     /// Its centre of mass is its origin.
     #[must_use]
     pub fn centred(self) -> Self {
-        Self { centre: Place::At, ..self }
+        Self { centre: CentreOfMass::At, ..self }
     }
 
     /// Its inertia has no products.
@@ -160,7 +160,7 @@ impl LinkBuilder {
     /// It is a point mass at its origin.
     #[must_use]
     pub fn point(self) -> Self {
-        Self { centre: Place::At, inertia: |_| Inertia::Point, ..self }
+        Self { centre: CentreOfMass::At, inertia: |_| Inertia::Point, ..self }
     }
 
     /// It has no body: only the axes that move with its joint, for a joint of more than one freedom.
@@ -225,11 +225,11 @@ impl LinkBuilder {
                 point: kept(&format!("{letter}c")),
                 mass: (!self.bodiless).then(|| kept(&format!("m_{letter}"))),
                 centre: match &self.centre {
-                    Place::Free => {
+                    CentreOfMass::Free => {
                         Centre::Free(triple(&format!("r_{{{upper}c/{upper}}}"), &centre, letter))
                     }
-                    Place::On(axis, distance) => Centre::On(*axis, kept(distance)),
-                    Place::At => Centre::At,
+                    CentreOfMass::On(axis, distance) => Centre::On(*axis, kept(distance)),
+                    CentreOfMass::At => Centre::At,
                 },
                 inertia: (self.inertia)(kept(&format!("i_{letter}"))),
                 letters: [kept(&upper), kept(&format!("{upper}c"))],

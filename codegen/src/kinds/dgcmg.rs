@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::dgvscmg::{ARM, INNER_GIMBAL, OUTER_GIMBAL};
-use super::wheel::{Whole, imbalanced};
+use super::wheel::{WheelAssembly, imbalanced};
 
 /// The DGVSCMG with its wheel's acceleration prescribed: zero.
 pub const DGCMG: Kind = Kind {
@@ -12,6 +12,6 @@ pub const DGCMG: Kind = Kind {
     links: &[
         OUTER_GIMBAL,
         INNER_GIMBAL,
-        imbalanced(ARM, ["s_x", "w_y", "w_z"], Whole::Wheel).prescribed(),
+        imbalanced(ARM, ["s_x", "w_y", "w_z"], WheelAssembly::Wheel).prescribed(),
     ],
 };

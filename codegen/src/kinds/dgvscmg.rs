@@ -1,6 +1,6 @@
 //! The double-gimbal variable-speed control moment gyro: outer gimbal, inner gimbal, wheel.
 
-use super::wheel::{Whole, imbalanced};
+use super::wheel::{WheelAssembly, imbalanced};
 use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
@@ -10,7 +10,11 @@ pub const DGVSCMG: Kind = Kind {
     name: "dgvscmg",
     title: "double-gimbal variable-speed control moment gyro",
     source: "codegen/src/kinds/dgvscmg.rs",
-    links: &[OUTER_GIMBAL, INNER_GIMBAL, imbalanced(ARM, ["s_x", "w_y", "w_z"], Whole::Wheel)],
+    links: &[
+        OUTER_GIMBAL,
+        INNER_GIMBAL,
+        imbalanced(ARM, ["s_x", "w_y", "w_z"], WheelAssembly::Wheel),
+    ],
 };
 
 /// The gimbal on the hub.

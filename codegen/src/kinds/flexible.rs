@@ -10,7 +10,7 @@
 //! at `sqrt(k / m)`.
 
 use super::vscmg::{ARM, GIMBAL};
-use super::wheel::{Whole, imbalanced};
+use super::wheel::{WheelAssembly, imbalanced};
 use super::{Body, Centre, Drive, Equations, Inertia, Joint, Kind, Link, Motion, Triple};
 use crate::space::Axis;
 
@@ -102,7 +102,7 @@ const ROTOR: Link = {
         name: "r_w_tz",
         names: ["r_w_tz_tzx", "r_w_tz_tzy", "r_w_tz_tzz"],
     };
-    let wheel = imbalanced(origin, ["tz_x", "w_y", "w_z"], Whole::Wheel);
+    let wheel = imbalanced(origin, ["tz_x", "w_y", "w_z"], WheelAssembly::Wheel);
     let body = Body { equations: Equations::NONE, ..wheel.body };
     Link { joint: Joint { concentric: true, ..wheel.joint }, body, ..wheel }
 };

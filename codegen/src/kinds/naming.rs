@@ -132,9 +132,9 @@ pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
     }
     words(kind.name, '_', ["name of the kind", WORDS])?;
     words(kind.title.replace('-', " ").as_str(), ' ', ["title of the kind", TITLE])?;
-    let mut titles = Names::of("title", TITLES.into_iter().chain(["trig", "rates", "wrenches"]));
-    let mut letters = Names::of("letter", LETTERS);
-    let mut given = Names::of("name", []);
+    let mut titles = Names::new("title", TITLES.into_iter().chain(["trig", "rates", "wrenches"]));
+    let mut letters = Names::new("letter", LETTERS);
+    let mut given = Names::new("name", []);
     for link in kind.links {
         let (joint, body) = (&link.joint, &link.body);
         if joint.tag.len() > 8
@@ -169,7 +169,7 @@ pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
 
 /// Entries of the joints' mass matrix are named after two letters: no two alike.
 fn pairs(kind: &Kind) -> Result<(), KindError> {
-    let mut names = Names::of("pair of letters", []);
+    let mut names = Names::new("pair of letters", []);
     for (k, first) in kind.links.iter().enumerate() {
         for second in &kind.links[k..] {
             names.add(&format!("{}{}", first.joint.tag, second.joint.tag))?;
@@ -213,7 +213,7 @@ struct Names {
 }
 
 impl Names {
-    fn of<'a>(what: &'static str, taken: impl IntoIterator<Item = &'a str>) -> Self {
+    fn new<'a>(what: &'static str, taken: impl IntoIterator<Item = &'a str>) -> Self {
         Self { what, taken: taken.into_iter().map(str::to_owned).collect() }
     }
 

@@ -1,6 +1,6 @@
 //! The reaction wheel: a wheel alone.
 
-use super::wheel::{Whole, imbalanced};
+use super::wheel::{WheelAssembly, imbalanced};
 use super::{Kind, Triple};
 
 /// `W = Rx(theta)`: the wheel of the DGVSCMG, with both gimbals locked at zero and without mass.
@@ -8,7 +8,7 @@ pub const REACTION_WHEEL: Kind = Kind {
     name: "reaction_wheel",
     title: "reaction wheel",
     source: "codegen/src/kinds/reaction_wheel.rs",
-    links: &[imbalanced(ORIGIN, ["b_x", "w_y", "w_z"], Whole::Device)],
+    links: &[imbalanced(ORIGIN, ["b_x", "w_y", "w_z"], WheelAssembly::Device)],
 };
 
 /// Where the wheel stands in the hub.

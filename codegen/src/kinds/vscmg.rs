@@ -1,6 +1,6 @@
 //! The variable-speed control moment gyro: one gimbal and a wheel.
 
-use super::wheel::{Whole, imbalanced};
+use super::wheel::{WheelAssembly, imbalanced};
 use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
@@ -10,7 +10,7 @@ pub const VSCMG: Kind = Kind {
     name: "vscmg",
     title: "variable-speed control moment gyro",
     source: "codegen/src/kinds/vscmg.rs",
-    links: &[GIMBAL, imbalanced(ARM, ["g_x", "w_y", "w_z"], Whole::Wheel)],
+    links: &[GIMBAL, imbalanced(ARM, ["g_x", "w_y", "w_z"], WheelAssembly::Wheel)],
 };
 
 /// The gimbal: the outer one of the DGVSCMG.

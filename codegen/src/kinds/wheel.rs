@@ -6,7 +6,11 @@ use crate::space::Axis;
 
 /// As it is made: the centre of mass lies on `w_y`, a distance d from the spin axis, and the
 /// inertia has products.
-pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: Whole) -> Link {
+pub(super) const fn imbalanced(
+    origin: Triple,
+    triad: [&'static str; 3],
+    whole: WheelAssembly,
+) -> Link {
     Link {
         joint: Joint {
             tag: "w",
@@ -34,15 +38,19 @@ pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: 
             equations: equations::WHEEL,
         },
         assembly: match whole {
-            Whole::Device => "d",
-            Whole::Wheel => "w",
+            WheelAssembly::Device => "d",
+            WheelAssembly::Wheel => "w",
         },
     }
 }
 
 /// As it should be: d = 0, no products, and the same inertia about every axis across that of the
 /// spin; (18) of the paper. W's axes stay those of the parent body.
-pub(super) const fn balanced(origin: Triple, triad: [&'static str; 3], whole: Whole) -> Link {
+pub(super) const fn balanced(
+    origin: Triple,
+    triad: [&'static str; 3],
+    whole: WheelAssembly,
+) -> Link {
     let made = imbalanced(origin, triad, whole);
     let inertia = Inertia::Symmetric(Axis::X, "j");
     Link { body: Body { centre: Centre::At, inertia, ..made.body }, ..made }
@@ -50,7 +58,7 @@ pub(super) const fn balanced(origin: Triple, triad: [&'static str; 3], whole: Wh
 
 /// What the wheel is, with all bodies outboard of it.
 #[derive(Clone, Copy)]
-pub(super) enum Whole {
+pub(super) enum WheelAssembly {
     /// D: the device is a wheel only.
     Device,
     /// W: the tip of a longer chain.

@@ -6,7 +6,7 @@
 //! in B. The result must be the derivation that was made with the assumptions, by normal form.
 
 use super::kind::own_file;
-use super::{EmittedError, Prover, Row};
+use super::{Comparison, EmittedError, Prover};
 use crate::derivation::chain::Chain;
 use crate::derivation::reference;
 use crate::derivation::share::Share;
@@ -25,15 +25,15 @@ pub fn prove_assumed(
     chain: &Chain<'_>,
     general: &'static Kind,
     files: &[EmittedFile],
-) -> Result<Vec<Row>, EmittedError> {
+) -> Result<Vec<Comparison>, EmittedError> {
     let file = own_file(chain.kind, files)?;
     let mut rows = substituted(chain, general);
     rows.extend(Prover::new(chain).rows(&file.text)?);
-    Ok(rows.into_iter().map(|row| row.of(chain.kind)).collect())
+    Ok(rows.into_iter().map(|row| row.about(chain.kind)).collect())
 }
 
 /// Mass matrix and bias of the general kind under the substitution.
-fn substituted<'g>(chain: &Chain<'g>, general: &'static Kind) -> Vec<Row> {
+fn substituted<'g>(chain: &Chain<'g>, general: &'static Kind) -> Vec<Comparison> {
     let graph = Graph::new();
     let whole = reference::share(&Chain::new(&graph, general));
     let put = Substitution::new(chain, general);
@@ -51,7 +51,7 @@ fn substituted<'g>(chain: &Chain<'g>, general: &'static Kind) -> Vec<Row> {
         };
         let (checked, reference) = (labelled(|pair| pair.0), labelled(|pair| pair.1));
         let heading = [tag, name, "derivation = general, substituted"];
-        rows.push(Row::compare(&mut ring, heading, &checked, &reference));
+        rows.push(Comparison::new(&mut ring, heading, &checked, &reference));
         ring.settle();
     };
     row("(9)", "m, m c", {

@@ -13,7 +13,7 @@ use super::laws::Laws;
 use super::modes::divisor;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
 use super::unknowns::{Unknowns, moving};
-use super::{Row, factors, mounted, potential, stages};
+use super::{Comparison, factors, mounted, potential, stages};
 use crate::derivation::chain::Chain;
 use crate::derivation::chain::assumed::mount_entry;
 use crate::derivation::reference;
@@ -50,8 +50,8 @@ impl<'a, 'g> Prover<'a, 'g> {
     pub fn new(chain: &'a Chain<'g>) -> Self {
         let kernels = kernels(chain);
         let rings = kernels.iter().map(|_| [Ring::new(chain.graph), Ring::new(chain.graph)]);
-        let unknowns = Unknowns::of(chain);
-        let laws = Laws::of(chain);
+        let unknowns = Unknowns::of_chain(chain);
+        let laws = Laws::of_chain(chain);
         Self { chain, rings: rings.collect(), kernels, unknowns, laws }
     }
 
@@ -59,7 +59,7 @@ impl<'a, 'g> Prover<'a, 'g> {
     ///
     /// # Errors
     /// When the text does not parse or holds something that is no kernel.
-    pub fn rows(&mut self, text: &str) -> Result<Vec<Row>, EmittedError> {
+    pub fn rows(&mut self, text: &str) -> Result<Vec<Comparison>, EmittedError> {
         let file =
             syn::parse_file(text).map_err(|error| EmittedError::Syntax(error.to_string()))?;
         let constants = self.constants(&file)?;
@@ -72,7 +72,7 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     /// The derivation itself against the equations that follow from the kinetic energy only.
     #[must_use]
-    pub fn derivation(&self) -> Vec<Row> {
+    pub fn derivation(&self) -> Vec<Comparison> {
         let mut ring = Ring::new(self.chain.graph);
         let named = reference::share(self.chain).named(self.chain.kind, |_| true);
         let entries: BTreeMap<_, _> = named.into_iter().flat_map(|(_, entries)| entries).collect();
@@ -87,7 +87,11 @@ impl<'a, 'g> Prover<'a, 'g> {
     ///
     /// # Errors
     /// When the file has no such function or it is no kernel.
-    pub fn function(&mut self, file: &syn::File, name: &str) -> Result<Vec<Row>, EmittedError> {
+    pub fn function(
+        &mut self,
+        file: &syn::File,
+        name: &str,
+    ) -> Result<Vec<Comparison>, EmittedError> {
         let constants = self.constants(file)?;
         if name == "prepare" {
             return Ok(self.of_constants(&constants));
@@ -103,7 +107,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         file: &syn::File,
         constants: &Constants<'g>,
         index: usize,
-    ) -> Result<Vec<Row>, EmittedError> {
+    ) -> Result<Vec<Comparison>, EmittedError> {
         let kernel = &self.kernels[index];
         let text = function(file, &kernel.name)?;
         let reading = |prepare: &Reading<'g>, cuts: &BTreeSet<String>| {
@@ -164,7 +168,7 @@ impl<'a, 'g> Prover<'a, 'g> {
     }
 
     /// The rows of `prepare`.
-    fn of_constants(&self, Constants { cuts, prepare }: &Constants<'g>) -> Vec<Row> {
+    fn of_constants(&self, Constants { cuts, prepare }: &Constants<'g>) -> Vec<Comparison> {
         vec![self.prepared_row(prepare), self.cut_constants(prepare, cuts)]
     }
 
@@ -228,7 +232,7 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     /// Raw parameters pass through `prepare` unchanged, computed fields under their own names. One
     /// that no statement names is read by kernels, whose claims are about its value.
-    fn prepared_row(&self, prepare: &Both<'g>) -> Row {
+    fn prepared_row(&self, prepare: &Both<'g>) -> Comparison {
         let raw = parameters_of(self.chain);
         let mut checked = Vec::new();
         let mut reference = Vec::new();
@@ -241,11 +245,11 @@ impl<'a, 'g> Prover<'a, 'g> {
             reference.extend(expected.map(|expected| (name.clone(), expected)));
         }
         let heading = ["(record)", "Prepared", "fn prepare returns its values"];
-        Row::compare(&mut Ring::new(self.chain.graph), heading, &checked, &reference)
+        Comparison::new(&mut Ring::new(self.chain.graph), heading, &checked, &reference)
     }
 
     /// What is cut in `prepare` is claimed by a kernel: there, too, it must be what it is called.
-    fn cut_constants(&self, prepare: &Both<'g>, cuts: &BTreeSet<String>) -> Row {
+    fn cut_constants(&self, prepare: &Both<'g>, cuts: &BTreeSet<String>) -> Comparison {
         let claims = self.kernels.iter().flat_map(|kernel| &kernel.claims);
         let claimed: BTreeMap<_, _> = claims.flat_map(|claim| claim.components.clone()).collect();
         let mut checked = Vec::new();
@@ -259,7 +263,7 @@ impl<'a, 'g> Prover<'a, 'g> {
             }
         }
         let heading = ["(constants)", "Prepared", "fn prepare = derivation"];
-        Row::compare(&mut Ring::new(self.chain.graph), heading, &checked, &reference)
+        Comparison::new(&mut Ring::new(self.chain.graph), heading, &checked, &reference)
     }
 }
 
@@ -267,7 +271,7 @@ fn claims<'g>(
     ring: &mut Ring<'g>,
     kernel: &Kernel<'g>,
     values: &FxHashMap<String, Expr<'g>>,
-) -> Vec<Row> {
+) -> Vec<Comparison> {
     let mut rows = Vec::new();
     for claim in &kernel.claims {
         let mut emitted = Vec::new();
@@ -283,14 +287,14 @@ fn claims<'g>(
         }
         let claimed = format!("fn {} = derivation", kernel.name);
         let heading = [claim.tag.as_str(), &claim.name, &claimed];
-        rows.push(Row::compare(ring, heading, &emitted, &reference));
+        rows.push(Comparison::new(ring, heading, &emitted, &reference));
     }
     rows
 }
 
 /// The returned record holds the values its fields are named after. Where the text has no such
 /// name, the value is the field's own: it must be one that a claim or an identity is about.
-fn result<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> Row {
+fn result<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> Comparison {
     let claimed: BTreeSet<_> =
         kernel.claims.iter().flat_map(|claim| &claim.components).map(|(name, _)| name).collect();
     // The claims on the whole system read the constant share, the identities the other two.
@@ -307,5 +311,5 @@ fn result<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> R
         back.returned.iter().map(|(name, value)| (name.clone(), *value)).collect();
     let heading =
         ["(record)", &kernel.output.name, &format!("fn {} returns its values", kernel.name)];
-    Row::compare(ring, heading, &checked, &reference)
+    Comparison::new(ring, heading, &checked, &reference)
 }

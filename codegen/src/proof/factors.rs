@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Row;
+use super::Comparison;
 use super::modes::{Settled, divisor, every};
 use super::read_back::Reading;
 use super::stages;
@@ -54,9 +54,9 @@ impl<'g> Sides<'g> {
         }
     }
 
-    fn row(&self, ring: &mut Ring<'g>, name: &str) -> Row {
+    fn row(&self, ring: &mut Ring<'g>, name: &str) -> Comparison {
         let heading = ["(L D Lᵀ)", name, "fn eliminate = identity"];
-        Row::compare(ring, heading, &self.emitted, &self.expected)
+        Comparison::new(ring, heading, &self.emitted, &self.expected)
     }
 }
 
@@ -67,7 +67,7 @@ pub(super) fn of_elimination<'g>(
     chain: &Chain<'g>,
     unknowns: &Unknowns<'g>,
     back: &Reading<'g>,
-) -> Vec<Row> {
+) -> Vec<Comparison> {
     let named = |name: &str| {
         let name = back.shared.get(name).map_or(name, String::as_str);
         chain.graph.find(name).or_else(|| back.values.get(name).copied())
@@ -190,7 +190,7 @@ pub(super) fn of_back_substitution<'g>(
     chain: &Chain<'g>,
     unknowns: &Unknowns<'g>,
     back: &Reading<'g>,
-) -> Row {
+) -> Comparison {
     let named = |name: String| chain.graph.find(&name);
     let (solved, zero) = (unknowns.solved(), Some(unknowns.zero));
     let accelerations: BTreeMap<usize, &str> =
@@ -215,7 +215,7 @@ pub(super) fn of_back_substitution<'g>(
         reference.extend(free.map(|free| ((*name).to_owned(), free)));
     }
     let heading = ["(L D Lᵀ)", "Lᵀ q″ = free", "fn back_substitute = identity"];
-    Row::compare(ring, heading, &checked, &reference)
+    Comparison::new(ring, heading, &checked, &reference)
 }
 
 /// Field of the hub's share between hub unknowns `x <= y`.

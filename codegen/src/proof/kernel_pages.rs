@@ -7,7 +7,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::Row;
+use super::Comparison;
 use super::pages::frame_of;
 use crate::derivation::chain::Chain;
 use crate::derivation::chain::assumed::mount_entry;
@@ -136,7 +136,7 @@ impl<'a, 'g> KernelPages<'a, 'g> {
 
     /// One row per block, and one for each statement under our own equations that no block states.
     #[must_use]
-    pub fn rows(&self) -> Vec<Row> {
+    pub fn rows(&self) -> Vec<Comparison> {
         let mut rings = FxHashMap::default();
         let stated = self.equations.iter().map(|equation| {
             let ring = rings.entry(equation.block.page.clone());
@@ -147,13 +147,13 @@ impl<'a, 'g> KernelPages<'a, 'g> {
         let blocks = self.equations.iter().filter(|equation| own(equation));
         let stated: Vec<_> = blocks.flat_map(|equation| self.names(&equation.block)).collect();
         let lacking = self.ours.iter().filter(|name| !stated.iter().any(|(_, own)| own == *name));
-        rows.extend(lacking.map(|name| Row::absent(["(missing)", name, CLAIM])));
+        rows.extend(lacking.map(|name| Comparison::absent(["(missing)", name, CLAIM])));
         rows
     }
 
     /// The row of one block.
     #[must_use]
-    pub fn row(&self, ring: &mut Ring<'g>, equation: &Equation<'g>) -> Row {
+    pub fn row(&self, ring: &mut Ring<'g>, equation: &Equation<'g>) -> Comparison {
         let block = &equation.block;
         let heading = [block.tag.as_str(), &block.name, CLAIM];
         let value = |(label, name): (String, String)| {
@@ -161,8 +161,8 @@ impl<'a, 'g> KernelPages<'a, 'g> {
         };
         let reference: Vec<_> = self.names(block).into_iter().filter_map(value).collect();
         let row = match in_the_case(self.chain.graph, &block.given, reference) {
-            Ok(reference) => Row::compare(ring, heading, &reference, &equation.components),
-            Err(_) => Row::absent(heading),
+            Ok(reference) => Comparison::new(ring, heading, &reference, &equation.components),
+            Err(_) => Comparison::absent(heading),
         };
         row.at(block.place())
     }

@@ -1,6 +1,6 @@
 //! All proofs of one kind: of its derivation, and of its emitted file.
 
-use super::{EmittedError, Prover, Row, zero_traces};
+use super::{Comparison, EmittedError, Prover, zero_traces};
 use crate::derivation::chain::Chain;
 use crate::emit::EmittedFile;
 use crate::kinds::Kind;
@@ -10,13 +10,16 @@ use crate::normal::Ring;
 ///
 /// # Errors
 /// When there is no such file, or it cannot be read.
-pub fn prove_kind(chain: &Chain<'_>, files: &[EmittedFile]) -> Result<Vec<Row>, EmittedError> {
+pub fn prove_kind(
+    chain: &Chain<'_>,
+    files: &[EmittedFile],
+) -> Result<Vec<Comparison>, EmittedError> {
     let file = own_file(chain.kind, files)?;
     let mut rows = zero_traces(&mut Ring::new(chain.graph), chain);
     let mut prover = Prover::new(chain);
     rows.extend(prover.derivation());
     rows.extend(prover.rows(&file.text)?);
-    Ok(rows.into_iter().map(|row| row.of(chain.kind)).collect())
+    Ok(rows.into_iter().map(|row| row.about(chain.kind)).collect())
 }
 
 /// The file of a kind's kernels.

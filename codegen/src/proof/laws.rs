@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Row;
+use super::Comparison;
 use super::unknowns::Unknowns;
 use crate::derivation::chain::Chain;
 use crate::derivation::reference;
@@ -16,7 +16,7 @@ pub(super) struct Laws<'g>(BoltzmannHamel<'g>);
 
 impl<'g> Laws<'g> {
     /// The laws of a chain.
-    pub(super) fn of(chain: &Chain<'g>) -> Self {
+    pub(super) fn of_chain(chain: &Chain<'g>) -> Self {
         Self(boltzmann_hamel(chain))
     }
 
@@ -31,7 +31,7 @@ impl<'g> Laws<'g> {
         solved: &[usize],
         who: &str,
         named: impl Fn(&str) -> Option<Expr<'g>>,
-    ) -> Vec<Row> {
+    ) -> Vec<Comparison> {
         let Self(laws) = self;
         let others: Vec<usize> = (0..unknowns.len()).filter(|x| !solved.contains(x)).collect();
         let at_rest: Vec<_> = others.iter().filter_map(|&x| unknowns.at_rest(x)).collect();
@@ -58,7 +58,7 @@ impl<'g> Laws<'g> {
         let mut rows = Vec::new();
         let mut row = |tag: &str, name: &str, law: &str, checked: &[_], expected: &[_]| {
             let claim = format!("{who} = {law}");
-            rows.push(Row::compare(ring, [tag, name, &claim], checked, expected));
+            rows.push(Comparison::new(ring, [tag, name, &claim], checked, expected));
         };
         row("(M_ij)", "M", "d²T/dx dy", &matrix, &hessian);
         let law = "Boltzmann-Hamel";
@@ -78,7 +78,7 @@ impl<'g> Laws<'g> {
     }
 
     /// Energy and momenta of the sums over bodies are T and its slopes.
-    pub(super) fn of_momenta(&self, ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
+    pub(super) fn of_momenta(&self, ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Comparison> {
         let Self(laws) = self;
         let momenta = reference::momenta(chain);
         let energy = [("(energy)", "energy", "T", vec![momenta.energy], vec![laws.energy])];
@@ -92,7 +92,7 @@ impl<'g> Laws<'g> {
         let all = energy.into_iter().chain(vectors);
         all.map(|(tag, name, law, checked, expected)| {
             let claim = format!("derivation = {law}");
-            Row::compare(ring, [tag, name, &claim], &labelled(&checked), &labelled(&expected))
+            Comparison::new(ring, [tag, name, &claim], &labelled(&checked), &labelled(&expected))
         })
         .collect()
     }

@@ -9,7 +9,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Row;
+use super::Comparison;
 use super::read_back::{EmittedError, Reading, function, read};
 use crate::derivation::chain::Chain;
 use crate::derivation::chain::assumed::mount_entry;
@@ -37,7 +37,7 @@ pub(super) fn row<'g>(
     chain: &Chain<'g>,
     kernels: &[Kernel<'g>],
     file: &syn::File,
-) -> Result<Row, EmittedError> {
+) -> Result<Comparison, EmittedError> {
     let values = values(chain, kernels, file)?;
     let turned = Turned::new(chain);
     let mut checked = Vec::new();
@@ -69,7 +69,7 @@ pub(super) fn row<'g>(
         claim(name.clone(), turned.by(value(&name)), turned.at_unit(value(&name)));
     }
     let heading = ["(mount)", "along B", "fn eliminate turns with the mount"];
-    Ok(Row::compare(&mut Ring::new(chain.graph), heading, &checked, &expected))
+    Ok(Comparison::new(&mut Ring::new(chain.graph), heading, &checked, &expected))
 }
 
 /// The value of each statement, in symbols of those before it.

@@ -1,7 +1,7 @@
 //! The derivation against the hand-checked pages: every block has its row, and every derived
 //! quantity its block.
 
-use super::Row;
+use super::Comparison;
 use crate::derivation::chain::Chain;
 use crate::derivation::quantities::{Quantity, find, traces};
 use crate::graph::Expr;
@@ -15,15 +15,15 @@ pub fn against_pages<'g>(
     chain: &Chain<'g>,
     quantities: &[Quantity<'g>],
     equations: &[Equation<'g>],
-) -> Vec<Row> {
+) -> Vec<Comparison> {
     let stated: Vec<_> =
         equations.iter().map(|e| against_block(ring, chain, quantities, e)).collect();
     let lacking = quantities.iter().filter(|quantity| {
         let axis = quantity.name.ends_with("_hat");
         !axis && equations.iter().all(|equation| !states(&equation.block, quantity))
     });
-    let lacking =
-        lacking.map(|quantity| Row::absent(["(missing)", &quantity.name, "derivation = page"]));
+    let lacking = lacking
+        .map(|quantity| Comparison::absent(["(missing)", &quantity.name, "derivation = page"]));
     stated.into_iter().chain(lacking).collect()
 }
 
@@ -39,12 +39,12 @@ pub fn against_block<'g>(
     chain: &Chain<'g>,
     quantities: &[Quantity<'g>],
     equation: &Equation<'g>,
-) -> Row {
+) -> Comparison {
     let block = &equation.block;
     let heading = [block.tag.as_str(), &block.name, "derivation = page"];
     let row = match derived(chain, quantities, block) {
-        Some(derived) => Row::compare(ring, heading, &derived, &equation.components),
-        None => Row::absent(heading),
+        Some(derived) => Comparison::new(ring, heading, &derived, &equation.components),
+        None => Comparison::absent(heading),
     };
     row.at(format!("{}:{}", block.page, block.line))
 }
@@ -67,7 +67,7 @@ fn derived<'g>(
 
 /// Every inertia's derivative about the body's own centre of mass has no trace.
 #[must_use]
-pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
+pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Comparison> {
     let zero = vec![(String::new(), chain.graph.zero())];
     let traces = traces(chain).into_iter().zip(chain.kind.links);
     traces
@@ -75,7 +75,7 @@ pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
             let body = &link.body;
             let name = format!("i_{}_{}_prime", body.frame, body.point);
             let heading = [body.equations.i_prime, &name, "trace = 0"];
-            Row::compare(ring, heading, &[(String::new(), trace)], &zero)
+            Comparison::new(ring, heading, &[(String::new(), trace)], &zero)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 //! Stated from the emitted wrenches and the emitted second moment S only, by virtual work; the same
 //! sums are what the emitted `external` is held against.
 
-use super::Row;
+use super::Comparison;
 use super::laws::labelled;
 use crate::derivation::chain::Chain;
 use crate::derivation::chain::wrench::Wrench;
@@ -20,7 +20,7 @@ pub(super) fn rows<'g>(
     ring: &mut Ring<'g>,
     chain: &Chain<'g>,
     named: impl Fn(&str) -> Option<Expr<'g>>,
-) -> Vec<Row> {
+) -> Vec<Comparison> {
     let zero = chain.graph.zero();
     let value = |name: String| named(&name).unwrap_or(zero);
     let entry = |entry: &str| value(format!("second_moment_{entry}"));
@@ -39,7 +39,7 @@ pub(super) fn rows<'g>(
     let mut row = |name: &str, law: &str, checked: &[Expr<'g>], expected: &[Expr<'g>]| {
         let claim = format!("fn gravity = {law}");
         let heading = ["(potential)", name, claim.as_str()];
-        made.push(Row::compare(ring, heading, &labelled(checked), &labelled(expected)));
+        made.push(Comparison::new(ring, heading, &labelled(checked), &labelled(expected)));
     };
     let potential = field::work_of(second_moment, gradient);
     let work = acting::virtual_work(chain, &on_bodies);

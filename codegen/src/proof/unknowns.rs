@@ -49,7 +49,7 @@ pub(super) struct Unknowns<'g> {
 
 impl<'g> Unknowns<'g> {
     /// The unknowns of a chain.
-    pub(super) fn of(chain: &Chain<'g>) -> Self {
+    pub(super) fn of_chain(chain: &Chain<'g>) -> Self {
         let hub = &chain.hub;
         let joint = |of: fn(&crate::derivation::chain::Link<'g>) -> Expr<'g>| {
             chain.links.iter().map(of).collect::<Vec<_>>()

@@ -45,7 +45,7 @@ fn every_claim_about_it_is_proven() {
     files[0].text = wrong;
     assert!(
         !prove_kind(kind, &files)
-            .is_ok_and(|rows| rows.iter().all(precess_codegen::proof::Row::holds))
+            .is_ok_and(|rows| rows.iter().all(precess_codegen::proof::Comparison::holds))
     );
 }
 

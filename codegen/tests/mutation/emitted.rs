@@ -6,7 +6,7 @@ use precess_codegen::derivation::chain::Chain;
 use precess_codegen::emit::every_kind;
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
-use precess_codegen::proof::{EmittedError, Prover, Row, Verdict};
+use precess_codegen::proof::{Comparison, EmittedError, Prover, Verdict};
 
 use crate::sites::{Change, changed, count};
 
@@ -62,7 +62,7 @@ fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
     let mut prover = Prover::new(&chain);
     let mut file = emitted();
     for name in judged {
-        assert!(prover.function(&file, name).unwrap().iter().all(Row::holds));
+        assert!(prover.function(&file, name).unwrap().iter().all(Comparison::holds));
     }
     let (mut mutants, mut named) = (0, 0);
     for index in 0..function(&mut file, name).block.stmts.len() {
@@ -137,7 +137,7 @@ fn every_doubled_statement_is_caught() {
     let mut prover = Prover::new(&chain);
     let mut file = emitted();
     for name in &ALL {
-        assert!(prover.function(&file, name).unwrap().iter().all(Row::holds));
+        assert!(prover.function(&file, name).unwrap().iter().all(Comparison::holds));
     }
     for name in &ALL {
         for index in 0..function(&mut file, name).block.stmts.len() {
@@ -215,7 +215,7 @@ fn every_wrong_result_is_caught() {
 }
 
 /// The proof of a text in which `right` is replaced by `wrong`.
-fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
+fn with(right: &str, wrong: &str) -> Result<Vec<Comparison>, EmittedError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     assert!(TEXT.contains(right), "{right}");

@@ -5,7 +5,7 @@ use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::normal::Ring;
 use precess_codegen::page::Page;
-use precess_codegen::proof::{KernelPages, Row, Verdict};
+use precess_codegen::proof::{Comparison, KernelPages, Verdict};
 
 use crate::pages::{assert_named, mutated, same, sites_of};
 use crate::sites::Change;
@@ -42,7 +42,7 @@ fn a_value_of_a_kernel_without_a_block_is_named() {
     pages.retain(|page| page.name != "03-joint-rows.md" && page.name != "04-by-the-paper.md");
     let rows = composites(&chain, &pages).rows();
     let missing = |name: &str| {
-        let absent = |row: &&Row| row.tag == "(missing)" && row.verdict == Verdict::Absent;
+        let absent = |row: &&Comparison| row.tag == "(missing)" && row.verdict == Verdict::Absent;
         rows.iter().filter(absent).any(|row| row.name == name)
     };
     assert!(missing("field_w") && missing("n_rates_i_gox") && missing("u_rest_o"));

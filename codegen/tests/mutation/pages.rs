@@ -7,7 +7,7 @@ use precess_codegen::graph::{Expr, Graph, Rational};
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::normal::{Difference, Polynomial, Ring, Term};
 use precess_codegen::page::{Equation, in_the_case, read, read_on};
-use precess_codegen::proof::{Row, Verdict, against_block, against_pages};
+use precess_codegen::proof::{Comparison, Verdict, against_block, against_pages};
 use quote::ToTokens;
 
 use crate::hand_checked;
@@ -108,7 +108,7 @@ fn every_term_of_a_page_as_written_is_named_when_it_is_wrong() {
     let list = quantities(&chain);
     let mut ring = Ring::new(&graph);
     let (equations, reader) = read_on(&graph, &hand_checked()).unwrap();
-    assert!(against_pages(&mut ring, &chain, &list, &equations).iter().all(Row::holds));
+    assert!(against_pages(&mut ring, &chain, &list, &equations).iter().all(Comparison::holds));
     ring.settle();
     let mut mutants = 0;
     for original in equations.iter().filter(|equation| is_root(equation)) {
@@ -171,7 +171,7 @@ pub(crate) fn mutated(block: &syn::Block, statement: usize, site: usize, change:
 
 pub(crate) fn assert_named<'g>(
     ring: &mut Ring<'g>,
-    row: &Row,
+    row: &Comparison,
     original: &Equation<'g>,
     mutant: &Equation<'g>,
     body: &str,

@@ -166,7 +166,7 @@ pub struct Campaign {
 
 /// What a campaign found of one property.
 #[derive(Clone, Debug, Default)]
-pub struct Row {
+pub struct PropertyResult {
     /// Its cases.
     pub tally: Tally,
     /// Its failures.
@@ -180,9 +180,9 @@ impl Campaign {
         &self,
         progress: &Mutex<Progress>,
         tried: impl Fn(&'static Property, Tally, Option<&Failure>) + Sync,
-    ) -> BTreeMap<&'static str, Row> {
+    ) -> BTreeMap<&'static str, PropertyResult> {
         let next = AtomicU64::new(0);
-        let rows = Mutex::new(BTreeMap::<&'static str, Row>::new());
+        let rows = Mutex::new(BTreeMap::<&'static str, PropertyResult>::new());
         std::thread::scope(|scope| {
             for _ in 0..self.threads {
                 scope.spawn(|| self.work(&next, progress, &rows, &tried));
@@ -195,7 +195,7 @@ impl Campaign {
         &self,
         next: &AtomicU64,
         progress: &Mutex<Progress>,
-        rows: &Mutex<BTreeMap<&'static str, Row>>,
+        rows: &Mutex<BTreeMap<&'static str, PropertyResult>>,
         tried: &(impl Fn(&'static Property, Tally, Option<&Failure>) + Sync),
     ) {
         let many = self.properties.len() as u64;
@@ -208,7 +208,7 @@ impl Campaign {
             else {
                 return;
             };
-            let failed = |rows: &BTreeMap<&'static str, Row>| {
+            let failed = |rows: &BTreeMap<&'static str, PropertyResult>| {
                 rows.get(property.name).map_or(0, |row| row.failures.len())
             };
             if rows.lock().is_ok_and(|rows| failed(&rows) >= ENOUGH) {

@@ -52,7 +52,7 @@ impl Case {
 
     /// A case of devices in any shape.
     #[must_use]
-    pub fn of<D: Devices<Scalar = f64>>(
+    pub fn from_set<D: Devices<Scalar = f64>>(
         hub: &Hub,
         devices: List,
         state: &State<D>,

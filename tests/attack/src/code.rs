@@ -378,7 +378,10 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
     let several = case.steps != 1 || !case.more.is_empty();
     let mutable = if several { "mut " } else { "" };
     let last = if case.more.is_empty() { "list" } else { "list.clone()" };
-    add(&mut text, &format!("let {mutable}case = Case::of(&hub, {last}, &state, &inputs, {dt});"));
+    add(
+        &mut text,
+        &format!("let {mutable}case = Case::from_set(&hub, {last}, &state, &inputs, {dt});"),
+    );
     if case.steps != 1 {
         add(&mut text, &format!("case.steps = {};", case.steps));
     }
@@ -391,7 +394,10 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
         let changed = inputs(&i, case, &case.inputs, of_inputs);
         add(&mut text, &format!("let {}{i} = inputs;", mutable(&changed)));
         text += &changed;
-        add(&mut text, &format!("let other = Case::of(&hub, list.clone(), &{s}, &{i}, {dt});"));
+        add(
+            &mut text,
+            &format!("let other = Case::from_set(&hub, list.clone(), &{s}, &{i}, {dt});"),
+        );
         add(&mut text, "case.more.push((other.state, other.inputs));");
     }
     add(&mut text, "println!(\"{:?}\", craft.accelerations(&state, &inputs));");

@@ -10,7 +10,7 @@ use std::{fs, io};
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use precess_attack::campaign::{Campaign, Failure, Row, chunk};
+use precess_attack::campaign::{Campaign, Failure, PropertyResult, chunk};
 use precess_attack::progress::Progress;
 use precess_attack::properties::{PROPERTIES, Property, named};
 
@@ -70,7 +70,7 @@ fn attack(options: &Options) -> Result<bool, String> {
     std::panic::set_hook(Box::new(|_| {}));
     if let (Some(number), Some(seed), [property]) = (options.chunk, options.seed, &properties[..]) {
         let (tally, failure) = chunk(property, seed, number, property.cases);
-        let row = Row { tally, failures: failure.into_iter().collect() };
+        let row = PropertyResult { tally, failures: failure.into_iter().collect() };
         return report(&BTreeMap::from([(property.name, row)]), &properties, &options.folder);
     }
     let path = options.folder.join("progress");
@@ -106,7 +106,7 @@ fn unknown(name: &str) -> String {
 
 /// One row for each property, and every failure as code; whether there is none.
 fn report(
-    rows: &BTreeMap<&'static str, Row>,
+    rows: &BTreeMap<&'static str, PropertyResult>,
     properties: &[&'static Property],
     folder: &Path,
 ) -> Result<bool, String> {

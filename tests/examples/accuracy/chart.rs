@@ -6,7 +6,7 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use precess_tests::accuracy::Row;
+use precess_tests::accuracy::AccuracyAtDistance;
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 
 use crate::Sweeps;
@@ -43,7 +43,7 @@ struct Panel<'a> {
     label: &'a str,
     /// Distances drawn, as powers of ten.
     powers: std::ops::Range<f64>,
-    curves: Vec<(&'a str, &'a [Row])>,
+    curves: Vec<(&'a str, &'a [AccuracyAtDistance])>,
     /// Powers of the distance that an error may grow by.
     laws: Vec<(&'a str, f64)>,
 }
@@ -141,7 +141,11 @@ fn draw(
 }
 
 /// Worst with dots, median without, where there are any.
-fn curve(chart: &mut Chart<'_, '_>, rows: &[Row], colour: RGBColor) -> Result<(), Box<dyn Error>> {
+fn curve(
+    chart: &mut Chart<'_, '_>,
+    rows: &[AccuracyAtDistance],
+    colour: RGBColor,
+) -> Result<(), Box<dyn Error>> {
     let solved = || rows.iter().filter(|row| row.solved > 0);
     let worst: Vec<_> = solved().map(|row| at(row, row.worst_block.worst())).collect();
     let median = solved().map(|row| at(row, row.worst_block.median()));
@@ -152,7 +156,7 @@ fn curve(chart: &mut Chart<'_, '_>, rows: &[Row], colour: RGBColor) -> Result<()
     Ok(())
 }
 
-fn at(row: &Row, error: f64) -> (f64, f64) {
+fn at(row: &AccuracyAtDistance, error: f64) -> (f64, f64) {
     (libm::log10(row.distance), libm::log10(error).max(ERRORS.start))
 }
 
@@ -193,7 +197,7 @@ fn line(
 
 /// A line where the solver rejects the first spacecraft, with what it says.
 fn rejected(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn Error>> {
-    let first = panel.curves.first().and_then(|(_, rows)| Limit::of(rows).rejected);
+    let first = panel.curves.first().and_then(|(_, rows)| Limit::of_rows(rows).rejected);
     let Some(first) = first else { return Ok(()) };
     let x = libm::log10(first);
     let ends = [(x, ERRORS.start), (x, ERRORS.end)];

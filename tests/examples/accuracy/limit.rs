@@ -1,6 +1,6 @@
 //! Summary of a sweep: where the bound holds and is exceeded, where the solver rejects.
 
-use precess_tests::accuracy::Row;
+use precess_tests::accuracy::AccuracyAtDistance;
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 
 /// The figures of a sweep that runs from where the bound holds to where it is lost.
@@ -28,8 +28,8 @@ pub(crate) struct Bound {
 }
 
 impl Limit {
-    pub(crate) fn of(rows: &[Row]) -> Self {
-        let first = |is: &dyn Fn(&Row) -> bool| rows.iter().find(|row| is(row));
+    pub(crate) fn of_rows(rows: &[AccuracyAtDistance]) -> Self {
+        let first = |is: &dyn Fn(&AccuracyAtDistance) -> bool| rows.iter().find(|row| is(row));
         Self {
             worst: bound(rows, &|row| row.worst_block.worst() > ACCELERATIONS_WORST),
             median: bound(rows, &|row| row.worst_block.median() > ACCELERATIONS_MEDIAN),
@@ -40,7 +40,7 @@ impl Limit {
     }
 }
 
-fn bound(rows: &[Row], exceeds: &dyn Fn(&Row) -> bool) -> Bound {
+fn bound(rows: &[AccuracyAtDistance], exceeds: &dyn Fn(&AccuracyAtDistance) -> bool) -> Bound {
     let lost = rows.iter().position(exceeds);
     let solved = rows.iter().filter(|row| row.rejected == 0).count();
     let holds = lost.unwrap_or(solved).checked_sub(1).and_then(|last| rows.get(last));
@@ -53,8 +53,10 @@ fn bound(rows: &[Row], exceeds: &dyn Fn(&Row) -> bool) -> Bound {
 /// The slope of the straight line through the medians, by least squares of the logarithms, over the
 /// distances at which the bound of the median is lost and nothing is rejected.
 #[expect(clippy::cast_precision_loss, reason = "a sweep has few distances")]
-fn power(rows: &[Row]) -> Option<f64> {
-    let lost = |row: &&Row| row.rejected == 0 && row.worst_block.median() > ACCELERATIONS_MEDIAN;
+fn power(rows: &[AccuracyAtDistance]) -> Option<f64> {
+    let lost = |row: &&AccuracyAtDistance| {
+        row.rejected == 0 && row.worst_block.median() > ACCELERATIONS_MEDIAN
+    };
     let points: Vec<_> = rows
         .iter()
         .filter(lost)

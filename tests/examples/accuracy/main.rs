@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgcmg, BareDgvscmg, BareVscmg};
-use precess_tests::accuracy::{Row, offset, pose};
+use precess_tests::accuracy::{AccuracyAtDistance, offset, pose};
 use precess_tests::wheels::{Difference, Stored};
 
 /// Measures both sweeps and the run, and writes the page with its figure.
@@ -58,13 +58,13 @@ impl Derivatives {
 /// Both sweeps, each from where the bound holds to where it is lost.
 struct Sweeps {
     /// Imbalanced wheels on the massless gimbals of a DGVSCMG, by the distance from the pose.
-    dgvscmg: Vec<Row>,
+    dgvscmg: Vec<AccuracyAtDistance>,
     /// Balanced ones.
-    balanced: Vec<Row>,
+    balanced: Vec<AccuracyAtDistance>,
     /// Kinds that no pose makes singular, at the least distance from that of a DGVSCMG.
-    others: Vec<(&'static str, Row)>,
+    others: Vec<(&'static str, AccuracyAtDistance)>,
     /// By the distance of the centre of mass from B.
-    offset: Vec<Row>,
+    offset: Vec<AccuracyAtDistance>,
 }
 
 impl Sweeps {

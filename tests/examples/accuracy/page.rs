@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use precess_tests::accuracy::{Row, SPACECRAFT};
+use precess_tests::accuracy::{AccuracyAtDistance, SPACECRAFT};
 use precess_tests::bounds::{
     ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, DERIVATIVES_MEDIAN, DERIVATIVES_WORST,
     WHEELS_BESIDE_BASILISK,
@@ -87,8 +87,8 @@ pub(crate) fn page(
     beside: &Beside,
     derivatives: &[Derivatives; 2],
 ) -> Result<String, Box<dyn Error>> {
-    let [dgvscmg, balanced] = [&sweeps.dgvscmg, &sweeps.balanced].map(|rows| Limit::of(rows));
-    let offset = Limit::of(&sweeps.offset);
+    let [dgvscmg, balanced] = [&sweeps.dgvscmg, &sweeps.balanced].map(|rows| Limit::of_rows(rows));
+    let offset = Limit::of_rows(&sweeps.offset);
     let mut context = Context::new();
     context.insert("worst", &format!("{ACCELERATIONS_WORST:e}"));
     context.insert("median", &format!("{ACCELERATIONS_MEDIAN:e}"));
@@ -146,8 +146,8 @@ fn line(name: &'static str, limit: &Limit, square: f64, unit: fn(f64) -> String)
     }
 }
 
-fn posed(dgvscmg: &[Row], balanced: &[Row]) -> Vec<Posed> {
-    let row = |(dgvscmg, balanced): (&Row, &Row)| Posed {
+fn posed(dgvscmg: &[AccuracyAtDistance], balanced: &[AccuracyAtDistance]) -> Vec<Posed> {
+    let row = |(dgvscmg, balanced): (&AccuracyAtDistance, &AccuracyAtDistance)| Posed {
         distance: shortest(dgvscmg.distance),
         kinds: [cells(dgvscmg), cells(balanced)],
         square: error(f64::EPSILON / (dgvscmg.distance * dgvscmg.distance)),
@@ -156,7 +156,7 @@ fn posed(dgvscmg: &[Row], balanced: &[Row]) -> Vec<Posed> {
     dgvscmg.iter().zip(balanced).map(row).collect()
 }
 
-fn moved(row: &Row) -> Moved {
+fn moved(row: &AccuracyAtDistance) -> Moved {
     let worst = |figures: &precess_tests::blocks::Figures| {
         if row.solved == 0 { "-".to_owned() } else { error(figures.worst()) }
     };
@@ -171,7 +171,7 @@ fn moved(row: &Row) -> Moved {
 }
 
 /// A dash where nothing is solved.
-fn cells(row: &Row) -> Cells {
+fn cells(row: &AccuracyAtDistance) -> Cells {
     let some = |value: f64| if row.solved == 0 { "-".to_owned() } else { error(value) };
     let (worst, median) = (row.worst_block.worst(), row.worst_block.median());
     Cells { worst: some(worst), median: some(median), rejected: row.rejected }

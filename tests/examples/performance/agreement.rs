@@ -15,7 +15,7 @@ const AGREEMENT: f64 = 1e-11;
 /// What a contender finds: accelerations of hub and joints in a row, or what moved, by name.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Found {
+enum ContenderResult {
     Accelerations(Vec<f64>),
     Motion(BTreeMap<String, Vec<f64>>),
 }
@@ -39,7 +39,7 @@ pub(crate) fn check(
             let all: Vec<_> = contenders.iter().filter(takes).collect();
             let peer = all.iter().find(|who| !who.is_ours()).or(all.first());
             let Some(reference) = peer else { continue };
-            let expected: Found = reference.query("check", folder, &case)?;
+            let expected: ContenderResult = reference.query("check", folder, &case)?;
             for contender in &all {
                 let found = contender.query("check", folder, &case)?;
                 let found = deviation(&found, &expected);
@@ -67,7 +67,7 @@ pub(crate) fn check(
 }
 
 /// The largest difference in units of the largest magnitude of its block, over all blocks.
-fn deviation(found: &Found, expected: &Found) -> Option<f64> {
+fn deviation(found: &ContenderResult, expected: &ContenderResult) -> Option<f64> {
     let (found, expected) = (blocks(found), blocks(expected));
     if found.len() != expected.len() {
         return None;
@@ -92,10 +92,10 @@ fn deviation(found: &Found, expected: &Found) -> Option<f64> {
 }
 
 /// The numbers by block: of accelerations the hub's two vectors, and those of all joints of one name.
-fn blocks(found: &Found) -> Vec<Vec<f64>> {
+fn blocks(found: &ContenderResult) -> Vec<Vec<f64>> {
     match found {
-        Found::Motion(blocks) => blocks.values().cloned().collect(),
-        Found::Accelerations(all) => {
+        ContenderResult::Motion(blocks) => blocks.values().cloned().collect(),
+        ContenderResult::Accelerations(all) => {
             let mut blocks = vec![Vec::new(); 5];
             for (number, value) in all.iter().enumerate() {
                 let block = if number < 6 { number / 3 } else { 2 + number % 3 };
@@ -108,7 +108,7 @@ fn blocks(found: &Found) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Found, deviation};
+    use super::{ContenderResult, deviation};
 
     #[test]
     fn deviation_is_in_units_of_the_block() {
@@ -116,7 +116,7 @@ mod tests {
         let mut found = expected.clone();
         found[0] = 1.5;
         found[8] = 101.0;
-        let of = |numbers: &[f64]| Found::Accelerations(numbers.to_vec());
+        let of = |numbers: &[f64]| ContenderResult::Accelerations(numbers.to_vec());
         assert_eq!(deviation(&of(&found), &of(&expected)), Some(0.125));
         assert_eq!(deviation(&of(&found), &of(&expected[..8])), None);
     }

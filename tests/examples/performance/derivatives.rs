@@ -50,7 +50,7 @@ pub(crate) struct Page {
 
 /// A service: its time for each number of devices, and that in units of what it differentiates.
 #[derive(Serialize)]
-struct Row {
+struct ServiceRow {
     title: &'static str,
     cells: Vec<String>,
 }
@@ -59,7 +59,7 @@ impl Page {
     /// The file, by name.
     pub(crate) fn files(&self) -> Result<Vec<(&'static str, String)>, Box<dyn Error>> {
         let rows: Vec<_> = SERVICES.into_iter().filter_map(|service| self.row(service)).collect();
-        for Row { title, cells } in &rows {
+        for ServiceRow { title, cells } in &rows {
             println!("{title:60} {}", cells.join("  "));
         }
         let mut context = Context::new();
@@ -72,17 +72,17 @@ impl Page {
         Ok(vec![("performance-derivatives.md", tera.render("page", &context)?)])
     }
 
-    fn row(&self, [name, unit, title]: [&'static str; 3]) -> Option<Row> {
+    fn row(&self, [name, unit, title]: [&'static str; 3]) -> Option<ServiceRow> {
         let find = |name: &str| self.contenders.iter().find(|who| who.serves(name));
         let (who, unit) = (find(name)?, find(unit)?);
         let cells = DERIVATIVES.map(|case| {
-            let Some(time) = self.times.of(who, case) else { return "-".to_owned() };
+            let Some(time) = self.times.of_contender(who, case) else { return "-".to_owned() };
             let waited = if time.waited < WAITED { "" } else { " †" };
             let ratio = self.times.ratio((who, case), (unit, case));
             let ratio = ratio.map_or("-".to_owned(), |of| of_unit(of.value));
             format!("{} ({ratio}, {:.0} %){waited}", digits(time.ns()), 100.0 * time.spread())
         });
-        Some(Row { title, cells: cells.into() })
+        Some(ServiceRow { title, cells: cells.into() })
     }
 }
 

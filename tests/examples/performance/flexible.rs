@@ -25,7 +25,7 @@ pub(crate) struct Page {
 
 /// A case: times of Precess and of the peer, with what they are compared with.
 #[derive(Serialize)]
-struct Row {
+struct CaseRow {
     case: &'static str,
     ours: String,
     of_rigid: String,
@@ -37,7 +37,7 @@ impl Page {
     /// The file, by name.
     pub(crate) fn files(&self) -> Result<Vec<(&'static str, String)>, Box<dyn Error>> {
         let rows: Vec<_> = FLEXIBLE.into_iter().filter_map(|case| self.row(case)).collect();
-        for Row { case, ours, of_rigid, peer, of_ours } in &rows {
+        for CaseRow { case, ours, of_rigid, peer, of_ours } in &rows {
             println!("{case:44} {ours:>16} {of_rigid:>8} {peer:>16} {of_ours:>8}");
         }
         let peer = self.peer();
@@ -54,13 +54,13 @@ impl Page {
         Ok(vec![("performance-flexible.md", tera.render("page", &context)?)])
     }
 
-    fn row(&self, case: &str) -> Option<Row> {
+    fn row(&self, case: &str) -> Option<CaseRow> {
         let ours = self.contenders.iter().find(|who| who.serves(Subject::Flexible.unit()))?;
         let peer = self.peer().filter(|peer| peer.takes(case));
         let ratio = |of: Option<Ratio>| of.map_or("-".to_owned(), |of| of_unit(of.value));
         let rigid = FLEXIBLE[0];
         let compared = peer.and_then(|peer| self.times.ratio((peer, case), (ours, case)));
-        Some(Row {
+        Some(CaseRow {
             case: title(case),
             ours: self.time(ours, case),
             of_rigid: ratio(self.times.ratio((ours, case), (ours, rigid))),
@@ -75,7 +75,7 @@ impl Page {
 
     /// Nanoseconds and spread; marked where its core was shared.
     fn time(&self, who: &Contender, case: &str) -> String {
-        let Some(time) = self.times.of(who, case) else { return "-".to_owned() };
+        let Some(time) = self.times.of_contender(who, case) else { return "-".to_owned() };
         let waited = if time.waited < WAITED { "" } else { " †" };
         format!("{} ({:.0} %){waited}", digits(time.ns()), 100.0 * time.spread())
     }

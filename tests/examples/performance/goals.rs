@@ -160,7 +160,7 @@ impl<'a> Measured<'a> {
     /// Time of a state of four devices at the issue floor of a batch, ns; the goal of a batch from the
     /// time of Pinocchio's best build, ns; and how many times faster than that it is.
     pub(crate) fn batch_limits(&self) -> (Option<f64>, Option<f64>, f64) {
-        let ns = |who: &Contender| self.times.of(who, "4").map(Time::ns);
+        let ns = |who: &Contender| self.times.of_contender(who, "4").map(Time::ns);
         let floor = self.service("batch").and_then(|batch| self.floor(batch)).and_then(ns);
         let best = named(self.contenders, BEST).and_then(ns);
         let times = BATCH.1;

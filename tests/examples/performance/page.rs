@@ -11,7 +11,7 @@ use crate::goals::Measured;
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::race::Times;
-use crate::tables::{Row, Table, Tables};
+use crate::tables::{Table, TableRow, Tables};
 use crate::tried::TRIED;
 
 /// What the page is made of.
@@ -39,7 +39,7 @@ impl Page {
         ] {
             println!();
             line(title, &heading);
-            for Row { name, cells, .. } in &rows {
+            for TableRow { name, cells, .. } in &rows {
                 line(name, cells);
             }
         }

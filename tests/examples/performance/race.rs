@@ -56,7 +56,7 @@ impl Time {
 
 impl Times {
     /// The time of a contender on a case.
-    pub(crate) fn of(&self, contender: &Contender, case: &str) -> Option<&Time> {
+    pub(crate) fn of_contender(&self, contender: &Contender, case: &str) -> Option<&Time> {
         self.0.iter().find(|time| time.name == contender.name && time.case == case)
     }
 

@@ -14,12 +14,12 @@ use crate::verdict::WAITED;
 pub(crate) struct Table {
     /// Headings of the columns of times.
     pub(crate) heading: Vec<String>,
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<TableRow>,
 }
 
 /// A row of it.
 #[derive(Serialize)]
-pub(crate) struct Row {
+pub(crate) struct TableRow {
     pub(crate) name: String,
     pub(crate) cells: Vec<String>,
     agrees: String,
@@ -62,9 +62,9 @@ impl Tables<'_> {
     fn table(&self, subjects: &[Subject], columns: Vec<(String, String)>) -> Table {
         let Measured { contenders, times } = self.measured;
         let rows = || contenders.iter().filter(|who| subjects.contains(&who.subject));
-        let timed = |case: &str| rows().any(|who| times.of(who, case).is_some());
+        let timed = |case: &str| rows().any(|who| times.of_contender(who, case).is_some());
         let columns: Vec<_> = columns.into_iter().filter(|(case, _)| timed(case)).collect();
-        let row = |who: &Contender| Row {
+        let row = |who: &Contender| TableRow {
             name: who.name.clone(),
             cells: columns.iter().map(|(case, _)| self.cell(who, case)).collect(),
             agrees: self.agrees(who),
@@ -78,7 +78,7 @@ impl Tables<'_> {
     /// Time, how many times that of the unit of its subject, spread; marked where its core was shared.
     fn cell(&self, who: &Contender, case: &str) -> String {
         let Measured { contenders, times } = self.measured;
-        let Some(time) = times.of(who, case) else { return "-".to_owned() };
+        let Some(time) = times.of_contender(who, case) else { return "-".to_owned() };
         let unit = who.subject.unit();
         let unit = contenders.iter().find(|other| other.serves(unit));
         let ratio = unit.and_then(|unit| times.ratio((who, case), (unit, case)));
@@ -112,7 +112,7 @@ impl Tables<'_> {
     /// Nanoseconds of a service with so many devices.
     pub(crate) fn ns(&self, service: &str, count: usize) -> Option<f64> {
         let service = self.measured.service(service)?;
-        self.measured.times.of(service, &count.to_string()).map(Time::ns)
+        self.measured.times.of_contender(service, &count.to_string()).map(Time::ns)
     }
 }
 

@@ -27,7 +27,7 @@ const REPEATS: usize = 101;
 
 /// Everything that this CPU has, in operations per nanosecond, and its frequency.
 pub(crate) fn floor() -> Value {
-    let row = |Row { name, rounds }: &Row| {
+    let row = |InstructionSet { name, rounds }: &InstructionSet| {
         let mut per_ns: Vec<_> = (0..REPEATS).map(|_| 1.0 / per_operation(*rounds)).collect();
         json!({ "name": name, "per_ns": median(&mut per_ns) })
     };
@@ -38,7 +38,7 @@ pub(crate) fn floor() -> Value {
 pub(crate) fn turns(name: &str) -> Result<(), Rejected> {
     let rows = rows();
     let found = rows.iter().find(|row| row.name == name);
-    let Row { rounds, .. } = found.ok_or_else(|| format!("this CPU has no `{name}`"))?;
+    let InstructionSet { rounds, .. } = found.ok_or_else(|| format!("this CPU has no `{name}`"))?;
     each_line(|| median_of_turn(|| Ok(per_operation(*rounds))))
 }
 
@@ -52,15 +52,15 @@ pub(crate) fn widest() -> &'static str {
 pub(crate) const ONE: &str = "f64";
 
 /// What is timed of one kind of instructions.
-struct Row {
+struct InstructionSet {
     name: &'static str,
     /// Returns the number of lanes.
     rounds: fn() -> usize,
 }
 
 /// What this CPU has, wider registers later.
-fn rows() -> Vec<Row> {
-    let mut rows = vec![Row { name: ONE, rounds: || Rounds.with_simd(pulp::Scalar) }];
+fn rows() -> Vec<InstructionSet> {
+    let mut rows = vec![InstructionSet { name: ONE, rounds: || Rounds.with_simd(pulp::Scalar) }];
     #[cfg(target_arch = "x86_64")]
     {
         use pulp::x86::{V3, V4};
@@ -72,10 +72,10 @@ fn rows() -> Vec<Row> {
             V4::try_new().map_or(0, |v4| Simd::vectorize(v4, work))
         }
         if V3::try_new().is_some() {
-            rows.push(Row { name: "4 lanes", rounds: || v3(Rounds) });
+            rows.push(InstructionSet { name: "4 lanes", rounds: || v3(Rounds) });
         }
         if V4::try_new().is_some() {
-            rows.push(Row { name: "8 lanes", rounds: || v4(Rounds) });
+            rows.push(InstructionSet { name: "8 lanes", rounds: || v4(Rounds) });
         }
     }
     rows

@@ -8,7 +8,7 @@ use super::{Body, Mass, PointMasses, Rates};
 
 /// One direction's equation, `m q'' = h`, summed over the masses.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct DirectionEquation {
     /// Of each acceleration.
     pub m: Vec<f64>,
     /// Without accelerations.
@@ -21,7 +21,12 @@ impl PointMasses {
     /// The equations, under uniform gravity g along N axes, what the hub's inputs and the motors
     /// exert in each direction, and a wrench on the child body of each joint or none on any.
     #[must_use]
-    pub fn equations(&self, g: &Vector3<f64>, inputs: &[f64], wrenches: &[Wrench]) -> Vec<Row> {
+    pub fn equations(
+        &self,
+        g: &Vector3<f64>,
+        inputs: &[f64],
+        wrenches: &[Wrench],
+    ) -> Vec<DirectionEquation> {
         let g = self.bn * g;
         let passive = [0.0; 6].into_iter().chain(self.passive());
         // The bodies as they are when nothing accelerates: what is left are the rates' own terms.
@@ -52,7 +57,7 @@ impl PointMasses {
             });
             let (m, of_m): (Vec<_>, Vec<_>) = m.unzip();
             let of_h = h.iter().map(|term| term.abs()).sum();
-            Row { m, h: h.iter().sum(), magnitudes: (of_m, of_h) }
+            DirectionEquation { m, h: h.iter().sum(), magnitudes: (of_m, of_h) }
         };
         let acting = inputs.iter().zip(passive).map(|(input, passive)| input + passive);
         displaced.iter().zip(&moved).zip(acting).map(row).collect()

@@ -18,7 +18,7 @@ use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{Accelerations, Attitude, Devices, Hub, State};
 
 pub use chain::{Chain, Link, Motion};
-pub use equations::Row;
+pub use equations::DirectionEquation;
 pub use rigid::{Rigid, posed, turn};
 
 /// Value, rate and acceleration.
@@ -92,7 +92,11 @@ pub struct PointMasses {
 impl PointMasses {
     /// Of a spacecraft in a state.
     #[must_use]
-    pub fn of<D: Devices<Scalar = f64>>(hub: &Hub, state: &State<D>, chains: Vec<Chain>) -> Self {
+    pub fn of_spacecraft<D: Devices<Scalar = f64>>(
+        hub: &Hub,
+        state: &State<D>,
+        chains: Vec<Chain>,
+    ) -> Self {
         let bn = state.attitude.dcm();
         let (coordinates, joints) = state.devices.states().map(|[q, rate]| (q, rate)).unzip();
         let rates = Rates { r_b_n_dot: bn * state.r_b_n_dot, omega: state.omega, joints };
@@ -179,7 +183,7 @@ impl Rates {
 
     /// Accelerations of any set.
     #[must_use]
-    pub fn of<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Self {
+    pub fn of_accelerations<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Self {
         let (r_b_n_dot, omega) = (found.r_b_n_ddot, found.omega_dot);
         Self { r_b_n_dot, omega, joints: found.devices.values().collect() }
     }

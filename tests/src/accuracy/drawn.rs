@@ -39,7 +39,7 @@ impl<T: Scalar> Drawn<T> {
 
     /// The solver's accelerations with devices of another form; a single gimbal moves as the outer one.
     pub(super) fn solved<F: Form>(&self, whose: &str) -> Solved<F::Device<T>> {
-        let devices: Vec<_> = self.devices.iter().map(F::of).collect();
+        let devices: Vec<_> = self.devices.iter().map(F::from_dgvscmg).collect();
         let craft = Spacecraft::new(&self.hub, &devices)
             .unwrap_or_else(|error| panic!("{}, {whose}: {error}", F::NAME));
         let single = F::Device::<T>::JOINTS.len() == 2;

@@ -13,19 +13,19 @@ pub trait Form {
     type Device<T: Scalar>: Kind<Scalar = T>;
 
     /// Makes it.
-    fn of<T: Scalar>(drawn: &Dgvscmg<T>) -> Self::Device<T>;
+    fn from_dgvscmg<T: Scalar>(drawn: &Dgvscmg<T>) -> Self::Device<T>;
 }
 
 /// The random device itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Whole;
+pub struct RandomDgvscmg;
 
-impl Form for Whole {
+impl Form for RandomDgvscmg {
     const NAME: &'static str = "dgvscmg";
 
     type Device<T: Scalar> = Dgvscmg<T>;
 
-    fn of<T: Scalar>(drawn: &Dgvscmg<T>) -> Dgvscmg<T> {
+    fn from_dgvscmg<T: Scalar>(drawn: &Dgvscmg<T>) -> Dgvscmg<T> {
         *drawn
     }
 }
@@ -43,7 +43,7 @@ macro_rules! bare_wheels {
 
             type Device<T: Scalar> = $kind<T>;
 
-            fn of<T: Scalar>(drawn: &Dgvscmg<T>) -> $kind<T> {
+            fn from_dgvscmg<T: Scalar>(drawn: &Dgvscmg<T>) -> $kind<T> {
                 let Dgvscmg { mount, r_go_b: $origin, m_w, d, i_w_wc, .. } = *drawn;
                 $kind { mount, $origin, d, ..$kind::bare_wheel(m_w, i_w_wc) }
             }
@@ -66,7 +66,7 @@ impl Form for BareBalancedDgvscmg {
 
     type Device<T: Scalar> = BalancedDgvscmg<T>;
 
-    fn of<T: Scalar>(drawn: &Dgvscmg<T>) -> BalancedDgvscmg<T> {
+    fn from_dgvscmg<T: Scalar>(drawn: &Dgvscmg<T>) -> BalancedDgvscmg<T> {
         let Dgvscmg { mount, r_go_b, m_w, i_w_wc, .. } = *drawn;
         let bare = BalancedDgvscmg::bare_wheel(m_w, i_w_wc.m11, i_w_wc.m22);
         BalancedDgvscmg { mount, r_go_b, ..bare }

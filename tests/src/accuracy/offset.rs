@@ -4,8 +4,8 @@
 use precess_dynamics::Scalar;
 
 use super::drawn::Drawn;
-use super::kinds::Whole;
-use super::{Row, SPACECRAFT, decades};
+use super::kinds::RandomDgvscmg;
+use super::{AccuracyAtDistance, SPACECRAFT, decades};
 use crate::case::Case;
 use crate::double_double::DoubleDouble as Wide;
 use crate::random::{Random, Sample, Visitor, visit};
@@ -20,19 +20,20 @@ pub fn distances() -> Vec<f64> {
 
 /// Measures one distance over the seeded spacecraft.
 #[must_use]
-pub fn at(distance: f64) -> Row {
-    let mut measurement = Measurement(Row::new(distance));
+pub fn at(distance: f64) -> AccuracyAtDistance {
+    let mut measurement = Measurement(AccuracyAtDistance::new(distance));
     visit(SPACECRAFT, &mut measurement);
     measurement.0
 }
 
-struct Measurement(Row);
+struct Measurement(AccuracyAtDistance);
 
 impl Visitor for Measurement {
     fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
         let (whose, distance) = (sample.to_string(), self.0.distance);
-        let found = Drawn::new(&case::<f64, N>(sample, distance)).solved::<Whole>(&whose);
-        let expected = || Drawn::new(&case::<Wide, N>(sample, distance)).solved::<Whole>(&whose);
+        let found = Drawn::new(&case::<f64, N>(sample, distance)).solved::<RandomDgvscmg>(&whose);
+        let expected =
+            || Drawn::new(&case::<Wide, N>(sample, distance)).solved::<RandomDgvscmg>(&whose);
         self.0.add(found, expected, &whose);
     }
 }

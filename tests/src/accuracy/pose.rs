@@ -8,7 +8,7 @@ use precess_dynamics::Scalar;
 
 use super::drawn::Drawn;
 use super::kinds::{BareDgvscmg, Form};
-use super::{Row, SPACECRAFT, decades};
+use super::{AccuracyAtDistance, SPACECRAFT, decades};
 use crate::case::Case;
 use crate::double_double::DoubleDouble as Wide;
 use crate::random::{Random, Sample, Visitor, visit};
@@ -23,14 +23,15 @@ pub fn distances() -> Vec<f64> {
 
 /// Measures bare wheels of a form at one distance, over the seeded spacecraft that have devices.
 #[must_use]
-pub fn at<F: Form>(distance: f64) -> Row {
-    let mut measurement = Measurement::<F> { row: Row::new(distance), form: PhantomData };
+pub fn at<F: Form>(distance: f64) -> AccuracyAtDistance {
+    let mut measurement =
+        Measurement::<F> { row: AccuracyAtDistance::new(distance), form: PhantomData };
     visit(SPACECRAFT, &mut measurement);
     measurement.row
 }
 
 struct Measurement<F> {
-    row: Row,
+    row: AccuracyAtDistance,
     form: PhantomData<F>,
 }
 
@@ -55,7 +56,7 @@ pub fn case<T: Scalar, const N: usize>(sample: &Sample<N>, distance: f64) -> Cas
     let mut sign = || if random.bits() & 1 == 0 { 1.0 } else { -1.0 };
     let mut case = sample.case::<T>();
     for (device, joints) in case.devices.iter_mut().zip(&mut case.state.devices) {
-        *device = BareDgvscmg::of(device);
+        *device = BareDgvscmg::from_dgvscmg(device);
         joints.gamma_i = T::from_f64(sign() * (FRAC_PI_2 + sign() * distance));
     }
     case

@@ -5,7 +5,7 @@
 //! Run with `--nocapture` to see the largest factor of each power.
 
 use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgvscmg, Form};
-use precess_tests::accuracy::{Row, offset, pose, reference};
+use precess_tests::accuracy::{AccuracyAtDistance, offset, pose, reference};
 use precess_tests::blocks::{errors, largest, worst};
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 use precess_tests::cases;
@@ -64,7 +64,7 @@ const REFERENCE_SPACECRAFT: u64 = 45;
 
 /// The errors of a row are within bounds of worst and median.
 #[track_caller]
-fn within(what: &str, row: &Row, [most, middle]: [f64; 2]) {
+fn within(what: &str, row: &AccuracyAtDistance, [most, middle]: [f64; 2]) {
     let (worst, median) = (row.worst_block.worst(), row.worst_block.median());
     let distance = row.distance;
     assert!(row.solved > 0, "{what}, {distance:e}: nothing was solved");
@@ -77,11 +77,11 @@ fn within(what: &str, row: &Row, [most, middle]: [f64; 2]) {
 #[track_caller]
 fn grow_as<'a>(
     what: &str,
-    rows: impl Iterator<Item = &'a Row> + Clone,
+    rows: impl Iterator<Item = &'a AccuracyAtDistance> + Clone,
     power: fn(f64) -> f64,
     [most, middle]: [f64; 2],
 ) {
-    let unit = |row: &Row| f64::EPSILON * power(row.distance);
+    let unit = |row: &AccuracyAtDistance| f64::EPSILON * power(row.distance);
     let solved = rows.filter(|row| row.solved > 0);
     let largest_worst = largest(solved.clone().map(|row| row.worst_block.worst() / unit(row)));
     let largest_median = largest(solved.clone().map(|row| row.worst_block.median() / unit(row)));

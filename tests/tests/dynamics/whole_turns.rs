@@ -114,13 +114,13 @@ struct Claim<F> {
 }
 
 trait Changes {
-    fn of<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error>;
+    fn errors<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error>;
 }
 
 impl<F: Changes> Visitor for Claim<F> {
     fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
         let bound = self.bound;
-        for (index, (what, error)) in self.changes.of(sample).into_iter().enumerate() {
+        for (index, (what, error)) in self.changes.errors(sample).into_iter().enumerate() {
             if index == self.figures.len() {
                 self.figures.push((what, Figures::default()));
             }
@@ -143,7 +143,7 @@ fn check(row: &str, bound: f64, changes: impl Changes) {
 fn whole_turns_of_any_joint_change_nothing() {
     struct InDouble;
     impl Changes for InDouble {
-        fn of<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error> {
+        fn errors<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error> {
             changes::<N, f64>(sample)
         }
     }
@@ -154,7 +154,7 @@ fn whole_turns_of_any_joint_change_nothing() {
 fn whole_turns_of_any_joint_change_nothing_in_double_double() {
     struct InDoubleDouble;
     impl Changes for InDoubleDouble {
-        fn of<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error> {
+        fn errors<const N: usize>(&self, sample: &Sample<N>) -> Vec<Error> {
             changes::<N, Wide>(sample)
         }
     }

@@ -124,7 +124,7 @@ impl Sample {
         }
     }
 
-    fn of(steps: u32, state: &State<Set, Mrp>) -> Self {
+    fn from_state(steps: u32, state: &State<Set, Mrp>) -> Self {
         Self {
             steps,
             position: state.r_b_n.into(),
@@ -171,7 +171,7 @@ impl Stored {
                 state = spacecraft.step(&state, &inputs, self.step).expect("regular");
                 made += 1;
             }
-            Sample::of(made, &state)
+            Sample::from_state(made, &state)
         };
         self.samples.iter().map(until).collect()
     }

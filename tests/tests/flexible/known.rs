@@ -42,12 +42,12 @@ fn beta(mode: u32) -> f64 {
 
 impl Cantilever {
     fn new(modes: u32) -> Self {
-        Self::of(modes, false)
+        Self::with_modes(modes, false)
     }
 
     /// With the residual compliance for a force across the tip, if asked for: the static response
     /// `L³ / 3 EI`, and the slope `L² / 2 EI` there, less those of the modes.
-    pub(crate) fn of(modes: u32, with_residual: bool) -> Self {
+    pub(crate) fn with_modes(modes: u32, with_residual: bool) -> Self {
         let [length, mass, stiffness] = BEAM;
         let betas: Vec<f64> = (0..modes).map(beta).collect();
         let signs = (0..modes).map(|mode| if mode % 2 == 0 { 1.0 } else { -1.0 });

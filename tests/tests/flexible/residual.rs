@@ -105,7 +105,7 @@ fn power_balances_with_residual_coordinates() {
 #[test]
 fn cantilever_with_residual_flexibility_is_the_truncated_sum_with_it() {
     for modes in [1, 3, 8] {
-        let cantilever = Cantilever::of(modes, true);
+        let cantilever = Cantilever::with_modes(modes, true);
         for omega in [0.3, 2.0, 9.0] {
             let (found, expected) = (cantilever.receptance(omega), cantilever.modal_sum(omega));
             let error = (found / expected - 1.0).abs();
@@ -120,7 +120,7 @@ fn cantilever_with_residual_flexibility_is_the_truncated_sum_with_it() {
 #[test]
 fn residual_flexibility_converges_with_the_seventh_power_of_the_modes() {
     let error = |modes, residual| {
-        let found = Cantilever::of(modes, residual).receptance(2.0);
+        let found = Cantilever::with_modes(modes, residual).receptance(2.0);
         (found / analytic(2.0) - 1.0).abs()
     };
     let rest = |modes: u32| (modes..2000).rev().map(|i| (f64::from(i) + 0.5).powi(-8)).sum::<f64>();

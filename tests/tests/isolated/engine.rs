@@ -12,7 +12,7 @@ use serde::Deserialize;
 type Cluster = Isolated<([ReactionWheel; 2], Vscmg)>;
 
 /// What an engine found for a spacecraft.
-type OfEngine = fn(&Craft) -> &Found;
+type OfEngine = fn(&Craft) -> &EngineSolution;
 
 /// Energy and momenta are sums of some tens of products: of their magnitude.
 const SUMS: f64 = 1e-13;
@@ -31,8 +31,8 @@ struct Craft {
     force: [f64; 3],
     torque_b: [f64; 3],
     devices: [Device; 4],
-    pinocchio: Found,
-    mujoco: Found,
+    pinocchio: EngineSolution,
+    mujoco: EngineSolution,
 }
 
 #[derive(Deserialize)]
@@ -64,7 +64,7 @@ struct Link {
 }
 
 #[derive(Deserialize)]
-struct Found {
+struct EngineSolution {
     r_b_n_ddot: Vec<f64>,
     omega_dot: Vec<f64>,
     joints: Vec<f64>,
@@ -79,7 +79,7 @@ fn tensor([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
 
 impl Device {
     /// As a device of a kind, whose joints it must have.
-    fn of<K: Kind<Scalar = f64>>(&self) -> K {
+    fn built<K: Kind<Scalar = f64>>(&self) -> K {
         assert_eq!((self.kind.as_str(), self.links.len()), (K::NAME, K::JOINTS.len()));
         let none = BodyParameters {
             origin: [0.0; 3],
@@ -107,13 +107,13 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// What the solver finds for a spacecraft.
-fn solved(of: &Craft) -> Found {
+fn solved(of: &Craft) -> EngineSolution {
     let hub = Hub { m_b: of.hub.m_b, r_bc_b: of.hub.r_bc_b.into(), i_b_bc: tensor(of.hub.i_b) };
     let [platform, first, second, gyro] = &of.devices;
     let devices = Isolated {
-        platform: platform.of::<Platform>(),
+        platform: platform.built::<Platform>(),
         suspension: Suspension::none(),
-        carried: ([first.of(), second.of()], gyro.of()),
+        carried: ([first.built(), second.built()], gyro.built()),
     };
     let craft: Spacecraft<Cluster> = Spacecraft::new(&hub, &devices).expect("sound");
     let mut state: State<Cluster> = State::at_rest();
@@ -130,7 +130,7 @@ fn solved(of: &Craft) -> Found {
     let found = craft.accelerations(&state, &inputs).expect("regular");
     // B is at the inertial origin.
     let momentum = craft.momentum(&state, About::InertialOrigin).expect("finite");
-    Found {
+    EngineSolution {
         r_b_n_ddot: found.r_b_n_ddot.as_slice().to_vec(),
         omega_dot: found.omega_dot.as_slice().to_vec(),
         joints: found.devices.values().collect(),
@@ -141,7 +141,7 @@ fn solved(of: &Craft) -> Found {
 }
 
 /// Worst of each block of accelerations; energy and momenta are asserted.
-fn errors(seed: u32, found: &Found, engine: &Found) -> [f64; 6] {
+fn errors(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> [f64; 6] {
     assert!((found.energy / engine.energy - 1.0).abs() < SUMS, "seed {seed}: energy");
     let near = |found: [f64; 3], expected: [f64; 3]| {
         let [found, expected] = [found, expected].map(Vector3::from);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use precess_codegen::emit::{self, EmittedFile};
-use precess_codegen::proof::Row;
+use precess_codegen::proof::Comparison;
 use precess_review::regen::{Pages, Regeneration, regenerate};
 
 use xtask::files::{differing, write};
@@ -133,7 +133,7 @@ const OPERATIONS: &str = "docs/operations.md";
 fn print(made: &Regeneration, quiet: bool) {
     let shown: Vec<_> = made.rows.iter().filter(|row| !quiet || !row.holds()).collect();
     if !shown.is_empty() {
-        say!("{}", Row::heading());
+        say!("{}", Comparison::heading());
     }
     let mut kind = None;
     for row in shown {

@@ -39,7 +39,7 @@ pub(crate) struct Spent {
 
 impl Spent {
     /// Measures what is left to be measured.
-    pub(crate) fn of(wall: f64, cpu: Option<f64>, notes: &Path) -> Result<Self, String> {
+    pub(crate) fn measure(wall: f64, cpu: Option<f64>, notes: &Path) -> Result<Self, String> {
         Ok(Self { wall, cpu, disk: size(&target()?), crates: measured::read(notes) })
     }
 }

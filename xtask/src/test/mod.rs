@@ -67,7 +67,7 @@ pub(crate) fn test(options: &Options) -> Result<(), String> {
     let notes = notes()?;
     let mut outcomes = run(&chosen, options.all, &notes)?;
     outcomes.sort_by_key(|outcome| chosen.iter().position(|suite| suite.name() == outcome.name));
-    let spent = cost::Spent::of(begun.elapsed().as_secs_f64(), of_children(), &notes)?;
+    let spent = cost::Spent::measure(begun.elapsed().as_secs_f64(), of_children(), &notes)?;
     table::print(&outcomes, &spent);
     let failed = outcomes.iter().filter(|outcome| outcome.failed()).count();
     if failed > 0 {
@@ -187,7 +187,7 @@ fn built_for(chosen: &[&'static Suite], notes: &Path) -> Result<(), String> {
 
 /// The suites whose programs are built by the command of a group.
 fn of_group(chosen: &[&'static Suite], members: Members, all: bool) -> Vec<&'static Suite> {
-    let is_of = |suite: &&Suite| matches!(suite.how, How::Target { package, .. } if Members::of(package, all) == members);
+    let is_of = |suite: &&Suite| matches!(suite.how, How::Target { package, .. } if Members::of_package(package, all) == members);
     chosen.iter().copied().filter(is_of).collect()
 }
 

@@ -45,7 +45,7 @@ impl Outcome {
     }
 
     /// Reads what a suite printed.
-    pub(crate) fn of(name: &str, output: &Output, seconds: f64, cpu: Option<f64>) -> Self {
+    pub(crate) fn from_output(name: &str, output: &Output, seconds: f64, cpu: Option<f64>) -> Self {
         let text = String::from_utf8_lossy(&output.stdout)
             + "\n"
             + String::from_utf8_lossy(&output.stderr);
@@ -124,7 +124,7 @@ mod tests {
             stdout: b"3 passed, 0 failed".to_vec(),
             stderr: b"skipped: flight; install with `apt-get install lld`\n".to_vec(),
         };
-        let outcome = Outcome::of("flight", &output, 1.0, None);
+        let outcome = Outcome::from_output("flight", &output, 1.0, None);
         assert_eq!(outcome.skipped, ["flight; install with `apt-get install lld`"]);
         assert_eq!((outcome.cases, outcome.failed()), (Some(3), false));
     }

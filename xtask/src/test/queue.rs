@@ -43,7 +43,7 @@ impl Job {
         let arguments = words.iter().map(|word| (*word).to_owned()).collect();
         // Without cargo: a build of something else is not waited for.
         let here = || std::env::current_exe().unwrap_or_else(|_| PathBuf::from("xtask"));
-        let program = words.first().and_then(|word| command::Program::of(word));
+        let program = words.first().and_then(|word| command::Program::of_command(word));
         let program = program.and_then(|program| program.path().ok()).unwrap_or_else(here);
         Self { name, program, arguments, folder: root(), is_test: false }
     }
@@ -58,7 +58,7 @@ impl Job {
     fn documentation_of(members: Members, all: bool) -> Self {
         let name = format!("{DOCUMENTATION}{}", members.says());
         let mut arguments: Vec<_> = ["test", "--doc", "--no-fail-fast"].map(str::to_owned).to_vec();
-        let libraries = libraries().filter(|package| Members::of(package, all) == members);
+        let libraries = libraries().filter(|package| Members::of_package(package, all) == members);
         arguments.extend(libraries.flat_map(|package| ["--package", package]).map(str::to_owned));
         if all && members == Members::Plain {
             // Its features of `zip` are those that the desktop tool was compiled with for the tests.
@@ -99,7 +99,7 @@ impl Job {
         let seconds = begun.elapsed().as_secs_f64();
         match output {
             Ok(output) => {
-                let outcome = Outcome::of(&self.name, &output, seconds, cpu);
+                let outcome = Outcome::from_output(&self.name, &output, seconds, cpu);
                 if outcome.failed() {
                     eprintln!(
                         "{}{}",

@@ -6,12 +6,12 @@ const PIVOT: f64 = 1e-12;
 
 /// One equation: coefficients and right side.
 #[derive(Clone, Copy)]
-pub(super) struct Row<const N: usize> {
+pub(super) struct LinearEquation<const N: usize> {
     pub(super) coefficients: [f64; N],
     pub(super) right: f64,
 }
 
-impl<const N: usize> Row<N> {
+impl<const N: usize> LinearEquation<N> {
     /// Whether every number is one.
     pub(super) fn is_finite(&self) -> bool {
         self.coefficients.iter().all(|a| a.is_finite()) && self.right.is_finite()
@@ -38,7 +38,7 @@ impl<const N: usize> Row<N> {
 }
 
 /// The unknowns of finite equations; `None` where these do not determine them.
-pub(super) fn solve<const N: usize>(rows: [Row<N>; N]) -> Option<[f64; N]> {
+pub(super) fn solve<const N: usize>(rows: [LinearEquation<N>; N]) -> Option<[f64; N]> {
     // Each row in the unit of its largest coefficient, so that pivots compare across units.
     let mut rows = rows.map(|row| row.scaled(row.largest().recip()));
     for k in 0..N {
@@ -71,8 +71,8 @@ pub(super) fn solve<const N: usize>(rows: [Row<N>; N]) -> Option<[f64; N]> {
 mod tests {
     use super::*;
 
-    fn rows<const N: usize>(rows: [([f64; N], f64); N]) -> [Row<N>; N] {
-        rows.map(|(coefficients, right)| Row { coefficients, right })
+    fn rows<const N: usize>(rows: [([f64; N], f64); N]) -> [LinearEquation<N>; N] {
+        rows.map(|(coefficients, right)| LinearEquation { coefficients, right })
     }
 
     #[test]

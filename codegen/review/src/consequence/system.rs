@@ -2,7 +2,7 @@
 
 use super::ConsequenceError;
 use super::assembled::Equations;
-use super::elimination::{Row, solve};
+use super::elimination::{LinearEquation, solve};
 use super::state::{INPUTS, State, cross, plus, turning};
 use super::table1::{TORQUES, parameter};
 use super::tape::Tape;
@@ -70,9 +70,9 @@ impl System {
         let mut values = self.tape.evaluate(&state.inputs(), &mut self.slots);
         let rows = torques.map(|torque| {
             let coefficients = std::array::from_fn(|_| values.next().unwrap_or(f64::NAN));
-            Row { coefficients, right: torque - values.next().unwrap_or(f64::NAN) }
+            LinearEquation { coefficients, right: torque - values.next().unwrap_or(f64::NAN) }
         });
-        if !rows.iter().all(Row::is_finite) {
+        if !rows.iter().all(LinearEquation::is_finite) {
             return Err(Failure::NotFinite);
         }
         let [x, y, z, p, q, r, gamma_o, gamma_i, theta] = solve(rows).ok_or(Failure::Singular)?;

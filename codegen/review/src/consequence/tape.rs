@@ -71,7 +71,7 @@ impl Tape {
             let below = node.operands().filter_map(|operand| levels.get(&operand));
             let level: u32 = below.max().map_or(0, |level| level + 1);
             levels.insert(id, level);
-            varying.extend(Operation::of(node).map(|operation| (level, operation, id)));
+            varying.extend(Operation::of_node(node).map(|operation| (level, operation, id)));
         }
         for (input, name) in inputs.iter().enumerate() {
             if let Some(symbol) = graph.find(name) {
@@ -119,7 +119,7 @@ impl Tape {
 }
 
 impl Operation {
-    fn of(node: Node) -> Option<Self> {
+    fn of_node(node: Node) -> Option<Self> {
         match node {
             Node::Constant(_) | Node::Symbol(_) => None,
             Node::Sum(..) => Some(Self::Sum),

@@ -1,17 +1,17 @@
 //! The emitted functions of one kind, called as the solver and its users call them.
 
-mod exerted;
-mod known;
-mod seen;
+mod fault;
+mod kinematics;
+mod poses_and_loads;
 
-pub(super) use exerted::Stand;
-pub(super) use known::Fault;
-pub(super) use seen::BodySeen;
+pub(super) use fault::Fault;
+pub(super) use kinematics::BodyKinematics;
+pub(super) use poses_and_loads::BodyPose;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::MutationError;
-use super::held::Held;
+use super::energy_momentum::EnergyMomentum;
 use super::listing::Listing;
 use super::physics::Role;
 use super::site::Site;
@@ -76,7 +76,7 @@ impl<'a, 'g> Device<'a, 'g> {
                 graph.symbol(&format!("{function}_{}", link.joint.coordinate), Stage::Configuration)
             })
         });
-        let functions = Functions::of(chain, &listings)?;
+        let functions = Functions::find(chain, &listings)?;
         let fields = listings[functions.eliminate].fields.iter();
         let constant_share = fields
             .filter(|(field, _)| field.starts_with("gain_") || field.starts_with("free_"))
@@ -119,7 +119,7 @@ impl<'a, 'g> Device<'a, 'g> {
             let change = || tape.changed(self.chain.graph, &site.place, site.mutant.change);
             meant.then(change).flatten()
         };
-        Fault::of(right, self.tapes.iter().enumerate().map(changed).collect())
+        Fault::new(right, self.tapes.iter().enumerate().map(changed).collect())
     }
 
     /// How many joints and bodies there are.
@@ -192,7 +192,7 @@ impl<'a, 'g> Device<'a, 'g> {
             self.functions.constant_share,
         ];
         let find = || self.solved(case, fault);
-        fault.answer(|known| &known.accelerations, &functions, case, &case.motion, find)
+        fault.result(|known| &known.accelerations, &functions, case, &case.motion, find)
     }
 
     /// Along B axes, as these functions are, then along the device's.
@@ -248,10 +248,15 @@ impl<'a, 'g> Device<'a, 'g> {
     }
 
     /// `energy_momentum`.
-    pub(super) fn held(&self, case: &Case, motion: &Motion, fault: &Fault) -> Held {
+    pub(super) fn energy_momentum(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        fault: &Fault,
+    ) -> EnergyMomentum {
         let function = self.functions.energy_momentum;
-        fault.answer(
-            |known| &known.held,
+        fault.result(
+            |known| &known.energy_momentum,
             &[function],
             case,
             motion,
@@ -260,7 +265,7 @@ impl<'a, 'g> Device<'a, 'g> {
                 // The names as they stand: this is called more often than all else together.
                 let vector =
                     |names: [&str; 3]| Vector3::from(names.map(|name| returned.scalar(name)));
-                Held {
+                EnergyMomentum {
                     energy: returned.scalar("energy"),
                     linear: vector(["linear_bx", "linear_by", "linear_bz"]),
                     angular: vector(["angular_b_bx", "angular_b_by", "angular_b_bz"]),
@@ -275,7 +280,7 @@ impl<'a, 'g> Device<'a, 'g> {
         let energy = |moving: &[usize]| {
             let rate = |k: usize| if moving.contains(&k) { 1.0 } else { 0.0 };
             let motion = case.motion.joints_alone((0..self.joints()).map(rate).collect());
-            self.held(case, &motion, fault).energy
+            self.energy_momentum(case, &motion, fault).energy
         };
         DMatrix::from_fn(self.joints(), self.joints(), |j, k| {
             if j == k { 2.0 * energy(&[j]) } else { energy(&[j, k]) - energy(&[j]) - energy(&[k]) }
@@ -285,7 +290,7 @@ impl<'a, 'g> Device<'a, 'g> {
 
 impl Functions {
     /// Finds each by its name.
-    fn of(chain: &Chain<'_>, listings: &[Listing<'_>]) -> Result<Self, MutationError> {
+    fn find(chain: &Chain<'_>, listings: &[Listing<'_>]) -> Result<Self, MutationError> {
         let find = |name: &str| {
             let place = listings.iter().position(|listing| listing.name == name);
             place.ok_or_else(|| MutationError::no_kernel(name, listings))

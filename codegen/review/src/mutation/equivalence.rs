@@ -4,14 +4,14 @@ use rustc_hash::FxHashMap;
 
 use super::device::{Device, PREPARE};
 use super::listing::Line;
-use super::site::{Change, Place, Site, partner};
+use super::site::{Change, Location, Site, partner};
 use precess_codegen::graph::{Expr, Graph, Node, NodeId};
 use precess_codegen::normal::Ring;
 
 /// Whether every statement that holds the changed node keeps its normal form, or what is dropped or
 /// flipped there is zero.
 pub(super) fn is_the_same(device: &Device<'_, '_>, index: usize, site: &Site) -> bool {
-    let Place::Operand { node, second } = site.place else { return false };
+    let Location::Operand { node, second } = site.place else { return false };
     let graph = device.chain.graph;
     let operand = graph.node(node).operands().nth(usize::from(second));
     if site.mutant.change != Change::Swap

@@ -10,8 +10,8 @@
 //! which its normal form shows. The derivation is used for nothing else.
 
 mod device;
+mod energy_momentum;
 mod equivalence;
-mod held;
 mod listing;
 mod physics;
 mod report;
@@ -21,7 +21,7 @@ mod tape;
 
 pub use listing::Computed;
 pub use physics::{EngineError, Engines, Kind, Law};
-pub use report::{Fate, Outcome, Report, Tally};
+pub use report::{MutantStatus, Outcome, Report, Tally};
 pub use site::{Change, Mutant};
 
 use std::fmt;
@@ -151,14 +151,14 @@ pub fn mutate(
         let fault = device.fault(&right, index, &site);
         let signals = residuals(&device, &trials, engines, &fault, role);
         let killed = signals.iter().any(|(_, residual)| *residual > NOTICED);
-        let fate = if killed {
-            Fate::Killed
+        let status = if killed {
+            MutantStatus::Killed
         } else if equivalence::is_the_same(&device, index, &site) {
-            Fate::Equivalent
+            MutantStatus::Equivalent
         } else {
-            Fate::Survivor
+            MutantStatus::Survivor
         };
-        outcomes.push(Outcome { mutant: site.mutant, signals, fate });
+        outcomes.push(Outcome { mutant: site.mutant, signals, status });
         progress(Progress::Done);
     }
     let listings = device.listings.iter().enumerate();

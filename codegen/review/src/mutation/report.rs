@@ -8,7 +8,7 @@ use precess_codegen::kinds;
 
 /// How a mutant ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum MutantStatus {
     /// A law shows it.
     Killed,
     /// Its normal form is that of the right function: nothing is wrong with it.
@@ -25,7 +25,7 @@ pub struct Outcome {
     /// The largest residual of every law that a change of its function can move.
     pub signals: Vec<(Law, f64)>,
     /// How it ended.
-    pub fate: Fate,
+    pub status: MutantStatus,
 }
 
 impl Outcome {
@@ -38,7 +38,7 @@ impl Outcome {
     /// Whether any law shows it.
     #[must_use]
     pub fn killed(&self) -> bool {
-        self.fate == Fate::Killed
+        self.status == MutantStatus::Killed
     }
 
     /// The largest residual of one kind of law; zero where none of the kind can see the function.
@@ -86,12 +86,12 @@ impl Tally {
         for (killed, kind) in self.killed.iter_mut().zip(Kind::ALL) {
             *killed += usize::from(outcome.killed_by(kind));
         }
-        let of_fate = match outcome.fate {
-            Fate::Killed => &mut self.any,
-            Fate::Equivalent => &mut self.equivalent,
-            Fate::Survivor => &mut self.survivors,
+        let count = match outcome.status {
+            MutantStatus::Killed => &mut self.any,
+            MutantStatus::Equivalent => &mut self.equivalent,
+            MutantStatus::Survivor => &mut self.survivors,
         };
-        *of_fate += 1;
+        *count += 1;
     }
 }
 
@@ -127,7 +127,7 @@ impl Report {
 
     /// What is neither shown by a law nor equivalent.
     pub fn survivors(&self) -> impl Iterator<Item = &Outcome> {
-        self.outcomes.iter().filter(|outcome| outcome.fate == Fate::Survivor)
+        self.outcomes.iter().filter(|outcome| outcome.status == MutantStatus::Survivor)
     }
 
     /// Tallies by a key, in the order in which the keys first occur.

@@ -59,7 +59,7 @@ impl fmt::Display for Mutant {
 
 /// Where in the graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Location {
     /// An operand of a node.
     Operand { node: NodeId, second: bool },
     /// A returned field that is a bare sine or cosine.
@@ -69,7 +69,7 @@ pub(super) enum Place {
 /// A mutant and where it is in the graph.
 pub(super) struct Site {
     pub(super) mutant: Mutant,
-    pub(super) place: Place,
+    pub(super) place: Location,
 }
 
 /// Every mutant of a function, in the order of its text. What depends on parameters only belongs
@@ -97,7 +97,7 @@ pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) 
                         operand: text(graph, *operand, &names),
                         whole: whole.clone(),
                     };
-                    let place = Place::Operand { node: *id, second: index == 1 };
+                    let place = Location::Operand { node: *id, second: index == 1 };
                     found.push(Site { mutant, place });
                 }
             }
@@ -115,7 +115,7 @@ pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) 
                     operand: shown.clone(),
                     whole: shown,
                 };
-                let place = Place::Returned(field.clone(), line.value.id());
+                let place = Location::Returned(field.clone(), line.value.id());
                 found.push(Site { mutant, place });
             }
         }
@@ -217,8 +217,8 @@ mod tests {
             let dropped = found.iter().filter(|site| site.mutant.change == Change::Drop);
             let mut sums: Vec<_> = dropped
                 .map(|site| match site.place {
-                    Place::Operand { node, .. } => node,
-                    Place::Returned(..) => panic!("a returned value is no term"),
+                    Location::Operand { node, .. } => node,
+                    Location::Returned(..) => panic!("a returned value is no term"),
                 })
                 .collect();
             sums.dedup();

@@ -73,7 +73,7 @@ impl Mode {
     pub(super) const DRIVEN: Self = Self::Driven { inertia: 0.0 };
 
     /// What a kind's joints are, with this mode for all that have a motor.
-    pub(super) fn of(kind: &Kind, mut mode: impl FnMut(usize) -> Self) -> Vec<Self> {
+    pub(super) fn of_kind(kind: &Kind, mut mode: impl FnMut(usize) -> Self) -> Vec<Self> {
         let kept = Self::Given { acceleration: 0.0 };
         let links = kind.links.iter().enumerate();
         links.map(|(k, link)| if link.is_driven() { mode(k) } else { kept }).collect()
@@ -280,7 +280,7 @@ impl Random {
         };
         let drive = Drive {
             motors: self.list(joints),
-            modes: Mode::of(kind, |_| Mode::DRIVEN),
+            modes: Mode::of_kind(kind, |_| Mode::DRIVEN),
             force: self.vector(),
             torque: self.vector(),
         };
@@ -290,7 +290,7 @@ impl Random {
     /// Modes with every other joint's acceleration given, `first` or its neighbours. The motors of
     /// the others have inertias of their own.
     pub(super) fn modes(&mut self, kind: &Kind, first: usize) -> Vec<Mode> {
-        Mode::of(kind, |k| {
+        Mode::of_kind(kind, |k| {
             if k % 2 == first {
                 Mode::Given { acceleration: self.signed() }
             } else {

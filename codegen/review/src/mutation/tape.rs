@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use super::listing::Listing;
-use super::site::{Change, Place, partner, symbol};
+use super::site::{Change, Location, partner, symbol};
 use nalgebra::{Matrix3, Vector3};
 use precess_codegen::graph::{Expr, Graph, Node, NodeId, SymbolId, float};
 use precess_codegen::space::ENTRIES;
@@ -103,14 +103,19 @@ impl Tape {
     }
 
     /// The change of this function that a mutant requires; none where it does not compute the node.
-    pub(super) fn changed(&self, graph: &Graph, place: &Place, change: Change) -> Option<Changed> {
+    pub(super) fn changed(
+        &self,
+        graph: &Graph,
+        place: &Location,
+        change: Change,
+    ) -> Option<Changed> {
         let swapped = |id: NodeId| Some(self.slots[&partner(graph, graph.expr(id))?.id()]);
         match place {
-            Place::Returned(field, id) => {
+            Location::Returned(field, id) => {
                 let slot = *self.returned.get(field)?;
                 Some(Changed { slot, step: Step::Copy(swapped(*id)?) })
             }
-            Place::Operand { node, second } => {
+            Location::Operand { node, second } => {
                 let slot = *self.slots.get(node)?;
                 let operands: Vec<_> = graph.node(*node).operands().collect();
                 let chosen = operands[usize::from(*second)];

@@ -9,7 +9,11 @@ pub(super) struct Balance(Vec<String>);
 
 impl Balance {
     /// Reads the print and weighs every component.
-    pub(super) fn of(graph: &Graph, pages: &[Page], printed: &[Page]) -> Result<Self, PageError> {
+    pub(super) fn of_pages(
+        graph: &Graph,
+        pages: &[Page],
+        printed: &[Page],
+    ) -> Result<Self, PageError> {
         let (_, reader) = read_on(graph, pages)?;
         let mut unbalanced = Vec::new();
         for page in printed {

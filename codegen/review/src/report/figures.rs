@@ -22,7 +22,7 @@ pub(super) struct Figures {
 
 impl Figures {
     /// Runs every form, every equation's slips and every cause.
-    pub(super) fn of(
+    pub(super) fn of_pages(
         pages: &[Page],
         printed: &[Page],
         verdicts: &Verdicts,

@@ -66,7 +66,7 @@ struct CostRow {
 impl KindText {
     /// What there is to tell of a kind.
     #[must_use]
-    pub fn of(chain: &Chain<'_>, emitted: &Emitted) -> Self {
+    pub fn of_chain(chain: &Chain<'_>, emitted: &Emitted) -> Self {
         let kind = chain.kind;
         let turning: Vec<_> = kind.turning().map(|link| link.joint.coordinate).collect();
         let turned = |link: &&Link| matches!(link.joint.motion, Motion::Turn(_));
@@ -86,7 +86,7 @@ impl KindText {
 
 impl Costs {
     /// What the functions of all kinds cost.
-    pub(super) fn of(kinds: &[KindText]) -> Self {
+    pub(super) fn of_kinds(kinds: &[KindText]) -> Self {
         let everywhere = |name: &&String| {
             kinds.iter().all(|kind| kind.operations.iter().any(|(function, _)| function == *name))
         };

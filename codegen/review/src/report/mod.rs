@@ -113,7 +113,7 @@ pub fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Vec<EmittedFile
 pub fn kinds(kinds: &[KindText]) -> Result<Vec<EmittedFile>, ReportError> {
     let mut context = Context::new();
     context.insert("kinds", kinds);
-    context.insert("costs", &kinds::Costs::of(kinds));
+    context.insert("costs", &kinds::Costs::of_kinds(kinds));
     document("docs/kinds", include_str!("templates/kinds.md.tera"), &context, &[])
 }
 
@@ -129,8 +129,8 @@ pub fn errata(
 ) -> Result<Vec<EmittedFile>, ReportError> {
     let graph = Graph::new();
     let _symbols = Chain::new(&graph, &DGVSCMG);
-    let balance = Balance::of(&graph, pages, printed)?;
-    let figures = Figures::of(pages, printed, verdicts)?;
+    let balance = Balance::of_pages(&graph, pages, printed)?;
+    let figures = Figures::of_pages(pages, printed, verdicts)?;
     let mut context = Context::new();
     context.insert("errata", &errata::errata(verdicts, &figures, &balance)?);
     let [errata, letter] =

@@ -4,7 +4,7 @@ use serde::Serialize;
 use tera::Context;
 
 use super::{ReportError, document};
-use crate::mutation::{Fate, Kind, Law, NOTICED, Outcome, Report, Tally};
+use crate::mutation::{Kind, Law, MutantStatus, NOTICED, Outcome, Report, Tally};
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::DGVSCMG;
 
@@ -17,13 +17,13 @@ struct Page {
     elsewhere: Vec<String>,
     /// The kind that is listed in full.
     name: &'static str,
-    functions: Vec<Row>,
+    functions: Vec<TallyRow>,
     noticed: String,
     margins: Vec<Margin>,
     weakest: Option<Weakest>,
     engines: usize,
     laws: Vec<LawText>,
-    equations: Vec<Row>,
+    equations: Vec<TallyRow>,
     /// Mutants that stand under no number.
     unnumbered: usize,
     survivors: Vec<String>,
@@ -32,7 +32,7 @@ struct Page {
 
 /// A tally and what it counts.
 #[derive(Serialize)]
-struct Row {
+struct TallyRow {
     of: String,
     mutants: usize,
     killed: [usize; 3],
@@ -44,7 +44,7 @@ struct Row {
 /// One kind of device.
 #[derive(Serialize)]
 struct DeviceRow {
-    tally: Row,
+    tally: TallyRow,
     weakest: String,
 }
 
@@ -80,16 +80,16 @@ pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
     let Some(report) = reports.iter().find(full) else { return Ok(Vec::new()) };
     let elsewhere = reports.iter().filter(|report| !full(report));
     let elsewhere = elsewhere.flat_map(|report| {
-        let survivors = report.listed(Fate::Survivor).into_iter();
+        let survivors = report.listed(MutantStatus::Survivor).into_iter();
         survivors.map(|mutant| format!("`{}`: {mutant}", report.kind.name))
     });
-    let total = std::iter::once(Row::new("all".to_owned(), report.total()));
+    let total = std::iter::once(TallyRow::new("all".to_owned(), report.total()));
     let functions = report.by_kernel().into_iter();
-    let functions = functions.map(|(kernel, tally)| Row::new(format!("`{kernel}`"), tally));
-    let equations = report.by_tag().into_iter().map(|(tag, tally)| Row::new(tag, tally));
+    let functions = functions.map(|(kernel, tally)| TallyRow::new(format!("`{kernel}`"), tally));
+    let equations = report.by_tag().into_iter().map(|(tag, tally)| TallyRow::new(tag, tally));
     let page = Page {
         kinds: Kind::ALL.map(Kind::title),
-        devices: reports.iter().map(DeviceRow::of).collect(),
+        devices: reports.iter().map(DeviceRow::new).collect(),
         elsewhere: elsewhere.collect(),
         name: report.kind.name,
         functions: functions.chain(total).collect(),
@@ -100,8 +100,8 @@ pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
         laws: Law::ALL.into_iter().map(|law| report.law(law)).collect(),
         equations: equations.collect(),
         unnumbered: report.unnumbered(),
-        survivors: report.listed(Fate::Survivor),
-        equivalent: report.listed(Fate::Equivalent),
+        survivors: report.listed(MutantStatus::Survivor),
+        equivalent: report.listed(MutantStatus::Equivalent),
     };
     let mut context = Context::new();
     context.insert("page", &page);
@@ -109,9 +109,9 @@ pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
 }
 
 impl DeviceRow {
-    fn of(report: &Report) -> Self {
+    fn new(report: &Report) -> Self {
         let weakest = report.weakest().map(|weakest| weakest.signal);
-        let tally = Row::new(format!("`{}`", report.kind.name), report.total());
+        let tally = TallyRow::new(format!("`{}`", report.kind.name), report.total());
         Self { tally, weakest: weakest.unwrap_or_default() }
     }
 }
@@ -145,12 +145,12 @@ impl Report {
         LawText { kind, statement, read: own.len(), killed }
     }
 
-    fn listed(&self, fate: Fate) -> Vec<String> {
-        self.outcomes.iter().filter(|outcome| outcome.fate == fate).map(shown).collect()
+    fn listed(&self, status: MutantStatus) -> Vec<String> {
+        self.outcomes.iter().filter(|outcome| outcome.status == status).map(shown).collect()
     }
 }
 
-impl Row {
+impl TallyRow {
     fn new(of: String, tally: Tally) -> Self {
         let Tally { mutants, killed, any, equivalent, survivors } = tally;
         Self { of, mutants, killed, any, equivalent, survivors }

@@ -15,7 +15,7 @@ use precess_codegen::page::{Page, numbers};
 /// What the template is filled with.
 #[derive(Serialize)]
 pub(super) struct Traceability {
-    rows: Vec<RowText>,
+    rows: Vec<EquationText>,
     kinds: Vec<String>,
     system: Vec<SystemText>,
     /// Mutants that stand under no number.
@@ -53,7 +53,7 @@ const SHOWN: usize = 4;
 
 /// One equation of the paper.
 #[derive(Serialize)]
-struct RowText {
+struct EquationText {
     tag: String,
     title: String,
     /// Where the derivation states or derives it.
@@ -82,16 +82,16 @@ struct SystemText {
 
 /// The table; `sources` are the files of the derivation, by path from the repository's root.
 pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page]) -> Traceability {
-    let (graph, places) = (Graph::new(), places(sources));
+    let (graph, citations) = (Graph::new(), citations(sources));
     let kernels = kernels(&Chain::new(&graph, &DGVSCMG));
     let numbered = verdicts.entries.iter().filter_map(|entry| Some((entry.number?, entry)));
     let rows = numbered.map(|(number, entry)| {
         let under = |tag: &str| names(tag, number);
         let (mutants, killed) = put_to_the_laws(report, under);
-        RowText {
+        EquationText {
             tag: entry.tag.clone(),
             title: entry.title.clone(),
-            lines: lines_of(&places, number, entry),
+            lines: lines_of(&citations, number, entry),
             pages: page_links(entry),
             derived: entry.derivation(),
             proven: claims(&kernels, |tag, _| names(tag, number)).join("; "),
@@ -183,7 +183,7 @@ fn short(names: &[&str]) -> String {
 }
 
 /// A comment of the derivation that names equations.
-struct Place {
+struct Citation {
     first: u16,
     last: u16,
     path: String,
@@ -194,7 +194,7 @@ struct Place {
 
 /// Every place that names an equation, a range being one place. A module's own comment is none: it
 /// computes nothing.
-fn places(sources: &[Page]) -> Vec<Place> {
+fn citations(sources: &[Page]) -> Vec<Citation> {
     let mut found = Vec::new();
     for source in sources {
         let lines: Vec<_> = source.text.lines().collect();
@@ -222,7 +222,7 @@ fn places(sources: &[Page]) -> Vec<Place> {
                     range_from = Some(first);
                 } else {
                     let (path, function) = (source.name.clone(), own.map(str::to_owned));
-                    found.push(Place { first, last: number, path, line, function });
+                    found.push(Citation { first, last: number, path, line, function });
                 }
             }
         }
@@ -238,12 +238,12 @@ fn function(line: &str) -> Option<&str> {
     begins.then_some(&rest[..end])
 }
 
-/// The most particular places that name an equation.
-fn lines_of(places: &[Place], number: u16, entry: &Entry) -> String {
+/// The most particular citations that name an equation.
+fn lines_of(citations: &[Citation], number: u16, entry: &Entry) -> String {
     if matches!(entry.hand_checked, HandChecked::Definition) {
         return String::new();
     }
-    let naming = || places.iter().filter(|place| (place.first..=place.last).contains(&number));
+    let naming = || citations.iter().filter(|place| (place.first..=place.last).contains(&number));
     let Some(narrowest) = naming().map(|place| place.last - place.first).min() else {
         return String::new();
     };
@@ -282,11 +282,11 @@ mod tests {
         let text = "//! (8)\n// (31), (44): rates\nlet a = f(7);\n/// (20) to (76)\n#[must_use]\n\
                     pub(super) fn b(c: u8) {\n    // (49)-(52); (64)\n}\n";
         let sources = [Page { name: "a.rs".to_owned(), text: text.to_owned() }];
-        let places = places(&sources);
-        let found = places.iter().map(|place| (place.first, place.last, place.line));
+        let citations = citations(&sources);
+        let found = citations.iter().map(|place| (place.first, place.last, place.line));
         let found: Vec<_> = found.collect();
         assert_eq!(found, [(31, 31, 2), (44, 44, 2), (20, 76, 4), (49, 52, 7), (64, 64, 7)]);
-        let functions: Vec<_> = places.iter().map(|place| place.function.as_deref()).collect();
+        let functions: Vec<_> = citations.iter().map(|place| place.function.as_deref()).collect();
         assert_eq!(functions, [None, None, Some("b"), Some("b"), Some("b")]);
     }
 }

@@ -5,7 +5,7 @@ use super::fault::{Fault, VerdictError};
 use super::mend::mended;
 use super::print::Print;
 use precess_codegen::page::{Block, CausePage, Class, Mend, PageError, numbers};
-use precess_codegen::proof::Row;
+use precess_codegen::proof::Comparison;
 
 /// A cause that differences share.
 #[derive(Clone, Debug)]
@@ -110,7 +110,7 @@ pub(super) fn fitting<'p>(
 pub(super) fn effects(
     print: &mut Print<'_>,
     mends: &[Mends<'_>],
-) -> Result<(Vec<Mended>, Vec<Row>), PageError> {
+) -> Result<(Vec<Mended>, Vec<Comparison>), PageError> {
     let (mut effects, mut rows) = (Vec::new(), Vec::new());
     for Mends { block, steps } in mends {
         let Some(last) = steps.last() else { continue };

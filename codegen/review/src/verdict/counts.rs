@@ -39,7 +39,7 @@ pub struct Counts {
 
 impl Counts {
     /// Counts the entries.
-    pub(super) fn of(entries: &[Entry]) -> Self {
+    pub(super) fn of_entries(entries: &[Entry]) -> Self {
         let numbered: Vec<_> = entries.iter().filter(|entry| entry.number.is_some()).collect();
         let count = |holds: fn(&Entry) -> bool| numbered.iter().filter(|e| holds(e)).count();
         let tags = |holds: fn(&Entry) -> bool| {
@@ -83,7 +83,7 @@ impl Verdicts {
     /// How many equations agree, differ, and are lost.
     #[must_use]
     pub fn counts(&self) -> Counts {
-        Counts::of(&self.entries)
+        Counts::of_entries(&self.entries)
     }
 
     /// How many differences that are slips have this cause.

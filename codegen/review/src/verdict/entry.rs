@@ -2,7 +2,7 @@
 
 use precess_codegen::normal::Term;
 use precess_codegen::page::{Block, Class, Note};
-use precess_codegen::proof::Row;
+use precess_codegen::proof::Comparison;
 
 /// Equations that the derivation states as the page does: Newton's and Euler's laws, sums, momenta
 /// of single bodies, the parallel axis theorem, mass ratios and differences of positions.
@@ -38,7 +38,7 @@ pub enum HandChecked {
     /// The blocks that state it, each proven equal to the derivation.
     Proven(Vec<Block>),
     /// The blocks that state it, and the rows that are no proof.
-    Differs(Vec<Block>, Vec<Row>),
+    Differs(Vec<Block>, Vec<Comparison>),
 }
 
 /// The print against the hand-checked pages.

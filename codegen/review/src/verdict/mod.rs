@@ -26,7 +26,7 @@ use precess_codegen::normal::Ring;
 use precess_codegen::page::{
     Block, CausePage, Page, PageError, Section, blocks, causes, read_on, sections,
 };
-use precess_codegen::proof::{Row, against_block};
+use precess_codegen::proof::{Comparison, against_block};
 use print::Print;
 use sorted::{Judged, Stated, entries, in_order};
 
@@ -41,7 +41,7 @@ pub struct Verdicts {
     /// The causes, in the order of their page.
     pub causes: Vec<Cause>,
     /// What must hold of notes and mends.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Comparison>,
 }
 
 impl Verdicts {

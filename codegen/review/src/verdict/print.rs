@@ -4,7 +4,7 @@ use super::fault::{Fault, VerdictError};
 use precess_codegen::graph::{Expr, Graph};
 use precess_codegen::normal::{Ring, Term};
 use precess_codegen::page::{Block, Class, Kind, Note, PageError, ReadError, Reader, in_the_case};
-use precess_codegen::proof::{Row, Verdict};
+use precess_codegen::proof::{Comparison, Verdict};
 
 /// Labelled components of a value.
 type Components<'g> = Vec<(String, Expr<'g>)>;
@@ -30,7 +30,7 @@ impl<'g> Print<'g> {
     ) -> Result<Vec<(String, Term)>, PageError> {
         let checked = self.value(block, body).map_err(at(block, block.line))?;
         let right = self.right(block).map_err(at(block, block.line))?;
-        let row = Row::compare(&mut self.ring, heading(block, ""), &checked, &right);
+        let row = Comparison::new(&mut self.ring, heading(block, ""), &checked, &right);
         match row.verdict {
             Verdict::Differs(terms) => Ok(terms),
             Verdict::Equal => Ok(Vec::new()),
@@ -40,7 +40,7 @@ impl<'g> Print<'g> {
     }
 
     /// That the print is what is right and the differences its notes name, to the last term.
-    pub(super) fn against_notes(&mut self, block: &Block) -> Result<Row, PageError> {
+    pub(super) fn against_notes(&mut self, block: &Block) -> Result<Comparison, PageError> {
         let printed = self.value(block, &block.body).map_err(at(block, block.line))?;
         let mut expected = self.right(block).map_err(at(block, block.line))?;
         for note in &block.notes {
@@ -48,11 +48,15 @@ impl<'g> Print<'g> {
             expected = sum(expected, &change);
         }
         let heading = heading(block, "print = page + notes");
-        Ok(Row::compare(&mut self.ring, heading, &printed, &expected).at(block.place()))
+        Ok(Comparison::new(&mut self.ring, heading, &printed, &expected).at(block.place()))
     }
 
     /// That a mended body is what is right, but for what is torn.
-    pub(super) fn against_torn(&mut self, block: &Block, body: &str) -> Result<Row, PageError> {
+    pub(super) fn against_torn(
+        &mut self,
+        block: &Block,
+        body: &str,
+    ) -> Result<Comparison, PageError> {
         let mended = self.value(block, body).map_err(at(block, block.line))?;
         let mut expected = self.right(block).map_err(at(block, block.line))?;
         let torn: Vec<_> =
@@ -67,7 +71,7 @@ impl<'g> Print<'g> {
             "print, mended = page but torn lines"
         };
         let heading = heading(block, claim);
-        Ok(Row::compare(&mut self.ring, heading, &mended, &expected).at(block.place()))
+        Ok(Comparison::new(&mut self.ring, heading, &mended, &expected).at(block.place()))
     }
 
     /// The components of a body in the block's place.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::entry::{Component, Entry, Form, HandChecked, Printed};
 use super::fault::{Fault, VerdictError};
 use precess_codegen::page::{Block, Class, Note, Number, Section, Subject, numbers};
-use precess_codegen::proof::Row;
+use precess_codegen::proof::Comparison;
 
 /// The numbers of the paper that state something.
 const NUMBERS: std::ops::RangeInclusive<u16> = 6..=125;
@@ -13,7 +13,7 @@ const NUMBERS: std::ops::RangeInclusive<u16> = 6..=125;
 /// A hand-checked block and how it was proven.
 pub(super) struct Stated {
     pub(super) block: Block,
-    pub(super) row: Row,
+    pub(super) row: Comparison,
 }
 
 /// A printed block and what differs in it.

@@ -51,13 +51,13 @@ impl Cases {
                 black_box(Angle::sin_cos(black_box(1.25)));
             }
         });
-        self.of("1", &[dgvscmg(); 1]);
-        self.of("4", &[dgvscmg(); 4]);
-        self.of("16", &[dgvscmg(); 16]);
+        self.cases("1", &[dgvscmg(); 1]);
+        self.cases("4", &[dgvscmg(); 4]);
+        self.cases("16", &[dgvscmg(); 16]);
         each_kind(self);
     }
 
-    fn of<D: Devices<Scalar = f64>>(&mut self, name: &str, devices: &D) {
+    fn cases<D: Devices<Scalar = f64>>(&mut self, name: &str, devices: &D) {
         self.case(&format!("accelerations/{name}"), || {
             let Measured { craft, state, inputs } = Measured::new(devices);
             move || {
@@ -90,7 +90,7 @@ impl EachKind<f64> for Cases {
     fn visit<K: Kind<Scalar = f64>>(&mut self, name: &'static str, device: K) {
         // The paper's device is listed by its number already.
         if name != "dgvscmg" {
-            self.of(name, &[device]);
+            self.cases(name, &[device]);
         }
     }
 }

@@ -10,7 +10,7 @@ use precess_description::Description;
 use serde_json::{Value, json};
 
 use super::imaging::{DEVICES, FORCE, OMEGA, TORQUE_B, WHEELS};
-use super::one::NUDGE;
+use super::single_state::NUDGE;
 use super::{Rejected, Service};
 
 /// The satellite in its state.

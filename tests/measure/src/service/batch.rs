@@ -8,7 +8,7 @@ use precess_dynamics::{Hub, Inputs, Spacecraft, State};
 use precess_tests::stored::Stored;
 use serde_json::Value;
 
-use super::one::{NUDGE, flat};
+use super::single_state::{NUDGE, flat};
 use super::{Rejected, Service};
 
 /// By how much the body rate of a state exceeds that of the one before, of itself.
@@ -67,7 +67,7 @@ pub(super) fn apart<D: LanedSet>(mut state: State<D>, states: u32) -> Vec<State<
 }
 
 /// Their accelerations.
-pub(crate) struct Many<D: LanedSet> {
+pub(crate) struct ManyStates<D: LanedSet> {
     batch: Batch<D>,
     states: Vec<State<D>>,
     inputs: Inputs<D>,
@@ -75,7 +75,7 @@ pub(crate) struct Many<D: LanedSet> {
     count: u32,
 }
 
-impl<D: LanedSet> Many<D> {
+impl<D: LanedSet> ManyStates<D> {
     pub(super) fn open(stored: &Stored, batch: Batch<D>, count: u32) -> Result<Self, Rejected> {
         let state = stored.motion(State::at_rest_for(first(&batch)?));
         let inputs = stored.forces(Inputs::none_for(first(&batch)?));
@@ -83,7 +83,7 @@ impl<D: LanedSet> Many<D> {
     }
 }
 
-impl<D: LanedSet> Service for Many<D> {
+impl<D: LanedSet> Service for ManyStates<D> {
     fn check(&mut self) -> Result<Value, Rejected> {
         let mut found = Vec::new();
         self.batch.accelerations(&self.states, &self.inputs, &mut found)?;

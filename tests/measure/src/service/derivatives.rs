@@ -11,7 +11,7 @@ use precess_dynamics::{
 use precess_tests::stored::Stored;
 use serde_json::Value;
 
-use super::one::{NUDGE, flat};
+use super::single_state::{NUDGE, flat};
 use super::{Name, Rejected, Service};
 
 /// The change of a variable by which differences are taken.

@@ -11,7 +11,7 @@ use precess_tests::bending::{WHEELS, structure, swing};
 use serde_json::Value;
 
 use super::listed::Listed;
-use super::one::{NUDGE, One, flat};
+use super::single_state::{NUDGE, SingleState, flat};
 use super::{Rejected, Service};
 
 /// Opens a case, by what is in its file.
@@ -38,10 +38,10 @@ fn four<K>(devices: Vec<K>) -> Result<[K; WHEELS], Rejected> {
     devices.try_into().map_err(|_| "another number of devices".into())
 }
 
-fn one<D: Devices<Scalar = f64>>(listed: &Listed, devices: &D) -> Result<One<D>, Rejected> {
+fn one<D: Devices<Scalar = f64>>(listed: &Listed, devices: &D) -> Result<SingleState<D>, Rejected> {
     let craft = Spacecraft::new(&listed.hub(), devices)?;
     let (state, inputs) = (listed.state(&craft), listed.inputs(&craft));
-    Ok(One { craft, state, inputs })
+    Ok(SingleState { craft, state, inputs })
 }
 
 /// A structure with a wheel on each of four mounts.

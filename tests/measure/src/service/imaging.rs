@@ -11,8 +11,8 @@ use precess_dynamics::{
 };
 
 use super::Rejected;
-use super::one::One;
 use super::parameters::parameters;
+use super::single_state::SingleState;
 
 /// How many devices it has.
 pub(super) const DEVICES: usize = 4;
@@ -34,7 +34,7 @@ pub(super) fn read(path: &Path) -> Result<Description, Rejected> {
 }
 
 /// The satellite in its state.
-pub(super) fn open(description: &Description) -> Result<One<[Dgvscmg; DEVICES]>, Rejected> {
+pub(super) fn open(description: &Description) -> Result<SingleState<[Dgvscmg; DEVICES]>, Rejected> {
     let matrix = |rows: &[[f64; 3]; 3]| Matrix3::from_fn(|row, column| rows[row][column]);
     let hub = Hub {
         m_b: description.hub.mass,
@@ -70,5 +70,5 @@ pub(super) fn open(description: &Description) -> Result<One<[Dgvscmg; DEVICES]>,
             [*at, *rate, *motor] = wheel;
         }
     }
-    Ok(One { craft, state, inputs })
+    Ok(SingleState { craft, state, inputs })
 }

@@ -12,11 +12,11 @@ mod imaging;
 #[cfg(feature = "lanes")]
 mod listed;
 mod name;
-mod one;
 mod open;
 mod parameters;
 #[cfg(feature = "lanes")]
 mod runs;
+mod single_state;
 #[cfg(feature = "lanes")]
 mod step;
 

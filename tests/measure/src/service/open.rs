@@ -10,11 +10,11 @@ use precess_dynamics::{
 use precess_dynamics::{Devices, Dgvscmg};
 use precess_tests::stored::Stored;
 
-use super::{Name, Rejected, Service, imaging, one::One};
+use super::{Name, Rejected, Service, imaging, single_state::SingleState};
 #[cfg(feature = "lanes")]
 use super::{
     baked::Baked,
-    batch::{Many, on_threads, own, same},
+    batch::{ManyStates, on_threads, own, same},
     derivatives::Derivatives,
     flexible,
     listed::Listed,
@@ -77,7 +77,7 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
 /// Only the hub, one evaluation after another.
 pub(crate) fn open_hub(stored: &Stored) -> Opened {
     let bare: [Dgvscmg; 0] = [];
-    Ok(Box::new(One::open(stored, &bare)?))
+    Ok(Box::new(SingleState::open(stored, &bare)?))
 }
 
 fn of_evaluations(name: Name, stored: &Stored) -> Opened {
@@ -85,39 +85,43 @@ fn of_evaluations(name: Name, stored: &Stored) -> Opened {
     #[cfg(feature = "lanes")]
     if name == Name::List {
         let devices: Vec<_> = devices.into_iter().map(BuiltIn::Dgvscmg).collect();
-        return Ok(Box::new(One::open(stored, &devices)?));
+        return Ok(Box::new(SingleState::open(stored, &devices)?));
     }
     array_of!(
         devices,
         [1 2 4 8 16 32 64 128 256],
         |array| of_array(name, stored, array),
-        of(name, stored, &devices)
+        unbatched(name, stored, &devices)
     )
 }
 
 #[cfg(not(feature = "lanes"))]
 fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N]) -> Opened {
-    of(name, stored, devices)
+    unbatched(name, stored, devices)
 }
 
 #[cfg(feature = "lanes")]
 fn of_array<const N: usize>(name: Name, stored: &Stored, devices: &[Dgvscmg; N]) -> Opened {
     let hub = stored.hub();
-    let many = |batch, states| Ok(Box::new(Many::open(stored, batch, states)?) as Box<_>);
+    let many = |batch, states| Ok(Box::new(ManyStates::open(stored, batch, states)?) as Box<_>);
     match name {
         Name::Batch => many(same(&hub, devices)?, IN_CACHE),
         Name::Parameters => many(own(&hub, devices, IN_CACHE)?, IN_CACHE),
         Name::Threads => many(on_threads(&hub, devices)?, ON_THREADS),
-        _ => of(name, stored, devices),
+        _ => unbatched(name, stored, devices),
     }
 }
 
-fn of<D: Devices<Scalar = f64> + 'static>(name: Name, stored: &Stored, devices: &D) -> Opened {
+fn unbatched<D: Devices<Scalar = f64> + 'static>(
+    name: Name,
+    stored: &Stored,
+    devices: &D,
+) -> Opened {
     match name {
         #[cfg(not(feature = "lanes"))]
-        Name::Portable => Ok(Box::new(One::open(stored, devices)?)),
+        Name::Portable => Ok(Box::new(SingleState::open(stored, devices)?)),
         #[cfg(feature = "lanes")]
-        Name::Dispatched => Ok(Box::new(One::open(stored, devices)?)),
+        Name::Dispatched => Ok(Box::new(SingleState::open(stored, devices)?)),
         _ => Err(format!("{name:?} takes no {} devices", stored.devices.len()).into()),
     }
 }

@@ -9,9 +9,9 @@ use precess_dynamics::{
     Sgcmg, SloshMass, Vscmg, Wrench,
 };
 use precess_dynamics::{FixedSet, HubMode};
-use precess_point_masses::{Chain, PointMasses, Rates, Row};
+use precess_point_masses::{Chain, DirectionEquation, PointMasses, Rates};
 
-use super::case::{Case, Found, SEEDS, World, joints, largest};
+use super::case::{Case, SEEDS, Solution, World, joints, largest};
 use super::devices::Drawn;
 use super::mixed::{Mixed, chains, drawn};
 use super::random::{Random, errors_of};
@@ -38,7 +38,7 @@ pub(crate) fn disturb<D: FixedSet<Scalar = f64>>(case: &mut Case<D>, random: &mu
 }
 
 /// The equations in every direction in which the spacecraft may move.
-fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<Row> {
+fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<DirectionEquation> {
     let inputs = &case.inputs;
     let g = match inputs.gravity {
         Gravity::Uniform(g) => g,
@@ -55,13 +55,13 @@ fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<
 fn unbalance<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> f64 {
     assert_eq!(case.inputs.hub, HubMode::Free);
     let Rates { r_b_n_dot: r_b_n_ddot, omega: omega_dot, joints } =
-        Rates::of(&case.accelerations());
+        Rates::of_accelerations(&case.accelerations());
     let found: Vec<_> = r_b_n_ddot.iter().chain(&omega_dot).chain(&joints).copied().collect();
     let driven = case.inputs.modes.values().map(|mode| mode == Mode::Driven);
     let free = [true; 6].into_iter().chain(driven);
     let errors =
         rows(case, masses).into_iter().zip(free).filter(|(_, free)| *free).map(|(row, _)| {
-            let Row { m, h, magnitudes: (of_m, of_h) } = row;
+            let DirectionEquation { m, h, magnitudes: (of_m, of_h) } = row;
             let residual = m.iter().zip(&found).map(|(m, q)| m * q).sum::<f64>() - h;
             residual.abs() / (of_m.iter().zip(&found).map(|(m, q)| m * q.abs()).sum::<f64>() + of_h)
         });
@@ -76,7 +76,7 @@ pub(crate) fn pair<K: Drawn>(random: &mut Random) -> (World, Case<[K; 2]>, Point
     let mut case = world.case(&devices, &settings);
     disturb(&mut case, random);
     let chains: Vec<Chain> = devices.iter().map(Drawn::chain).collect();
-    let masses = PointMasses::of(&world.hub, &case.state, chains);
+    let masses = PointMasses::of_spacecraft(&world.hub, &case.state, chains);
     (world, case, masses)
 }
 
@@ -127,7 +127,7 @@ fn mixed(random: &mut Random) -> (Case<Mixed>, PointMasses) {
     let (devices, settings) = drawn(random, world.hub.m_b);
     let mut case = world.case(&devices, &settings.concat());
     disturb(&mut case, random);
-    let masses = PointMasses::of(&world.hub, &case.state, chains(&devices));
+    let masses = PointMasses::of_spacecraft(&world.hub, &case.state, chains(&devices));
     (case, masses)
 }
 
@@ -144,7 +144,7 @@ fn mixed_set_balances() {
 const DIRECTIONS: usize = 15;
 
 /// The equations solved; the wheel that its kind prescribes has its acceleration, zero, for one.
-fn reference(case: &Case<Mixed>, masses: &PointMasses) -> Found {
+fn reference(case: &Case<Mixed>, masses: &PointMasses) -> Solution {
     let rows = rows(case, masses);
     let mut m = SMatrix::<f64, DIRECTIONS, DIRECTIONS>::from_fn(|i, j| rows[i].m[j]);
     let mut h = SVector::<f64, DIRECTIONS>::from_fn(|i, _| rows[i].h);
@@ -158,7 +158,7 @@ fn reference(case: &Case<Mixed>, masses: &PointMasses) -> Found {
     }
     let solved = m.cholesky().expect("positive definite").solve(&h);
     let names = case.craft.joints().map(|(_, info)| info.coordinate);
-    Found {
+    Solution {
         r_b_n_ddot: solved.fixed_rows::<3>(0).into_owned(),
         omega_dot: solved.fixed_rows::<3>(3).into_owned(),
         joints: names.zip(solved.iter().skip(6).copied()).collect(),

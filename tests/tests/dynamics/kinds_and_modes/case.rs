@@ -51,7 +51,7 @@ pub(crate) struct Case<D: Devices<Scalar = f64>> {
 /// Accelerations of any set: of the hub, and of each joint that is not locked by the name of its
 /// coordinate.
 #[derive(Clone, Debug)]
-pub(crate) struct Found {
+pub(crate) struct Solution {
     pub(crate) r_b_n_ddot: Vector3<f64>,
     pub(crate) omega_dot: Vector3<f64>,
     pub(crate) joints: Vec<(&'static str, f64)>,
@@ -171,16 +171,16 @@ impl<D: Devices<Scalar = f64>> Case<D> {
     }
 
     /// The solver's accelerations, joint by joint.
-    pub(crate) fn solved(&self) -> Found {
+    pub(crate) fn solved(&self) -> Solution {
         let Accelerations { r_b_n_ddot, omega_dot, devices, .. } = self.accelerations();
         let joints = self.craft.joints().zip(self.inputs.modes.values()).zip(devices.values());
         let moving = joints.filter(|((_, mode), _)| *mode != Mode::Locked);
         let joints = moving.map(|(((_, info), _), value)| (info.coordinate, value)).collect();
-        Found { r_b_n_ddot, omega_dot, joints }
+        Solution { r_b_n_ddot, omega_dot, joints }
     }
 }
 
-impl Found {
+impl Solution {
     /// The largest difference from what is expected, each in units of the largest magnitude of its
     /// block there. A block is one vector of the hub, or all joints of one name.
     pub(crate) fn error(&self, expected: &Self) -> f64 {

@@ -55,7 +55,7 @@ fn coasting(random: &mut Random) -> (Case<Set>, PointMasses) {
     let case = world.case(&(wheel, [double], balanced, (panel, slosh)), &settings);
     let chains =
         vec![wheel.chain(), double.chain(), balanced.chain(), panel.chain(), slosh.chain()];
-    let masses = PointMasses::of(&world.hub, &case.state, chains);
+    let masses = PointMasses::of_spacecraft(&world.hub, &case.state, chains);
     (case, masses)
 }
 

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::BalancedReactionWheel;
 use precess_point_masses::Rigid;
 
-use super::case::{Found, Joint, LIMITS, SEEDS, World, joints};
+use super::case::{Joint, LIMITS, SEEDS, Solution, World, joints};
 use super::devices::Drawn;
 use super::random::{Random, errors_of};
 
@@ -16,7 +16,7 @@ use super::random::{Random, errors_of};
 /// (I - sum J s s^T) omega' = L_c - omega x (I omega + sum J spin s) - sum u s,   I, L_c about C
 /// spin' = u / J - s . omega'
 /// ```
-fn closed_form(world: &World, wheels: &[BalancedReactionWheel; 3], settings: &[Joint]) -> Found {
+fn closed_form(world: &World, wheels: &[BalancedReactionWheel; 3], settings: &[Joint]) -> Solution {
     let whole = wheels.iter().map(|wheel| {
         let moments = Vector3::new(wheel.j_11, wheel.j_22, wheel.j_22);
         let inertia = Matrix3::from_diagonal(&moments);
@@ -42,7 +42,7 @@ fn closed_form(world: &World, wheels: &[BalancedReactionWheel; 3], settings: &[J
         ("theta", joint.torque / wheel.j_11 - s.dot(&omega_dot))
     });
     let r_b_n_ddot = force / mass - omega_dot.cross(&c) - omega.cross(&omega.cross(&c));
-    Found { r_b_n_ddot, omega_dot, joints: spin_dot.collect() }
+    Solution { r_b_n_ddot, omega_dot, joints: spin_dot.collect() }
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn same_motion<K: Drawn, L: Drawn>(pair: impl Fn(&mut Random, f64) -> (Stated<K>
     errors_of(SEEDS, error).are_within(LIMITS);
 }
 
-fn solved<K: Drawn>(world: &World, all: &[Stated<K>]) -> super::case::Found {
+fn solved<K: Drawn>(world: &World, all: &[Stated<K>]) -> super::case::Solution {
     let left = all.iter().filter_map(|stated| stated.left);
     let bodies: Vec<_> = std::iter::once(Rigid::of_hub(&world.hub)).chain(left).collect();
     let hub = if bodies.len() == 1 { world.hub } else { Rigid::merged(&bodies).hub() };

@@ -97,7 +97,7 @@ fn error_along<K: Drawn>(case: &Case<[K; 2]>, masses: &PointMasses, axes: LoadAx
     let accelerations = case.accelerations();
     let loads = case.craft.loads(&case.state, &case.inputs, &accelerations, axes);
     let loads = case.expect_ok(loads);
-    let bodies = masses.bodies(&Rates::of(&accelerations));
+    let bodies = masses.bodies(&Rates::of_accelerations(&accelerations));
     let Gravity::Uniform(g) = case.inputs.gravity else { panic!("a uniform field") };
     let g = masses.bn * g;
     let wrenches: Vec<_> = case.inputs.bodies.iter().flat_map(Each::values).collect();
@@ -180,7 +180,7 @@ fn loads_are_those_of_the_masses<K: Drawn>() {
 fn loads_of_a_clamped_hub<K: Drawn>() {
     let error = |random: &mut Random| {
         let (world, case, chains) = clamped::<K>(random);
-        let masses = PointMasses::of(&world.hub, &case.state, chains);
+        let masses = PointMasses::of_spacecraft(&world.hub, &case.state, chains);
         let found = case.accelerations();
         assert_eq!(found.r_b_n_ddot, Vector3::zeros());
         assert_eq!(found.omega_dot, Vector3::zeros());
@@ -206,7 +206,8 @@ fn what_was_found_gives_the_motors_back<K: Drawn>() {
     let error = |random: &mut Random| {
         let (_, case, masses) = pair::<K>(random);
         let found = case.accelerations();
-        let Rates { r_b_n_dot: r_b_n_ddot, omega: omega_dot, joints } = Rates::of(&found);
+        let Rates { r_b_n_dot: r_b_n_ddot, omega: omega_dot, joints } =
+            Rates::of_accelerations(&found);
         let settings: Vec<_> =
             case.settings().iter().zip(joints).map(|(j, a)| j.prescribed(a)).collect();
         // What a kind prescribes by itself is what it already was: zero.
@@ -224,7 +225,7 @@ fn motors_off<K: Drawn>(case: &Case<[K; 2]>, given: &Case<[K; 2]>, masses: &Poin
     let found = given.accelerations();
     let loads = given.craft.loads(&given.state, &given.inputs, &found, LoadAxes::Body);
     let loads = given.expect_ok(loads);
-    let bodies = masses.bodies(&Rates::of(&found));
+    let bodies = masses.bodies(&Rates::of_accelerations(&found));
     let Gravity::Uniform(g) = case.inputs.gravity else { panic!("a uniform field") };
     let g = masses.bn * g;
     let wrenches: Vec<_> = case.inputs.bodies.iter().flat_map(Each::values).collect();

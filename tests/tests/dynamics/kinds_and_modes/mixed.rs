@@ -8,7 +8,7 @@ use precess_dynamics::{
 use precess_point_masses::Chain;
 use precess_tests::cases;
 
-use super::case::{Found, Joint, LIMITS, SEEDS, World, joints};
+use super::case::{Joint, LIMITS, SEEDS, Solution, World, joints};
 use super::devices::Drawn;
 use super::random::{Random, errors_of};
 
@@ -48,7 +48,7 @@ fn reordered<D: Devices<Scalar = f64>>(
     devices: &D,
     settings: &Settings,
     order: [usize; 6],
-) -> Found {
+) -> Solution {
     let here: Vec<_> = order.iter().flat_map(|device| settings[*device].clone()).collect();
     let mut found = world.case(devices, &here).solved();
     let mut from = found.joints.into_iter();
@@ -61,7 +61,7 @@ fn reordered<D: Devices<Scalar = f64>>(
 }
 
 /// The mixed set against what becomes of it.
-fn same_motion(other: impl Fn(&World, &Mixed, &Settings) -> Found) {
+fn same_motion(other: impl Fn(&World, &Mixed, &Settings) -> Solution) {
     let error = |random: &mut Random| {
         let world = World::drawn(random);
         let (devices, settings) = drawn(random, world.hub.m_b);
@@ -102,7 +102,7 @@ fn nesting_of_devices_does_not_even_change_rounding() {
 }
 
 /// The bits of all numbers.
-pub(crate) fn bits(found: &Found) -> Vec<u64> {
+pub(crate) fn bits(found: &Solution) -> Vec<u64> {
     let hub = found.r_b_n_ddot.iter().chain(&found.omega_dot).copied();
     hub.chain(found.joints.iter().map(|(_, value)| *value)).map(f64::to_bits).collect()
 }

@@ -8,7 +8,7 @@ use precess_dynamics::{
 };
 use precess_tests::double_double::DoubleDouble;
 
-use super::case::Found;
+use super::case::Solution;
 use super::random::{Random, errors_of};
 
 /// Largest difference of `f32` from `f64` over Table 1's ranges, of the block: `2^-23` times
@@ -83,7 +83,7 @@ fn set<T: Scalar>() -> (Hub<T>, Set<T>) {
     (hub, ([first, second], sgcmg, double, (panel, slosh)))
 }
 
-fn solved<T: Scalar>(random: &mut Random) -> Found {
+fn solved<T: Scalar>(random: &mut Random) -> Solution {
     let (hub, devices) = set::<T>();
     let craft = Spacecraft::new(&hub, &devices).expect("valid");
     let mut state = State::<Set<T>>::at_rest();
@@ -103,7 +103,7 @@ fn solved<T: Scalar>(random: &mut Random) -> Found {
     let found = craft.accelerations(&state, &inputs).expect("regular");
     let wide = |v: &Vector3<T>| Vector3::from_fn(|k, _| v[k].to_f64());
     let names = craft.joints().map(|(_, info)| info.coordinate);
-    Found {
+    Solution {
         r_b_n_ddot: wide(&found.r_b_n_ddot),
         omega_dot: wide(&found.omega_dot),
         joints: names.zip(found.devices.values().map(Scalar::to_f64)).collect(),

@@ -29,7 +29,7 @@ fn braking(random: &mut Random) -> (Case<Mixed>, PointMasses) {
         }
     }
     let case = world.case(&devices, &settings);
-    let masses = PointMasses::of(&world.hub, &case.state, chains(&devices));
+    let masses = PointMasses::of_spacecraft(&world.hub, &case.state, chains(&devices));
     (case, masses)
 }
 

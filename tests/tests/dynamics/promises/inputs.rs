@@ -7,7 +7,7 @@ use precess_dynamics::{
     FixedSet, Hub, HubMode, Inputs, Quantity, ReactionWheel, SolveError, Spacecraft, State,
 };
 
-use super::services::{Alone, outcomes};
+use super::services::{OneDevice, outcomes};
 
 fn hub() -> Hub {
     Hub { m_b: 10.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() }
@@ -23,7 +23,7 @@ fn rate_of_a_wheel_on_a_held_hub_is_rejected_where_it_is_not_finite() {
         let mut state = State::<[ReactionWheel; 1]>::at_rest();
         state.devices[0].spin = f64::NAN;
         let inputs = Inputs { hub: held, ..Inputs::<[ReactionWheel; 1]>::none() };
-        for (service, outcome) in outcomes(&Alone { hub: hub(), device, state, inputs }) {
+        for (service, outcome) in outcomes(&OneDevice { hub: hub(), device, state, inputs }) {
             let named = matches!(
                 outcome,
                 Err(SolveError::NotFinite { what: Quantity::Joint { field: "spin", .. }, .. })
@@ -49,7 +49,7 @@ fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {
             }
             _ => false,
         };
-        for (service, outcome) in outcomes(&Alone { hub: hub(), device, state, inputs }) {
+        for (service, outcome) in outcomes(&OneDevice { hub: hub(), device, state, inputs }) {
             assert!(outcome.as_ref().is_err_and(named), "{service}: {outcome:?}");
         }
         let craft = Spacecraft::new(&hub(), &[device]).expect("valid parameters");

@@ -7,7 +7,7 @@ use precess_dynamics::{BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
 
 /// A device of a kind, its joints and motors.
 #[derive(Clone, Copy)]
-pub(crate) struct Alone<K: Kind<Scalar = f64>> {
+pub(crate) struct OneDevice<K: Kind<Scalar = f64>> {
     pub(crate) hub: Hub,
     pub(crate) device: K,
     pub(crate) state: State<[K; 1]>,
@@ -18,11 +18,11 @@ pub(crate) struct Alone<K: Kind<Scalar = f64>> {
 pub(crate) type Outcome = Result<[f64; 3], SolveError>;
 
 /// The result of each service, by its name.
-pub(crate) fn outcomes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
+pub(crate) fn outcomes<K>(case: &OneDevice<K>) -> Vec<(&'static str, Outcome)>
 where
     K: Kind<Scalar = f64> + Into<BuiltIn>,
 {
-    let Alone { hub, device, state, inputs } = case;
+    let OneDevice { hub, device, state, inputs } = case;
     let craft = Spacecraft::new(hub, &[*device]).expect("valid parameters");
     let found = craft.accelerations(state, inputs);
     let mut all = vec![("one state", found.map(|found| found.omega_dot.into()))];
@@ -38,11 +38,11 @@ where
 
 /// The result of each service in lanes, by its name.
 #[cfg(feature = "lanes")]
-fn in_lanes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
+fn in_lanes<K>(case: &OneDevice<K>) -> Vec<(&'static str, Outcome)>
 where
     K: Kind<Scalar = f64>,
 {
-    let Alone { hub, device, state, inputs } = case;
+    let OneDevice { hub, device, state, inputs } = case;
     let batch = Batch::new(hub, &[*device]).expect("valid parameters");
     let mut out = Vec::new();
     batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
@@ -50,7 +50,7 @@ where
 }
 
 /// The same by a set whose devices are known at run time only.
-fn listed<K, D>(case: &Alone<K>, devices: &D) -> Outcome
+fn listed<K, D>(case: &OneDevice<K>, devices: &D) -> Outcome
 where
     K: Kind<Scalar = f64>,
     D: precess_dynamics::Devices<Scalar = f64>,

@@ -7,7 +7,7 @@ use precess_dynamics::{
 };
 use precess_tests::random::{Random, SEED};
 
-use super::services::{Alone, outcomes};
+use super::services::{OneDevice, outcomes};
 
 /// Poses tried of each spacecraft.
 const POSES: u64 = 60;
@@ -27,7 +27,7 @@ fn skew(random: &mut Random) -> Matrix3<f64> {
     *Rotation3::from_euler_angles(angle(), angle(), angle()).matrix()
 }
 
-fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(case: &Alone<K>, device: Option<usize>) {
+fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(case: &OneDevice<K>, device: Option<usize>) {
     for (service, outcome) in outcomes(case) {
         match outcome {
             Err(SolveError::Singular { device: found, .. }) if found == device => {}
@@ -36,7 +36,7 @@ fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(case: &Alone<K>, device: Opti
     }
 }
 
-fn gimballed(inertia: f64, random: &mut Random) -> Alone<Dgvscmg> {
+fn gimballed(inertia: f64, random: &mut Random) -> OneDevice<Dgvscmg> {
     let device = Dgvscmg { mount: skew(random), ..Dgvscmg::bare_wheel(4.0, disc()) };
     let mut state = State::<[Dgvscmg; 1]>::at_rest();
     state.devices[0].gamma_o = random.within(-3.0, 3.0);
@@ -44,7 +44,7 @@ fn gimballed(inertia: f64, random: &mut Random) -> Alone<Dgvscmg> {
     state.devices[0].spin = 100.0;
     let mut inputs = Inputs::<[Dgvscmg; 1]>::none();
     inputs.motors[0].u_w = 0.1;
-    Alone { hub: hub([inertia; 3]), device, state, inputs }
+    OneDevice { hub: hub([inertia; 3]), device, state, inputs }
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn hub_without_inertia_is_rejected_beside_what_the_devices_took_out() {
         // hub's.
         let mut state = State::<[ReactionWheel; 1]>::at_rest();
         state.devices[0].spin = 100.0;
-        rejected(&Alone { hub: hub([0.0; 3]), device, state, inputs: Inputs::none() }, None);
+        rejected(&OneDevice { hub: hub([0.0; 3]), device, state, inputs: Inputs::none() }, None);
     }
 }
 
@@ -84,7 +84,7 @@ fn moment_that_the_moving_share_cancels_is_rejected() {
     let rod = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
     let device = ReactionWheel::bare_wheel(4.0, rod);
     let state = State::<[ReactionWheel; 1]>::at_rest();
-    rejected(&Alone { hub: hub([1.0, 0.0, 1.0]), device, state, inputs: Inputs::none() }, None);
+    rejected(&OneDevice { hub: hub([1.0, 0.0, 1.0]), device, state, inputs: Inputs::none() }, None);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn hub_whose_mass_is_nothing_beside_what_slides_is_rejected() {
     let device = SloshMass::bare_slosh_mass(4.0);
     let light = Hub { m_b: 1e-16, ..hub([1.0; 3]) };
     let state = State::<[SloshMass; 1]>::at_rest();
-    rejected(&Alone { hub: light, device, state, inputs: Inputs::none() }, None);
+    rejected(&OneDevice { hub: light, device, state, inputs: Inputs::none() }, None);
 }
 
 /// A point mass that the inner gimbal has brought onto the outer gimbal's axis.
@@ -107,10 +107,10 @@ fn joint_whose_own_diagonal_is_rounding_is_rejected() {
         };
         let mut state = State::<[Dgcmg; 1]>::at_rest();
         state.devices[0].gamma_i = angle;
-        rejected(&Alone { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() }, Some(0));
+        rejected(&OneDevice { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() }, Some(0));
         // A tenth of a radian on, it has a lever arm.
         state.devices[0].gamma_i = angle + 0.1;
-        let case = Alone { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() };
+        let case = OneDevice { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() };
         assert!(outcomes(&case).iter().all(|(_, outcome)| outcome.is_ok()));
     }
 }

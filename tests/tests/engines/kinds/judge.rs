@@ -5,7 +5,7 @@ use precess_dynamics::Scalar;
 use precess_tests::chains::{Chain, Craft, Link, Load};
 use precess_tests::newton_euler::vector::{Tensor, Vector};
 
-use super::solver::{hub_mode, mode, mount, of, passive};
+use super::solver::{hub_mode, mode, mount, passive, scalar};
 use super::stored::{self, StoredDevice, StoredJoint};
 
 /// How a joint moves: about x, y or z (0 to 2) or along it, and whether its body is round.
@@ -50,7 +50,7 @@ fn joints(kind: &str) -> &'static [Moves] {
 /// The spacecraft as the reference takes it.
 pub(crate) fn craft<T: Scalar>(stored: &stored::Craft) -> Craft<T> {
     Craft {
-        mass: of(stored.hub.m_b),
+        mass: scalar(stored.hub.m_b),
         centre: vector(stored.hub.r_bc_b),
         inertia: symmetric(stored.hub.i_b),
         omega: vector(stored.omega),
@@ -76,22 +76,22 @@ fn link<T: Scalar>(joint: &StoredJoint, Moves { axis, slides, round }: Moves) ->
         slides,
         round,
         origin: vector(joint.origin),
-        mass: of(joint.mass),
+        mass: scalar(joint.mass),
         centre: vector(joint.centre),
         inertia: symmetric(joint.inertia),
         passive: passive(joint),
-        coordinate: of(joint.coordinate),
-        rate: of(joint.rate),
-        motor: of(joint.motor),
+        coordinate: scalar(joint.coordinate),
+        rate: scalar(joint.rate),
+        motor: scalar(joint.motor),
         mode: mode(joint.mode),
         applied: Load { force: vector([a, b, c]), moment: vector([d, e, f]) },
     }
 }
 
 fn vector<T: Scalar>(components: [f64; 3]) -> Vector<T> {
-    Vector(components.map(of))
+    Vector(components.map(scalar))
 }
 
 fn symmetric<T: Scalar>([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Tensor<T> {
-    Tensor([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(of)))
+    Tensor([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(scalar)))
 }

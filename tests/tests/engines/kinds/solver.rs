@@ -27,14 +27,14 @@ impl<T: Scalar> Case<T> {
     /// wrong axes shows.
     pub(crate) fn new(stored: &Craft) -> Self {
         let hub = Hub {
-            m_b: of(stored.hub.m_b),
+            m_b: scalar(stored.hub.m_b),
             r_bc_b: vector(stored.hub.r_bc_b),
             i_b_bc: symmetric(stored.hub.i_b),
         };
         let devices: Set<T> = stored.devices.iter().map(device).collect();
         let craft = Spacecraft::new(&hub, &devices)
             .unwrap_or_else(|error| panic!("{}: {error}", stored.name));
-        let half = of(0.5);
+        let half = scalar(0.5);
         let attitude = Quaternion { q0: half, q1: half, q2: half, q3: half };
         let nb = attitude.dcm().transpose();
         let mut state = State {
@@ -45,7 +45,7 @@ impl<T: Scalar> Case<T> {
             ..State::at_rest_for(&craft)
         };
         for ([coordinate, rate], joint) in state.devices.states_mut().zip(stored.joints()) {
-            (*coordinate, *rate) = (of(joint.coordinate), of(joint.rate));
+            (*coordinate, *rate) = (scalar(joint.coordinate), scalar(joint.rate));
         }
         let mut wrenches = Inputs::no_wrenches_for(&craft);
         for (wrench, joint) in wrenches.values_mut().zip(stored.joints()) {
@@ -62,7 +62,7 @@ impl<T: Scalar> Case<T> {
         };
         let given = inputs.motors.values_mut().zip(inputs.modes.values_mut());
         for ((motor, to), joint) in given.zip(stored.joints()) {
-            (*motor, *to) = (of(joint.motor), mode(joint.mode));
+            (*motor, *to) = (scalar(joint.motor), mode(joint.mode));
         }
         let mass = stored.hub.m_b + stored.joints().map(|joint| joint.mass).sum::<f64>();
         Self { name: stored.name.clone(), mass, craft, state, inputs }
@@ -134,15 +134,15 @@ fn device<T: Scalar>(stored: &StoredDevice) -> BuiltIn<T> {
 
 fn body<T: Scalar>(joint: &StoredJoint) -> BodyParameters<T> {
     BodyParameters {
-        origin: joint.origin.map(of),
-        mass: of(joint.mass),
-        centre: joint.centre.map(of),
+        origin: joint.origin.map(scalar),
+        mass: scalar(joint.mass),
+        centre: joint.centre.map(scalar),
         inertia: symmetric(joint.inertia),
     }
 }
 
 pub(crate) fn passive<T: Scalar>(joint: &StoredJoint) -> Passive<T> {
-    let [stiffness, rest, viscous, coulomb, coulomb_rate] = joint.passive.map(of);
+    let [stiffness, rest, viscous, coulomb, coulomb_rate] = joint.passive.map(scalar);
     Passive { stiffness, rest, viscous, coulomb, coulomb_rate }
 }
 
@@ -150,7 +150,7 @@ pub(crate) fn mode<T: Scalar>(stored: StoredMode) -> Mode<T> {
     match stored {
         StoredMode::Driven => Mode::Driven,
         StoredMode::Locked => Mode::Locked,
-        StoredMode::Prescribed(acceleration) => Mode::Prescribed(of(acceleration)),
+        StoredMode::Prescribed(acceleration) => Mode::Prescribed(scalar(acceleration)),
     }
 }
 
@@ -166,9 +166,9 @@ pub(crate) fn hub_mode<T: Scalar>(stored: StoredHubMode) -> HubMode<T> {
 
 /// The rotation of a quaternion of any length: columns are the new axes.
 pub(crate) fn mount<T: Scalar>(quaternion: [f64; 4]) -> Matrix3<T> {
-    let [w, x, y, z] = quaternion.map(of::<T>);
-    let s = of::<T>(2.0) * (w * w + x * x + y * y + z * z).recip();
-    let one = of::<T>(1.0);
+    let [w, x, y, z] = quaternion.map(scalar::<T>);
+    let s = scalar::<T>(2.0) * (w * w + x * x + y * y + z * z).recip();
+    let one = scalar::<T>(1.0);
     Matrix3::new(
         one - s * (y * y + z * z),
         s * (x * y - w * z),
@@ -182,16 +182,16 @@ pub(crate) fn mount<T: Scalar>(quaternion: [f64; 4]) -> Matrix3<T> {
     )
 }
 
-pub(crate) fn of<T: Scalar>(value: f64) -> T {
+pub(crate) fn scalar<T: Scalar>(value: f64) -> T {
     T::from_f64(value)
 }
 
 fn vector<T: Scalar>(components: [f64; 3]) -> Vector3<T> {
-    Vector3::from(components.map(of))
+    Vector3::from(components.map(scalar))
 }
 
 fn symmetric<T: Scalar>(entries: [f64; 6]) -> Matrix3<T> {
-    let [xx, xy, xz, yy, yz, zz] = entries.map(of);
+    let [xx, xy, xz, yy, yz, zz] = entries.map(scalar);
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 

@@ -147,7 +147,7 @@ fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
     });
     let counts = images.and_then(|path| lines(&mut board.emulate(&path))).and_then(whole);
     let found = match (&image, &counts) {
-        (Ok(image), Ok(counts)) => Some(Figures::of(image, counts)),
+        (Ok(image), Ok(counts)) => Some(Figures::from_image(image, counts)),
         _ => None,
     };
     let exports = library.exports.len();

@@ -80,24 +80,24 @@ fn last(lines: &[String]) -> &str {
 mod tests {
     use super::*;
 
-    fn of(lines: &[&str]) -> Vec<String> {
+    fn lines_of(lines: &[&str]) -> Vec<String> {
         lines.iter().map(|&line| line.to_owned()).collect()
     }
 
     #[test]
     fn output_that_is_empty_or_short_is_rejected() {
         for lines in [&[][..], &["end: 0 lines"], &["a: 1"], &["a: 1", "end: 2 lines"]] {
-            assert!(whole(of(lines)).is_err(), "{lines:?}");
+            assert!(whole(lines_of(lines)).is_err(), "{lines:?}");
         }
-        assert_eq!(whole(of(&["a: 1", "end: 1 lines"])), Ok(of(&["a: 1"])));
+        assert_eq!(whole(lines_of(&["a: 1", "end: 1 lines"])), Ok(lines_of(&["a: 1"])));
     }
 
     #[test]
     fn one_digit_or_one_line_more_is_a_difference() {
-        let here = of(&["a: 1f", "b: 2e"]);
+        let here = lines_of(&["a: 1f", "b: 2e"]);
         assert_eq!(same(&here, &here), Ok(()));
-        assert!(same(&here, &of(&["a: 1f", "b: 2f"])).is_err());
-        assert!(same(&here, &of(&["a: 1f"])).is_err());
+        assert!(same(&here, &lines_of(&["a: 1f", "b: 2f"])).is_err());
+        assert!(same(&here, &lines_of(&["a: 1f"])).is_err());
     }
 
     #[test]

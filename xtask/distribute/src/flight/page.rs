@@ -59,7 +59,7 @@ pub(super) struct Figures {
 
 impl Figures {
     /// From the library's image and the lines of the program that counts.
-    pub(super) fn of(image: &Image, counts: &[String]) -> Result<Self, String> {
+    pub(super) fn from_image(image: &Image, counts: &[String]) -> Result<Self, String> {
         let counted = |name: &str| {
             let of_line = |line: &String| line.strip_prefix(name)?.strip_prefix(": ")?.parse().ok();
             counts.iter().find_map(of_line).ok_or_else(|| format!("no count of `{name}`"))

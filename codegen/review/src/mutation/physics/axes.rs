@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Matrix3};
 
 use super::law::Law;
 use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
-use crate::mutation::device::{Device, Fault, Stand};
+use crate::mutation::device::{BodyPose, Device, Fault};
 use precess_codegen::kinds::{Link, Motion};
 
 pub(super) fn residuals(
@@ -25,12 +25,12 @@ pub(super) fn residuals(
 fn axes(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion) = (&trial.case, &trial.case.motion);
     let all = |time: f64| {
-        let stands = device.stands(case, &motion.after(time, &trial.any), fault);
+        let stands = device.poses(case, &motion.after(time, &trial.any), fault);
         let numbers = stands.iter().flat_map(|stand| stand.axes.as_slice().to_vec());
         DMatrix::from_vec(9, stands.len(), numbers.collect())
     };
     let rates = slope(all);
-    let stands = device.stands(case, motion, fault);
+    let stands = device.poses(case, motion, fault);
     let residual = |(k, link): (usize, &Link)| {
         let own = stands[k].axes;
         let square = gap((own.transpose() * own).as_slice(), Matrix3::identity().as_slice());
@@ -48,8 +48,8 @@ fn axes(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
 
 fn origins(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion) = (&trial.case, &trial.case.motion);
-    let stands = device.stands(case, motion, fault);
-    let residual = |(k, stand): (usize, &Stand)| {
+    let stands = device.poses(case, motion, fault);
+    let residual = |(k, stand): (usize, &BodyPose)| {
         let led = stand.origin + stand.axes * device.centre(k, case);
         gap(led.as_slice(), device.body(k, case, motion, fault).r.as_slice())
     };

@@ -8,8 +8,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::differences::lagrange;
 use super::law::Law;
 use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
-use crate::mutation::device::{BodySeen, Device, Fault};
-use crate::mutation::held::{Held, Packed};
+use crate::mutation::device::{BodyKinematics, Device, Fault};
+use crate::mutation::energy_momentum::{EnergyMomentum, Packed};
 use crate::mutation::state::{Case, Motion};
 
 pub(super) fn residuals(
@@ -39,12 +39,12 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     let (motion, drive) = (&case.motion, &case.drive);
     let whole = |time: f64| {
         let motion = motion.after(time, &accelerations);
-        let mut held = device.held(case, &motion, fault);
+        let mut held = device.energy_momentum(case, &motion, fault);
         held.energy += drive.energy(&motion);
-        held.packed() + case.hub.held(&motion).packed()
+        held.packed() + case.hub.energy_momentum(&motion).packed()
     };
-    let now = Held::unpacked(&whole(0.0));
-    let rate = Held::unpacked(&slope(whole));
+    let now = EnergyMomentum::unpacked(&whole(0.0));
+    let rate = EnergyMomentum::unpacked(&slope(whole));
     // Components along axes that turn with B.
     let p_dot = rate.linear + motion.omega.cross(&now.linear);
     let h_dot = rate.angular + motion.omega.cross(&now.angular);
@@ -103,7 +103,7 @@ fn every_body(
     case: &Case,
     motion: &Motion,
     fault: &Fault,
-) -> Vec<Rc<BodySeen>> {
+) -> Vec<Rc<BodyKinematics>> {
     (0..device.joints()).map(|k| device.body(k, case, motion, fault)).collect()
 }
 
@@ -118,12 +118,12 @@ fn bodies(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
         let omega = motion.omega + body.omega_b();
         let (linear, spin) = (body.mass * velocity, body.inertia * omega);
         let energy = 0.5 * (velocity.dot(&linear) + omega.dot(&spin));
-        sum += Held { energy, linear, angular: body.r.cross(&linear) + spin }.packed();
+        sum += EnergyMomentum { energy, linear, angular: body.r.cross(&linear) + spin }.packed();
         inertia += body.inertia_b;
     }
-    let held = device.held(case, motion, fault).packed();
+    let held = device.energy_momentum(case, motion, fault).packed();
     let rigid = Motion { omega: motion.omega, ..motion.joints_alone(vec![0.0; device.joints()]) };
-    let turned = device.held(case, &rigid, fault).angular;
+    let turned = device.energy_momentum(case, &rigid, fault).angular;
     let moments = inertia * motion.omega;
     gap(sum.as_slice(), held.as_slice()).max(gap(moments.as_slice(), turned.as_slice()))
 }
@@ -140,7 +140,9 @@ fn forces(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
         after.velocity = Vector3::zeros();
         after
     };
-    let rate = Held::unpacked(&slope(|time| device.held(case, &after(time), fault).packed()));
+    let rate = EnergyMomentum::unpacked(&slope(|time| {
+        device.energy_momentum(case, &after(time), fault).packed()
+    }));
     let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
     for (k, body) in every_body(device, case, &motion, fault).into_iter().enumerate() {
         let r_dprime = body.r_dprime(&any.joints);
@@ -162,7 +164,7 @@ fn centre_of_mass(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 
     let (motion, omega) = (&case.motion, case.motion.omega);
     let mass = device.mass(case);
     let moment = device.moment(case, motion, fault);
-    let linear = |time: f64| device.held(case, &motion.after(time, any), fault).linear;
+    let linear = |time: f64| device.energy_momentum(case, &motion.after(time, any), fault).linear;
     let momentum = mass * motion.velocity + moment.mc_prime + omega.cross(&moment.mc);
     let force = mass * (any.point - omega.cross(&motion.velocity))
         + moment.mc_dprime(&any.joints)

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3x2, SMatrix, Vector3};
 
 use super::law::Law;
 use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
-use crate::mutation::device::{BodySeen, Device, Fault};
+use crate::mutation::device::{BodyKinematics, Device, Fault};
 use crate::mutation::state::{Accelerations, Case, Mode, Motion};
 
 pub(super) fn residuals(
@@ -54,7 +54,7 @@ fn body(device: &Device<'_, '_>, k: usize, trial: &Trial, fault: &Fault) -> Resi
 }
 
 /// What is differentiated: the body's axes, inertia, inertia about B; position, velocity.
-fn columns(body: &BodySeen) -> SMatrix<f64, 3, 11> {
+fn columns(body: &BodyKinematics) -> SMatrix<f64, 3, 11> {
     let mut columns = SMatrix::<f64, 3, 11>::zeros();
     for (place, tensor) in [(0, body.attitude), (3, body.inertia), (6, body.inertia_b)] {
         columns.fixed_columns_mut::<3>(place).copy_from(&tensor);
@@ -83,8 +83,8 @@ fn by_velocity(energy: impl Fn(f64) -> f64) -> f64 {
 }
 
 fn momenta(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
-    let held = device.held(case, &case.motion, fault);
-    let energy = |motion: &Motion| device.held(case, motion, fault).energy;
+    let held = device.energy_momentum(case, &case.motion, fault);
+    let energy = |motion: &Motion| device.energy_momentum(case, motion, fault).energy;
     let along = |change: &dyn Fn(&mut Motion, Vector3<f64>)| {
         Vector3::from_fn(|axis, _| {
             by_velocity(|step| {
@@ -129,7 +129,7 @@ pub(super) fn lagrange(
     accelerations: &Accelerations,
     fault: &Fault,
 ) -> [f64; 2] {
-    let energy = |motion: &Motion| device.held(case, motion, fault).energy;
+    let energy = |motion: &Motion| device.energy_momentum(case, motion, fault).energy;
     let momentum = |time: f64| {
         let motion = case.motion.after(time, accelerations);
         by_velocity(|step| {

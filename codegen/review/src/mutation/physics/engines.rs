@@ -6,7 +6,7 @@ use super::law::Law;
 use super::stored::{Body, EngineError, Stored, tensor};
 use super::trial::{Residuals, Role, concerns, gap};
 use crate::mutation::device::{Device, Fault};
-use crate::mutation::held::Held;
+use crate::mutation::energy_momentum::EnergyMomentum;
 use crate::mutation::state::Accelerations;
 use precess_codegen::kinds::Kind;
 
@@ -70,8 +70,9 @@ impl Stored {
     /// Energy and momenta of the whole spacecraft.
     fn momenta(&self, device: &Device<'_, '_>, fault: &Fault) -> f64 {
         let (case, motion) = (&self.case, &self.case.motion);
-        let whole = device.held(case, motion, fault).packed() + case.hub.held(motion).packed();
-        let ours = Held::unpacked(&whole);
+        let whole = device.energy_momentum(case, motion, fault).packed()
+            + case.hub.energy_momentum(motion).packed();
+        let ours = EnergyMomentum::unpacked(&whole);
         let energy = gap(&[ours.energy; 2], &self.energy);
         let linear = gap(ours.linear.as_slice(), self.linear.as_slice());
         energy.max(linear).max(gap(ours.angular.as_slice(), self.angular.as_slice()))

@@ -2,7 +2,7 @@
 
 use super::law::Law;
 use super::trial::{Residuals, Role, Trial, concerns, gap};
-use crate::mutation::device::{Device, Fault, Stand};
+use crate::mutation::device::{BodyPose, Device, Fault};
 use crate::mutation::state::Wrench;
 
 pub(super) fn residuals(
@@ -29,7 +29,7 @@ fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let joints: f64 = drives.sum();
     let hub = received.whole.power(&motion.velocity, &motion.omega);
     let stands = device.geometry(case, motion, fault);
-    let on_body = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
+    let on_body = |(k, (own, stand)): (usize, (&Wrench, &BodyPose))| {
         let body = device.body(k, case, motion, fault);
         let omega = motion.omega + body.omega_b();
         let centre = motion.velocity + body.r_prime + motion.omega.cross(&body.r);

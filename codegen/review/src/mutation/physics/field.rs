@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use super::law::Law;
 use super::trial::{Residuals, Role, Trial, concerns, gap, slope};
-use crate::mutation::device::{BodySeen, Device, Fault, Stand};
+use crate::mutation::device::{BodyKinematics, BodyPose, Device, Fault};
 use crate::mutation::state::Wrench;
 
 pub(super) fn residuals(
@@ -23,7 +23,7 @@ pub(super) fn residuals(
 }
 
 /// `integral of r r^T dm` about B.
-fn spread(body: &BodySeen) -> Matrix3<f64> {
+fn spread(body: &BodyKinematics) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(0.5 * body.inertia_b.trace()) - body.inertia_b
 }
 
@@ -34,7 +34,7 @@ fn work(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (velocity, omega) = (probe.twist.force, probe.twist.moment);
     let pulled = device.gravity(case, motion, &probe.gradient, fault);
     let stands = device.geometry(case, motion, fault);
-    let residual = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
+    let residual = |(k, (own, stand)): (usize, (&Wrench, &BodyPose))| {
         let body = device.body(k, case, motion, fault);
         let half = omega.cross_matrix() * spread(&body) + body.mass * body.r * velocity.transpose();
         let change = 0.5 * probe.gradient.component_mul(&(half + half.transpose())).sum();
@@ -55,7 +55,7 @@ fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion, gradient) = (&trial.case, &trial.case.motion, &trial.probe.gradient);
     let pulled = device.gravity(case, motion, gradient, fault);
     let stands = device.geometry(case, motion, fault);
-    let on_body = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
+    let on_body = |(k, (own, stand)): (usize, (&Wrench, &BodyPose))| {
         let body = device.body(k, case, motion, fault);
         let omega = body.omega_b();
         own.power(&(body.r_prime + omega.cross(&(stand.origin - body.r))), &omega)

@@ -65,6 +65,7 @@ fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let loads = device.loads(case, &trial.any, fault);
     let drives = loads.drives.iter().zip(&motion.rates).map(|(drive, rate)| drive * rate);
     let given = drives.sum::<f64>() + loads.whole.power(&motion.velocity, &motion.omega);
-    let energy = |time: f64| device.held(case, &motion.after(time, &trial.any), fault).energy;
+    let energy =
+        |time: f64| device.energy_momentum(case, &motion.after(time, &trial.any), fault).energy;
     gap(&[given], &[slope(energy)])
 }

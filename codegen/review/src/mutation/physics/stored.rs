@@ -161,13 +161,18 @@ impl Stored {
         for spacecraft in &file.spacecraft {
             let [device] = spacecraft.devices.as_slice() else { continue };
             if device.mount == identity && spacecraft.scales == Scales::Unit {
-                cases.push(Self::of(kind, CaseName::Stored(cases.len()), spacecraft, device)?);
+                cases.push(Self::from_text(
+                    kind,
+                    CaseName::Stored(cases.len()),
+                    spacecraft,
+                    device,
+                )?);
             }
         }
         if cases.is_empty() { Err(EngineError::None) } else { Ok(cases) }
     }
 
-    fn of(
+    fn from_text(
         kind: &Kind,
         name: CaseName,
         spacecraft: &Spacecraft,
@@ -198,7 +203,7 @@ impl Stored {
                 },
                 drive: Drive {
                     motors: reader.joints("motors", &device.motors, |joint| joint.torque)?,
-                    modes: Mode::of(kind, |_| Mode::DRIVEN),
+                    modes: Mode::of_kind(kind, |_| Mode::DRIVEN),
                     force: spacecraft.force.into(),
                     torque: spacecraft.torque_b.into(),
                 },

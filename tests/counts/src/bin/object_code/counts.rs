@@ -40,7 +40,7 @@ pub(crate) struct Counts {
 
 impl Counts {
     /// Counts the instructions of a function.
-    pub(crate) fn of(code: &[u8]) -> Result<Self, String> {
+    pub(crate) fn of_function(code: &[u8]) -> Result<Self, String> {
         let mut counts = Self::default();
         let mut ready = Ready::default();
         let mut factory = InstructionInfoFactory::new();
@@ -65,7 +65,7 @@ impl Counts {
                 reads |= numbers && is_read(memory.access());
                 writes |= numbers && is_written(memory.access());
             }
-            let place = Place::of(&instruction);
+            let place = MemoryOperand::of_instruction(&instruction);
             if reads {
                 let stored = ready.memory.get(&place).copied().unwrap_or(0);
                 start = start.max(stored + latency::LOAD);
@@ -95,7 +95,7 @@ impl Counts {
 #[derive(Default)]
 struct Ready {
     registers: HashMap<Register, u32>,
-    memory: HashMap<Place, u32>,
+    memory: HashMap<MemoryOperand, u32>,
 }
 
 impl Ready {
@@ -109,10 +109,10 @@ type Address = (Register, Register, u64);
 
 /// A place in memory. Kernels set no address themselves, so that equal addresses are one place.
 #[derive(PartialEq, Eq, Hash)]
-struct Place(Address);
+struct MemoryOperand(Address);
 
-impl Place {
-    fn of(instruction: &Instruction) -> Self {
+impl MemoryOperand {
+    fn of_instruction(instruction: &Instruction) -> Self {
         let (base, index) = (instruction.memory_base(), instruction.memory_index());
         Self((base, index, instruction.memory_displacement64()))
     }

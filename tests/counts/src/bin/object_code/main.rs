@@ -36,7 +36,7 @@ fn run() -> Result<(), Box<dyn Error>> {
     let program = Program::new(&file, (run as fn() -> Result<(), Box<dyn Error>>) as usize)?;
     for (name, address) in kernels.0 {
         let code = program.function(address).ok_or_else(|| format!("no code of {name}"))?;
-        let counts = Counts::of(code).map_err(|why| format!("{name}: {why}"))?;
+        let counts = Counts::of_function(code).map_err(|why| format!("{name}: {why}"))?;
         let Counts { arithmetic, loads, stores, copies, chain } = counts;
         println!("{name} {arithmetic} {loads} {stores} {copies} {chain}");
     }

@@ -11,7 +11,7 @@ use precess_codegen::kinds;
 use precess_codegen::space::{Axis, ENTRIES};
 
 /// One body seen from B; vectors along B but for `omega`, which is along the axes of its functions.
-pub(in crate::mutation) struct BodySeen {
+pub(in crate::mutation) struct BodyKinematics {
     pub(in crate::mutation) mass: f64,
     /// The axes along which its functions resolve it, as columns along B. A rotor that is the same
     /// from every angle does not carry them along.
@@ -47,7 +47,7 @@ impl Device<'_, '_> {
         fault: &Fault,
     ) -> Rc<Moment> {
         let function = self.functions.first_moment;
-        fault.answer(
+        fault.result(
             |known| &known.moments,
             &[function],
             case,
@@ -74,9 +74,9 @@ impl Device<'_, '_> {
         case: &Case,
         motion: &Motion,
         fault: &Fault,
-    ) -> Rc<BodySeen> {
+    ) -> Rc<BodyKinematics> {
         let function = self.functions.bodies[k];
-        fault.answer(
+        fault.result(
             |known| &known.bodies,
             &[function],
             case,
@@ -88,7 +88,13 @@ impl Device<'_, '_> {
         )
     }
 
-    fn seen(&self, k: usize, case: &Case, motion: &Motion, returned: &Returned<'_>) -> BodySeen {
+    fn seen(
+        &self,
+        k: usize,
+        case: &Case,
+        motion: &Motion,
+        returned: &Returned<'_>,
+    ) -> BodyKinematics {
         let links = self.chain.kind.links;
         let data = &links[k].body;
         let carrier = if k == 0 { "b" } else { links[k - 1].body.frame };
@@ -106,7 +112,7 @@ impl Device<'_, '_> {
             name.map_or(0.0, |name| self.parameter(case, name))
         };
         let column = |tag: &str| vector(&format!("r_{point}_b_dprime_{tag}"));
-        BodySeen {
+        BodyKinematics {
             mass: self.body_mass(k, case),
             axes,
             attitude: before * turned,
@@ -150,7 +156,7 @@ pub(super) fn unit(axis: Axis) -> Vector3<f64> {
     v
 }
 
-impl BodySeen {
+impl BodyKinematics {
     /// Second derivative of the centre of mass, seen from B.
     pub(in crate::mutation) fn r_dprime(&self, joints: &[f64]) -> Vector3<f64> {
         let terms = self.columns.iter().zip(joints).map(|(column, q)| *q * column);

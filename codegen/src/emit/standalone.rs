@@ -8,7 +8,7 @@ use super::cost::CountText;
 use super::device::Signatures;
 use super::error::EmitError;
 use super::file::{EmittedFile, kind_file, record_text, rust_file, templates};
-use super::home::Home;
+use super::target_crate::TargetCrate;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;
 use crate::kernel::shared_records;
@@ -18,7 +18,7 @@ const OF_HUB: [&str; 4] = ["BodyRate", "BodyAcceleration", "HubShare", "Constant
 
 /// What is emitted of a chain with assumptions.
 #[derive(Clone, Debug)]
-pub struct Alone {
+pub struct StandaloneKernels {
     /// Its functions.
     pub file: EmittedFile,
     /// Each function, the letters of its arguments and what a call of it costs.
@@ -29,22 +29,25 @@ pub struct Alone {
 ///
 /// # Errors
 /// When a template fails or the file would not parse.
-pub fn alone(chain: &Chain<'_>, command: &str) -> Result<Alone, EmitError> {
+pub fn standalone_kernels(
+    chain: &Chain<'_>,
+    command: &str,
+) -> Result<StandaloneKernels, EmitError> {
     let (mut counts, mut signatures) = (Vec::new(), Signatures::new());
-    let (tera, home) = (templates()?, Home::Alone(command));
-    let file = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
+    let (tera, target) = (templates()?, TargetCrate::Standalone(command));
+    let file = kind_file(&tera, chain, target, &mut counts, &mut signatures)?;
     let function = |count: &CountText| {
         let letters = signatures.get(&count.function).map(|s| s.letters.clone());
         (count.function.clone(), letters.unwrap_or_default(), count.total)
     };
-    Ok(Alone { file, functions: counts.iter().map(function).collect() })
+    Ok(StandaloneKernels { file, functions: counts.iter().map(function).collect() })
 }
 
 /// The records that kernels exchange with the hub.
 ///
 /// # Errors
 /// When a template fails or the file would not parse.
-pub fn alone_records(command: &str) -> Result<EmittedFile, EmitError> {
+pub fn standalone_records(command: &str) -> Result<EmittedFile, EmitError> {
     let shared = shared_records();
     let records = shared.iter().filter(|record| OF_HUB.contains(&record.name.as_str()));
     let mut records: Vec<_> = records.map(record_text).collect();
@@ -52,9 +55,9 @@ pub fn alone_records(command: &str) -> Result<EmittedFile, EmitError> {
         record.by_number.clear();
     }
     let mut context = Context::new();
-    let home = Home::Alone(command);
-    context.insert("command", home.command());
+    let target = TargetCrate::Standalone(command);
+    context.insert("command", target.command());
     context.insert("hash", &fnv1a64(&format!("{shared:?}")));
     context.insert("records", &records);
-    rust_file(home.path("hub.rs"), templates()?.render("hub.rs", &context)?)
+    rust_file(target.path("hub.rs"), templates()?.render("hub.rs", &context)?)
 }

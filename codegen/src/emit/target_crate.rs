@@ -9,22 +9,22 @@ use super::text::ident;
 
 /// The crate that emitted code is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Home<'a> {
+pub enum TargetCrate<'a> {
     /// The dynamics crate itself.
     Dynamics,
     /// Another one, which calls the dynamics crate by this name.
-    Outside(&'a str),
+    External(&'a str),
     /// A crate without dependencies, written by this command.
-    Alone(&'a str),
+    Standalone(&'a str),
 }
 
-impl Home<'_> {
+impl TargetCrate<'_> {
     /// The path of a file: from the repository's root, or from wherever a user puts it.
     pub(super) fn path(self, name: &str) -> String {
         match self {
             Self::Dynamics => format!("dynamics/src/generated/{name}"),
-            Self::Outside(_) => name.to_owned(),
-            Self::Alone(_) => format!("src/kernels/{name}"),
+            Self::External(_) => name.to_owned(),
+            Self::Standalone(_) => format!("src/kernels/{name}"),
         }
     }
 
@@ -32,16 +32,16 @@ impl Home<'_> {
     pub(super) fn command(&self) -> &str {
         match self {
             Self::Dynamics => "cargo xtask regen",
-            Self::Outside(_) => "precess_codegen::emit_kind",
-            Self::Alone(command) => command,
+            Self::External(_) => "precess_codegen::emit_kind",
+            Self::Standalone(command) => command,
         }
     }
 
     /// What the dynamics crate is called there.
     pub(super) fn dynamics(self) -> Result<Path, EmitError> {
         let name = match self {
-            Self::Dynamics | Self::Alone(_) => "crate",
-            Self::Outside(dynamics) => dynamics,
+            Self::Dynamics | Self::Standalone(_) => "crate",
+            Self::External(dynamics) => dynamics,
         };
         syn::parse_str(name).map_err(|error| EmitError::Syntax(name.to_owned(), error))
     }
@@ -54,11 +54,11 @@ impl Home<'_> {
                 use super::hub::{#(#records),*};
                 use #dynamics::Real;
             },
-            Self::Alone(_) => quote! {
+            Self::Standalone(_) => quote! {
                 use super::hub::{#(#records),*};
                 use super::real::Real;
             },
-            Self::Outside(_) => quote! {
+            Self::External(_) => quote! {
                 use #dynamics::Real;
                 use #dynamics::generated::hub::{#(#records),*};
             },

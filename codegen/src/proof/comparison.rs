@@ -31,7 +31,7 @@ pub enum Verdict {
 
 /// One equation, held against its reference.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct Comparison {
     /// The paper's number, or what stands for it.
     pub tag: String,
     /// The quantity in code.
@@ -48,7 +48,7 @@ pub struct Row {
     pub kind: Option<&'static str>,
 }
 
-impl Row {
+impl Comparison {
     /// The same with the place of the checked side.
     #[must_use]
     pub fn at(mut self, place: String) -> Self {
@@ -58,14 +58,14 @@ impl Row {
 
     /// The same as a row about a kind.
     #[must_use]
-    pub fn of(mut self, kind: &Kind) -> Self {
+    pub fn about(mut self, kind: &Kind) -> Self {
         self.kind = Some(kind.name);
         self
     }
 
     /// Holds labelled components against the reference's, label by label.
     #[must_use]
-    pub fn compare<'g>(
+    pub fn new<'g>(
         ring: &mut Ring<'g>,
         [tag, name, claim]: [&str; 3],
         checked: &[(String, Expr<'g>)],
@@ -133,7 +133,7 @@ impl Row {
     }
 }
 
-impl Row {
+impl Comparison {
     /// The heading of a table of rows.
     #[must_use]
     pub fn heading() -> String {
@@ -142,7 +142,7 @@ impl Row {
     }
 }
 
-impl fmt::Display for Row {
+impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { tag, name, claim, terms, verdict, place, .. } = self;
         write!(f, "{tag:<12} {name:<20} {claim:<36} {terms:>6}  {verdict}")?;

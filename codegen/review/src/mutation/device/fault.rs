@@ -6,9 +6,9 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use super::exerted::{Carried, Pulled, Stand};
-use super::seen::{BodySeen, Moment};
-use crate::mutation::held::Held;
+use super::kinematics::{BodyKinematics, Moment};
+use super::poses_and_loads::{BodyPose, FieldLoads, JointWrenches};
+use crate::mutation::energy_momentum::EnergyMomentum;
 use crate::mutation::state::{Accelerations, Case, CaseName, Motion};
 use crate::mutation::tape::Changed;
 
@@ -17,31 +17,31 @@ use crate::mutation::tape::Changed;
 #[derive(Default)]
 pub(in crate::mutation) struct Fault {
     changed: Vec<Option<Changed>>,
-    known: Rc<Known>,
+    known: Rc<Results>,
     /// Of the unchanged functions.
-    right: Rc<Known>,
+    right: Rc<Results>,
 }
 
 /// Answers of one kind each.
 #[derive(Default)]
-pub(super) struct Known {
+pub(super) struct Results {
     pub(super) accelerations: Memo<Accelerations>,
-    pub(super) bodies: Memo<Rc<BodySeen>>,
-    pub(super) external: Memo<Rc<Carried>>,
-    pub(super) geometry: Memo<Rc<[Stand]>>,
-    pub(super) held: Memo<Held>,
-    pub(super) loads: Memo<Rc<Carried>>,
+    pub(super) bodies: Memo<Rc<BodyKinematics>>,
+    pub(super) external: Memo<Rc<JointWrenches>>,
+    pub(super) geometry: Memo<Rc<[BodyPose]>>,
+    pub(super) energy_momentum: Memo<EnergyMomentum>,
+    pub(super) loads: Memo<Rc<JointWrenches>>,
     pub(super) moments: Memo<Rc<Moment>>,
-    pub(super) pulled: Memo<Rc<Pulled>>,
-    pub(super) stands: Memo<Rc<[Stand]>>,
+    pub(super) field_loads: Memo<Rc<FieldLoads>>,
+    pub(super) poses: Memo<Rc<[BodyPose]>>,
 }
 
 /// Results by what was requested.
-pub(super) struct Memo<V>(RefCell<FxHashMap<Asked, V>>);
+pub(super) struct Memo<V>(RefCell<FxHashMap<RequestKey, V>>);
 
 /// All that a result depends on; a case stands for its parameters and all else that it is put to.
 #[derive(PartialEq, Eq, Hash)]
-struct Asked {
+struct RequestKey {
     function: Option<usize>,
     case: CaseName,
     /// Bit by bit.
@@ -56,7 +56,7 @@ impl<V> Default for Memo<V> {
 
 impl Fault {
     /// A change of these right functions.
-    pub(super) fn of(right: &Self, changed: Vec<Option<Changed>>) -> Self {
+    pub(super) fn new(right: &Self, changed: Vec<Option<Changed>>) -> Self {
         Self { changed, known: Rc::default(), right: Rc::clone(&right.known) }
     }
 
@@ -66,15 +66,15 @@ impl Fault {
     }
 
     /// What `find` finds by these functions; what it has found before is not found again.
-    pub(super) fn answer<V: Clone>(
+    pub(super) fn result<V: Clone>(
         &self,
-        memo: fn(&Known) -> &Memo<V>,
+        memo: fn(&Results) -> &Memo<V>,
         functions: &[usize],
         case: &Case,
         motion: &Motion,
         find: impl FnOnce() -> V,
     ) -> V {
-        let asked = Asked::new(functions, case, motion);
+        let asked = RequestKey::new(functions, case, motion);
         let changed = functions.iter().any(|index| self.changed(*index).is_some());
         let right = if changed { None } else { memo(&self.right).get(&asked) };
         right.or_else(|| memo(&self.known).get(&asked)).unwrap_or_else(|| {
@@ -86,12 +86,12 @@ impl Fault {
 }
 
 impl<V: Clone> Memo<V> {
-    fn get(&self, asked: &Asked) -> Option<V> {
+    fn get(&self, asked: &RequestKey) -> Option<V> {
         self.0.borrow().get(asked).cloned()
     }
 }
 
-impl Asked {
+impl RequestKey {
     fn new(functions: &[usize], case: &Case, motion: &Motion) -> Self {
         let Motion { coordinates, rates, omega, velocity } = motion;
         let numbers = coordinates.iter().chain(rates).chain(omega.iter()).chain(velocity.iter());

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::seen::unit;
+use super::kinematics::unit;
 use super::{Device, Fault};
 use crate::mutation::state::{Accelerations, Case, Motion, Wrench};
 use crate::mutation::tape::Returned;
@@ -13,7 +13,7 @@ use precess_codegen::derivation::recursions::gravity::gradient;
 use precess_codegen::kinds;
 
 /// Where a body stands, along B.
-pub(in crate::mutation) struct Stand {
+pub(in crate::mutation) struct BodyPose {
     /// Its axes, as columns.
     pub(in crate::mutation) axes: Matrix3<f64>,
     /// Origin of its joint.
@@ -21,7 +21,7 @@ pub(in crate::mutation) struct Stand {
 }
 
 /// Wrenches at the joints, along B, each about its joint's origin; and about B.
-pub(in crate::mutation) struct Carried {
+pub(in crate::mutation) struct JointWrenches {
     pub(in crate::mutation) joints: Vec<Wrench>,
     pub(in crate::mutation) whole: Wrench,
     /// Along each joint.
@@ -29,7 +29,7 @@ pub(in crate::mutation) struct Carried {
 }
 
 /// What a field does.
-pub(in crate::mutation) struct Pulled {
+pub(in crate::mutation) struct FieldLoads {
     /// On each body, along B, about its joint's origin.
     pub(in crate::mutation) bodies: Vec<Wrench>,
     pub(in crate::mutation) second_moment: Matrix3<f64>,
@@ -37,15 +37,15 @@ pub(in crate::mutation) struct Pulled {
 
 impl Device<'_, '_> {
     /// `axes`.
-    pub(in crate::mutation) fn stands(
+    pub(in crate::mutation) fn poses(
         &self,
         case: &Case,
         motion: &Motion,
         fault: &Fault,
-    ) -> Rc<[Stand]> {
+    ) -> Rc<[BodyPose]> {
         let function = self.functions.axes;
-        fault.answer(
-            |known| &known.stands,
+        fault.result(
+            |known| &known.poses,
             &[function],
             case,
             motion,
@@ -54,7 +54,7 @@ impl Device<'_, '_> {
                 let stand = |link: &kinds::Link| {
                     let frame = link.body.frame;
                     let column = |axis: &str| returned.vector(&format!("{frame}_{axis}"), "b");
-                    Stand {
+                    BodyPose {
                         axes: Matrix3::from_columns(&["x", "y", "z"].map(column)),
                         origin: returned.vector(&format!("origin_{frame}"), "b"),
                     }
@@ -70,11 +70,11 @@ impl Device<'_, '_> {
         case: &Case,
         motion: &Motion,
         fault: &Fault,
-    ) -> Rc<[Stand]> {
-        fault.answer(|known| &known.geometry, &[], case, motion, || self.stood(case, motion))
+    ) -> Rc<[BodyPose]> {
+        fault.result(|known| &known.geometry, &[], case, motion, || self.stood(case, motion))
     }
 
-    fn stood(&self, case: &Case, motion: &Motion) -> Rc<[Stand]> {
+    fn stood(&self, case: &Case, motion: &Motion) -> Rc<[BodyPose]> {
         let mut origin = Vector3::zeros();
         let stand = |(k, link): (usize, &kinds::Link)| {
             let place = link.joint.place();
@@ -86,7 +86,7 @@ impl Device<'_, '_> {
                 kinds::Motion::Slide(axis) => motion.coordinates[k] * unit(axis),
             };
             origin += self.axes(k, motion) * (rest + slide);
-            Stand { axes: self.axes(k + 1, motion), origin }
+            BodyPose { axes: self.axes(k + 1, motion), origin }
         };
         self.chain.kind.links.iter().enumerate().map(stand).collect()
     }
@@ -108,12 +108,12 @@ impl Device<'_, '_> {
         case: &Case,
         any: &Accelerations,
         fault: &Fault,
-    ) -> Rc<Carried> {
+    ) -> Rc<JointWrenches> {
         let find = || Rc::new(self.loaded(case, any, fault));
-        fault.answer(|known| &known.loads, &[self.functions.loads], case, &case.motion, find)
+        fault.result(|known| &known.loads, &[self.functions.loads], case, &case.motion, find)
     }
 
-    fn loaded(&self, case: &Case, any: &Accelerations, fault: &Fault) -> Carried {
+    fn loaded(&self, case: &Case, any: &Accelerations, fault: &Fault) -> JointWrenches {
         let mut values = self.arguments(case, &case.motion);
         let hub = &self.chain.hub;
         values.set_vector(hub.r_b_n_ddot.components(), any.point);
@@ -131,12 +131,12 @@ impl Device<'_, '_> {
         case: &Case,
         on_bodies: &[Wrench],
         fault: &Fault,
-    ) -> Rc<Carried> {
+    ) -> Rc<JointWrenches> {
         let find = || Rc::new(self.received(case, on_bodies, fault));
-        fault.answer(|known| &known.external, &[self.functions.external], case, &case.motion, find)
+        fault.result(|known| &known.external, &[self.functions.external], case, &case.motion, find)
     }
 
-    fn received(&self, case: &Case, on_bodies: &[Wrench], fault: &Fault) -> Carried {
+    fn received(&self, case: &Case, on_bodies: &[Wrench], fault: &Fault) -> JointWrenches {
         let mut values = self.arguments(case, &case.motion);
         for (symbols, own) in acting(self.chain).iter().zip(on_bodies) {
             values.set_vector(symbols.force.components(), own.force);
@@ -153,12 +153,18 @@ impl Device<'_, '_> {
         motion: &Motion,
         field: &Matrix3<f64>,
         fault: &Fault,
-    ) -> Rc<Pulled> {
+    ) -> Rc<FieldLoads> {
         let find = || Rc::new(self.pulled(case, motion, field, fault));
-        fault.answer(|known| &known.pulled, &[self.functions.gravity], case, motion, find)
+        fault.result(|known| &known.field_loads, &[self.functions.gravity], case, motion, find)
     }
 
-    fn pulled(&self, case: &Case, motion: &Motion, field: &Matrix3<f64>, fault: &Fault) -> Pulled {
+    fn pulled(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        field: &Matrix3<f64>,
+        fault: &Fault,
+    ) -> FieldLoads {
         let mut values = self.arguments(case, motion);
         let g = gradient(self.chain.graph);
         for row in 0..3 {
@@ -171,11 +177,14 @@ impl Device<'_, '_> {
         let on = |(k, link): (usize, &kinds::Link)| {
             wrench(&returned, "on", link.body.frame).turned(&self.axes(k + 1, motion))
         };
-        Pulled { bodies: links.map(on).collect(), second_moment: returned.tensor("second_moment") }
+        FieldLoads {
+            bodies: links.map(on).collect(),
+            second_moment: returned.tensor("second_moment"),
+        }
     }
 
     /// The wrenches of a returned record, along B.
-    fn carried(&self, returned: &Returned<'_>, what: &str, motion: &Motion) -> Carried {
+    fn carried(&self, returned: &Returned<'_>, what: &str, motion: &Motion) -> JointWrenches {
         let links = self.chain.kind.links;
         let own = |link: &kinds::Link| wrench(returned, what, link.body.frame);
         let at = |(k, link)| own(link).turned(&self.axes(k + 1, motion));
@@ -186,7 +195,7 @@ impl Device<'_, '_> {
                 kinds::Motion::Slide(_) => axis.dot(&own(link).force),
             }
         };
-        Carried {
+        JointWrenches {
             joints: links.iter().enumerate().map(at).collect(),
             whole: wrench(returned, what, "b"),
             drives: links.iter().map(along).collect(),

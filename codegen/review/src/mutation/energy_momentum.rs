@@ -9,13 +9,13 @@ pub(super) type Packed = SVector<f64, 7>;
 
 /// Kinetic energy, linear momentum, angular momentum about B; along B.
 #[derive(Clone, Copy)]
-pub(super) struct Held {
+pub(super) struct EnergyMomentum {
     pub(super) energy: f64,
     pub(super) linear: Vector3<f64>,
     pub(super) angular: Vector3<f64>,
 }
 
-impl Held {
+impl EnergyMomentum {
     pub(super) fn packed(self) -> Packed {
         let Self { energy, linear: p, angular: h } = self;
         Packed::from([energy, p.x, p.y, p.z, h.x, h.y, h.z])
@@ -29,11 +29,11 @@ impl Held {
 
 impl Hub {
     /// One rigid body by Newton and Euler.
-    pub(super) fn held(&self, motion: &Motion) -> Held {
+    pub(super) fn energy_momentum(&self, motion: &Motion) -> EnergyMomentum {
         let velocity = motion.velocity + motion.omega.cross(&self.centre);
         let spin = self.inertia * motion.omega;
         let linear = self.mass * velocity;
-        Held {
+        EnergyMomentum {
             energy: 0.5 * (velocity.dot(&linear) + motion.omega.dot(&spin)),
             linear,
             angular: self.centre.cross(&linear) + spin,

@@ -6,7 +6,7 @@ use quote::quote;
 use super::text::ident;
 
 /// `map` and `zip` of a record with these fields, for its type parameter and what that must be.
-pub(super) fn by_number(
+pub(super) fn map_and_zip(
     record: &str,
     [number, bound]: [&str; 2],
     fields: &[impl AsRef<str>],

@@ -29,7 +29,7 @@ struct ShapeText {
 }
 
 #[derive(Serialize)]
-struct RowText {
+struct FunctionCost {
     module: &'static str,
     function: String,
     count: usize,
@@ -47,7 +47,7 @@ fn back_c(shape: &Shape<'_>, derived: &Derived) -> String {
 }
 
 /// What the files of the whole spacecraft say.
-pub(crate) fn whole(
+pub(crate) fn context(
     description: &Description,
     shapes: &[Shape<'_>],
     derived: &[Derived],
@@ -78,7 +78,7 @@ pub(crate) fn whole(
         }
     };
     let rows = shapes.iter().zip(derived).flat_map(|(shape, derived)| {
-        let row = |(function, _, count): &(String, Vec<&'static str>, usize)| RowText {
+        let row = |(function, _, count): &(String, Vec<&'static str>, usize)| FunctionCost {
             module: shape.kind.name,
             function: function.clone(),
             count: *count,

@@ -14,13 +14,13 @@ use super::{Rejected, Service};
 pub(super) const NUDGE: f64 = 1e-15;
 
 /// A spacecraft in a state.
-pub(crate) struct One<D: Devices> {
+pub(crate) struct SingleState<D: Devices> {
     pub(super) craft: Spacecraft<D>,
     pub(super) state: State<D>,
     pub(super) inputs: Inputs<D>,
 }
 
-impl<D: Devices<Scalar = f64>> One<D> {
+impl<D: Devices<Scalar = f64>> SingleState<D> {
     pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
         let craft = Spacecraft::new(&stored.hub(), devices)?;
         let state = stored.motion(State::at_rest_for(&craft));
@@ -29,7 +29,7 @@ impl<D: Devices<Scalar = f64>> One<D> {
     }
 }
 
-impl<D: Devices<Scalar = f64>> Service for One<D> {
+impl<D: Devices<Scalar = f64>> Service for SingleState<D> {
     fn check(&mut self) -> Result<Value, Rejected> {
         Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
