@@ -74,7 +74,7 @@ pub(crate) fn row_fields(
 ) -> PyResult<Vec<(String, String)>> {
     let mut scenario = (*scenario.scenario).clone();
     scenario.output.columns.clone_from(&columns);
-    let found = Columns::of(&scenario).map_err(|error| errors::record(&error))?;
+    let found = Columns::from_scenario(&scenario).map_err(|error| errors::record(&error))?;
     let header = Header::new(&scenario, &found);
     for name in &columns {
         header.quantity(name).map_err(|error| errors::record(&error))?;
@@ -137,7 +137,8 @@ pub(crate) fn estimate_probability(
     unknown: usize,
 ) -> Option<(f64, f64, f64)> {
     let successes = [met, met.saturating_add(unknown)];
-    probability_between(successes, count, level).map(|of| (of.value, of.interval[0], of.interval[1]))
+    probability_between(successes, count, level)
+        .map(|of| (of.value, of.interval[0], of.interval[1]))
 }
 
 /// Rank correlation by Spearman.

@@ -1,8 +1,8 @@
 //! The exceptions of `precess.errors`, and errors of the library as them.
 
-use precess::record::{RecordError, RunError};
 use precess::evaluation::EvaluationError;
 use precess::file::Diagnostics;
+use precess::record::{RecordError, RunError};
 use precess_dynamics::{DerivativeError, SolveError};
 use pyo3::PyErr;
 use pyo3::exceptions::PyKeyError;

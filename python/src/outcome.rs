@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyReadonlyArray1;
-use precess::record::{Columns, Csv, Drift, End, Event, Header, Npz, Outcome, Recorder, RunError, Steps, Verdict, replay};
+use precess::record::{
+    Columns, Csv, Drift, End, Event, Header, Npz, Outcome, Recorder, RunError, Steps, Verdict,
+    replay,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -121,7 +124,7 @@ impl NativeResult {
     #[staticmethod]
     fn restored(scenario: &NativeScenario, outcome: OutcomeFacts) -> PyResult<Self> {
         let scenario = &scenario.scenario;
-        let columns = Columns::of(scenario).map_err(|error| errors::record(&error))?;
+        let columns = Columns::from_scenario(scenario).map_err(|error| errors::record(&error))?;
         let (end, end_time, steps, samples, events, peak_rates, drift, energy_lost) = outcome;
         let (accepted, rejected, evaluations) = steps;
         let (events, events_omitted) = events;

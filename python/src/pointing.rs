@@ -12,11 +12,11 @@ use crate::errors;
 use crate::spectra::{NativePsd, rows, unknown};
 
 /// Displacement, smear and jitter.
-type Parts = (f64, f64, f64);
+type PointingParts = (f64, f64, f64);
 /// Value, confidence, runs, values of all runs.
 type IndexFacts = (f64, Option<f64>, usize, usize);
 
-fn parts(of: Exposure) -> Parts {
+fn parts(of: Exposure) -> PointingParts {
     (of.displacement, of.smear, of.jitter)
 }
 
@@ -27,7 +27,7 @@ pub(crate) fn pointing_of_history(
     components: PyReadonlyArray2<'_, f64>,
     rate: f64,
     exposure: f64,
-) -> PyResult<(Parts, Parts, usize, usize)> {
+) -> PyResult<(PointingParts, PointingParts, usize, usize)> {
     let rows = rows(&components);
     let slices: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
     let found = exposure_of_history(&slices, rate, exposure);
@@ -37,27 +37,27 @@ pub(crate) fn pointing_of_history(
 
 /// Of a density by Welch's method.
 #[pyfunction]
-pub(crate) fn pointing_of_psd(psd: &NativePsd, exposure: f64) -> PyResult<Parts> {
+pub(crate) fn pointing_of_psd(psd: &NativePsd, exposure: f64) -> PyResult<PointingParts> {
     exposure_of_psd(&psd.psd, exposure).map(parts).map_err(|error| errors::signal(&error))
 }
 
 /// Of frequencies and densities that are linear between them.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
-pub(crate) fn pointing_of_table(points: Vec<[f64; 2]>, exposure: f64) -> PyResult<Parts> {
+pub(crate) fn pointing_of_table(points: Vec<[f64; 2]>, exposure: f64) -> PyResult<PointingParts> {
     exposure_of_table(&points, exposure).map(parts).map_err(|error| errors::signal(&error))
 }
 
 /// Of frequencies and amplitudes.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
-pub(crate) fn pointing_of_lines(lines: Vec<[f64; 2]>, exposure: f64) -> PyResult<Parts> {
+pub(crate) fn pointing_of_lines(lines: Vec<[f64; 2]>, exposure: f64) -> PyResult<PointingParts> {
     exposure_of_lines(&lines, exposure).map(parts).map_err(|error| errors::signal(&error))
 }
 
 /// Shares of the variance of a line.
 #[pyfunction]
-pub(crate) fn pointing_weights(frequency: f64, exposure: f64) -> Parts {
+pub(crate) fn pointing_weights(frequency: f64, exposure: f64) -> PointingParts {
     let of = ExposureWeights::new(frequency, exposure);
     (of.displacement, of.smear, of.jitter)
 }

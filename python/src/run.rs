@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray as _, PyArray1};
-use precess::record::{Histories, Many, Recorder, Statistics};
+use precess::record::{Histories, Recorder, RecorderGroup, Statistics};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -52,7 +52,7 @@ pub(crate) fn run<'py>(
         };
         let mut all: Vec<&mut dyn Recorder> = vec![&mut histories, &mut statistics];
         all.extend(files.iter_mut().map(|file| &mut **file as &mut dyn Recorder));
-        precess::engine::run(&scenario, &mut Many::new(all), &mut hear)
+        precess::engine::run(&scenario, &mut RecorderGroup::new(all), &mut hear)
     });
     if let Some(error) = raised {
         return Err(error);

@@ -108,7 +108,8 @@ impl NativeScenario {
     /// The columns that a run records.
     #[getter]
     fn columns(&self) -> PyResult<Vec<ColumnFacts>> {
-        let columns = Columns::of(&self.scenario).map_err(|error| errors::record(&error))?;
+        let columns =
+            Columns::from_scenario(&self.scenario).map_err(|error| errors::record(&error))?;
         Ok(columns.as_slice().iter().map(facts).collect())
     }
 

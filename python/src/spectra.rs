@@ -18,9 +18,10 @@ type Vector<'py> = Bound<'py, PyArray1<f64>>;
 /// Window, samples of a segment, those that two share, what is subtracted from each.
 type Settings = (String, usize, usize, String);
 /// Segments, samples that none of them has, resolution, noise bandwidth, Hz, and equivalent averages.
-type About = (usize, usize, f64, f64, f64);
+type SpectrumDetails = (usize, usize, f64, f64, f64);
 /// How they were computed; densities and coherence, bin by bin.
-type CrossFacts<'py> = (About, Bound<'py, PyArray3<Complex64>>, Option<Bound<'py, PyArray3<f64>>>);
+type CrossFacts<'py> =
+    (SpectrumDetails, Bound<'py, PyArray3<Complex64>>, Option<Bound<'py, PyArray3<f64>>>);
 
 /// A power spectral density.
 #[pyclass(frozen, module = "precess._native")]
@@ -36,7 +37,7 @@ impl NativePsd {
     }
 
     #[getter]
-    fn about(&self) -> About {
+    fn about(&self) -> SpectrumDetails {
         about(&self.psd.metadata)
     }
 
@@ -76,7 +77,7 @@ impl NativeAmplitudes {
     }
 
     #[getter]
-    fn about(&self) -> About {
+    fn about(&self) -> SpectrumDetails {
         about(&self.spectrum.metadata)
     }
 
@@ -156,7 +157,7 @@ pub(crate) fn rows(of: &PyReadonlyArray2<'_, f64>) -> Vec<Vec<f64>> {
     of.as_array().rows().into_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-fn about(of: &Metadata) -> About {
+fn about(of: &Metadata) -> SpectrumDetails {
     (of.segments, of.unused, of.resolution, of.noise_bandwidth, of.averages)
 }
 

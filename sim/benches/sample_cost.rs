@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use precess::engine::run;
 use precess::file::from_file;
-use precess::record::{Csv, Many, Npz, Recorder};
+use precess::record::{Csv, Npz, Recorder, RecorderGroup};
 use precess::scenario::Scenario;
 
 const RUNS: usize = 9;
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for _ in 0..RUNS {
         for (case, samples) in cases.iter_mut().zip(&mut samples) {
             let mut recorder: Box<dyn Recorder> = match case.format {
-                Format::Nowhere => Box::new(Many::default()),
+                Format::Nowhere => Box::new(RecorderGroup::default()),
                 Format::Csv => Box::new(Csv::new(&folder.path().join("cost.csv"))),
                 Format::Npz => Box::new(Npz::new(&folder.path().join("cost.npz"))),
             };

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::opened::open;
 use crate::record::extent::check_rows;
-use crate::structure::{Fault, Place, npz};
+use crate::structure::{Fault, FileLocation, npz};
 
 /// Bytes of a file that show its dialect.
 const HEAD: u64 = 1 << 16;
@@ -129,7 +129,7 @@ fn of_npz(
     }
     let columns = npz::named_columns(&bytes, names).map_err(|error| match error.fault {
         Fault::Missing { what, present } => TableFault::Column { name: what, present },
-        fault if error.place == Place::Whole => reason(&fault),
+        fault if error.place == FileLocation::File => reason(&fault),
         fault => TableFault::Read(format!("{}{fault}", error.place)),
     })?;
     if columns.iter().any(|column| column.len() > limits.rows) {

@@ -18,15 +18,15 @@ use precess::record::{End, Outcome, Samples};
 use precess::scenario::Scenario;
 
 /// A scenario and its run.
-struct Ran {
+struct ScenarioRun {
     scenario: Scenario,
     samples: Samples,
     outcome: Outcome,
 }
 
-impl Ran {
+impl ScenarioRun {
     /// Runs a file of `scenarios` to its duration.
-    fn of(name: &str) -> Self {
+    fn from_file(name: &str) -> Self {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
         let read = from_file(&folder.join(name), &[]);
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
@@ -127,7 +127,7 @@ fn jacobis_functions_have_their_period() {
 /// a turn about the angular momentum at `|H| / T`, after one about the axis at minus that rate.
 #[test]
 fn a_gyrostat_nutates_at_its_rate() {
-    let ran = Ran::of("known-nutation.toml");
+    let ran = ScenarioRun::from_file("known-nutation.toml");
     let (hub, wheel) = (&ran.scenario.hub, ran.scenario.devices.0[0].parameters().bodies[0]);
     let start = &ran.scenario.initial;
     let spin = start.devices.0[0][0][1];
@@ -166,7 +166,7 @@ const NUTATION: f64 = 2e-13;
 /// `(m_B + m_W) r_B = -m_W d w_y`, with `w_y` at the wheel's angle, which grows evenly.
 #[test]
 fn a_hub_circles_with_an_imbalanced_wheel() {
-    let ran = Ran::of("known-imbalanced-wheel.toml");
+    let ran = ScenarioRun::from_file("known-imbalanced-wheel.toml");
     let wheel = ran.scenario.devices.0[0].parameters().bodies[0];
     let spin = ran.scenario.initial.devices.0[0][0][1];
     let radius = wheel.mass * wheel.centre[1] / (ran.scenario.hub.m_b + wheel.mass);
@@ -196,7 +196,7 @@ const CIRCLE: f64 = 1e-15;
 /// attitude is `I / (m R^2)` = 3e-15 of it.
 #[test]
 fn a_body_librates_by_the_gravity_gradient() {
-    let ran = Ran::of("known-libration.toml");
+    let ran = ScenarioRun::from_file("known-libration.toml");
     let (inertia, start) = (&ran.scenario.hub.i_b_bc, &ran.scenario.initial);
     let n = start.omega.z;
     let w = n * (3.0 * (inertia.m22 - inertia.m11) / inertia.m33).sqrt();
@@ -223,7 +223,7 @@ const LIBRATION: f64 = 5e-12;
 /// / 2)))`; the bottom is passed at odd quarters of it.
 #[test]
 fn a_panel_swings_as_a_pendulum() {
-    let ran = Ran::of("known-panel-pendulum.toml");
+    let ran = ScenarioRun::from_file("known-panel-pendulum.toml");
     let panel = ran.scenario.devices.0[0].parameters().bodies[0];
     let precess_dynamics::Gravity::Uniform(g) = ran.scenario.gravity else { panic!("no gravity") };
     let [start, _] = ran.scenario.initial.devices.0[0][0];
@@ -256,7 +256,7 @@ const SWING: f64 = 1e-11;
 /// the second degree are exact for the method: what is left is rounding.
 #[test]
 fn opposite_wheels_spin_up_and_the_hub_stays_at_rest() {
-    let ran = Ran::of("known-opposite-wheels.toml");
+    let ran = ScenarioRun::from_file("known-opposite-wheels.toml");
     let inertia = ran.scenario.devices.0[0].parameters().bodies[0].inertia.m11;
     let torque = ran.scenario.drives[0].profile().expect("a torque").at(0.0, false);
     let duration = ran.scenario.settings.duration;

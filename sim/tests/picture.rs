@@ -12,7 +12,7 @@ use std::path::Path;
 
 use precess::engine::run;
 use precess::file::from_file;
-use precess::record::Between;
+use precess::record::IntervalRecorder;
 use precess::report::Report;
 
 #[test]
@@ -25,7 +25,7 @@ fn the_committed_picture_is_what_the_run_draws() {
     let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
     let mut report = Report::new(&scenario, &[]);
     let (from, to) = (0.0, 0.1);
-    let mut part = Between::new([from, to], &mut report);
+    let mut part = IntervalRecorder::new([from, to], &mut report);
     run(&scenario, &mut part, &mut |time| {
         if time > to { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })

@@ -71,7 +71,7 @@ rate = "1 kHz"
 columns = ["loads", "iso", "rw1", "rw2", "panel"]
 "#;
 
-type Typed = (HingedPanel, Isolated<[ReactionWheel; 2]>);
+type TypedSet = (HingedPanel, Isolated<[ReactionWheel; 2]>);
 
 /// The platform with its devices: 6 kg and two wheels of 3 kg.
 const ISOLATED_MASS: f64 = 12.0;
@@ -89,7 +89,7 @@ fn errors(text: &str) -> String {
 }
 
 /// The same craft in the library's own words.
-fn typed() -> (Spacecraft<Typed>, State<Typed>, Inputs<Typed>) {
+fn typed() -> (Spacecraft<TypedSet>, State<TypedSet>, Inputs<TypedSet>) {
     let hub = Hub {
         m_b: 300.0,
         r_bc_b: Vector3::zeros(),
@@ -127,14 +127,14 @@ fn typed() -> (Spacecraft<Typed>, State<Typed>, Inputs<Typed>) {
     };
     panel.passive.panel = Passive::spring(40.0, 0.0);
     let craft = Spacecraft::new(&hub, &(panel, isolated)).expect("accepted");
-    let mut state: State<Typed> = State::at_rest();
+    let mut state: State<TypedSet> = State::at_rest();
     state.omega = Vector3::new(0.02, -0.01, 0.03);
     state.devices.0.phi = 0.01;
     state.devices.1.platform.x = 0.0001;
     state.devices.1.platform.alpha_dot = 0.002;
     state.devices.1.carried[0].spin = 120.0;
     state.devices.1.carried[1].spin = -110.0;
-    let mut inputs: Inputs<Typed> = Inputs::none();
+    let mut inputs: Inputs<TypedSet> = Inputs::none();
     inputs.motors.1.platform.f_z = 0.3;
     inputs.modes.1.platform.y_turn = Mode::Locked;
     (craft, state, inputs)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use precess::engine::run;
 use precess::file::{from_file, from_toml, to_toml};
-use precess::record::{Columns, End, Many, Outcome, RunError, Statistics};
+use precess::record::{Columns, End, Outcome, RecorderGroup, RunError, Statistics};
 use precess::scenario::{IntegratorChoice, Scenario};
 use precess_dynamics::{BuiltInKind, SolveError};
 
@@ -39,7 +39,7 @@ fn read(path: &Path) -> Scenario {
 /// Runs a scenario with the statistics of its requirements.
 fn run_of(scenario: &Scenario) -> (Outcome, Statistics) {
     let mut statistics = Statistics::new(&scenario.requirements);
-    let mut recorders = Many::new(vec![&mut statistics]);
+    let mut recorders = RecorderGroup::new(vec![&mut statistics]);
     let outcome = run(scenario, &mut recorders, &mut |_| ControlFlow::Continue(()));
     let outcome = outcome.unwrap_or_else(|error| panic!("{}: {error}", scenario.name));
     (outcome, statistics)
@@ -95,7 +95,7 @@ fn each_file_is_written_and_read_back_the_same() {
         assert_eq!(second.crossings, first.crossings);
         assert_eq!(second.settings, first.settings);
         // The default, no selection, is written out.
-        let columns = |of: &Scenario| Columns::of(of).expect("known columns");
+        let columns = |of: &Scenario| Columns::from_scenario(of).expect("known columns");
         assert_eq!(columns(&second), columns(&first));
         assert_eq!(second.output.rate.to_bits(), first.output.rate.to_bits());
         assert_eq!(second.output.formats, first.output.formats);

@@ -18,11 +18,16 @@ use precess_tests::table1::{Drive as Motors, Imbalance, SCENARIOS, scenario};
 /// two roundings of half an epsilon each.
 const ROUNDING: f64 = f64::EPSILON;
 
-type Named = Vec<(&'static str, Vec<f64>)>;
+type NamedColumns = Vec<(&'static str, Vec<f64>)>;
 
 /// Every number of a scenario. A field that is added to one of the types does not compile here
 /// until it is compared too.
-fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<Set<1>>, inputs: &Inputs<Set<1>>) -> Named {
+fn numbers(
+    hub: &Hub,
+    device: &Dgvscmg,
+    state: &State<Set<1>>,
+    inputs: &Inputs<Set<1>>,
+) -> NamedColumns {
     let vector = |v: &Vector3<f64>| v.iter().copied().collect();
     let matrix = |m: &Matrix3<f64>| m.iter().copied().collect();
     let Hub { m_b, r_bc_b, i_b_bc } = hub;

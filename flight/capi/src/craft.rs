@@ -5,9 +5,9 @@ use core::ffi::c_void;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{self as dynamics, Devices, Spacecraft};
 
+use crate::entry_map::EntryMap;
 use crate::error::{Code, Fault, Rejection};
-use crate::memory::{self, Out, Plain, check, slice};
-use crate::places::Places;
+use crate::memory::{self, OutputPointer, Plain, check, slice};
 use crate::types::Hub;
 use crate::version::{EntryOf, Interface, SetOf, Versions};
 use crate::{MAX_DEVICES, VERSIONS};
@@ -29,9 +29,9 @@ pub struct Craft {
 
 /// The contents of the caller's memory.
 #[repr(C)]
-pub struct Made<D: Devices<Scalar = f64>> {
+pub struct StoredSpacecraft<D: Devices<Scalar = f64>> {
     craft: Craft,
-    pub(crate) places: Places,
+    pub(crate) entry_map: EntryMap,
     pub(crate) spacecraft: Spacecraft<D>,
 }
 
@@ -39,7 +39,8 @@ const fn fits<const J: usize>() -> bool
 where
     Versions: Interface<J>,
 {
-    size_of::<Made<SetOf<J>>>() <= Versions::SIZE && align_of::<Made<SetOf<J>>>() <= ALIGN
+    size_of::<StoredSpacecraft<SetOf<J>>>() <= Versions::SIZE
+        && align_of::<StoredSpacecraft<SetOf<J>>>() <= ALIGN
 }
 
 const _: () = assert!(fits::<3>() && fits::<7>());
@@ -56,7 +57,7 @@ const _: () = assert!(fits::<3>() && fits::<7>());
 /// has written to if they begin as a spacecraft.
 pub(crate) unsafe fn craft<'a, const J: usize>(
     pointer: *const Craft,
-) -> Result<&'a Made<SetOf<J>>, Code>
+) -> Result<&'a StoredSpacecraft<SetOf<J>>, Code>
 where
     Versions: Interface<J>,
 {
@@ -85,10 +86,10 @@ unsafe fn joints_of(pointer: *const Craft) -> Result<usize, Code> {
 /// `fault` is null, misaligned, or points to a writable [`Fault`].
 pub(crate) unsafe fn reporting<'a, D: Devices<Scalar = f64> + 'a>(
     fault: *mut Fault,
-    call: impl FnOnce() -> (Option<&'a Made<D>>, Result<(), Rejection>),
+    call: impl FnOnce() -> (Option<&'a StoredSpacecraft<D>>, Result<(), Rejection>),
 ) -> i32 {
     // SAFETY: as promised to this function.
-    match unsafe { Out::optional(fault) } {
+    match unsafe { OutputPointer::optional(fault) } {
         Err(code) => code as i32,
         Ok(fault) => {
             let (craft, result) = call();
@@ -99,9 +100,9 @@ pub(crate) unsafe fn reporting<'a, D: Devices<Scalar = f64> + 'a>(
 
 /// Writes the fault of a call and returns its code.
 fn report<D: Devices<Scalar = f64>>(
-    craft: Option<&Made<D>>,
+    craft: Option<&StoredSpacecraft<D>>,
     result: Result<(), Rejection>,
-    fault: Option<Out<Fault>>,
+    fault: Option<OutputPointer<Fault>>,
 ) -> i32 {
     let rejection = result.err().unwrap_or(Code::Ok.into());
     let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
@@ -115,7 +116,7 @@ fn report<D: Devices<Scalar = f64>>(
             joints.find(|(device, info)| Some(*device) == rejection.device && named(info))?;
         Some(info.index)
     });
-    let of_device = |device| craft.map_or(device, |craft| craft.places.entry(device));
+    let of_device = |device| craft.map_or(device, |craft| craft.entry_map.entry(device));
     let entry = rejection.entry.or(rejection.device.map(of_device));
     if let Some(fault) = fault {
         fault.write(Fault {
@@ -134,14 +135,14 @@ fn report<D: Devices<Scalar = f64>>(
 pub(crate) fn made<const J: usize>(
     hub: &Hub,
     entries: &[EntryOf<J>],
-) -> Result<Made<SetOf<J>>, Rejection>
+) -> Result<StoredSpacecraft<SetOf<J>>, Rejection>
 where
     Versions: Interface<J>,
 {
     if entries.len() > MAX_DEVICES {
         return Err(Code::TooMany.into());
     }
-    let (set, places) = Versions::set(entries)?;
+    let (set, entry_map) = Versions::set(entries)?;
     let hub = dynamics::Hub {
         m_b: hub.mass,
         r_bc_b: Vector3::from(hub.centre),
@@ -149,9 +150,9 @@ where
     };
     let spacecraft = Spacecraft::new(&hub, &set).map_err(|error| {
         let rejection = Rejection::from(error);
-        Rejection { entry: rejection.device.map(|device| places.entry(device)), ..rejection }
+        Rejection { entry: rejection.device.map(|device| entry_map.entry(device)), ..rejection }
     })?;
-    Ok(Made { craft: Craft { made: made_by(J) }, places, spacecraft })
+    Ok(StoredSpacecraft { craft: Craft { made: made_by(J) }, entry_map, spacecraft })
 }
 
 /// Makes a spacecraft in the caller's memory, which is as it was where there is an error.
@@ -166,7 +167,7 @@ where
 pub(crate) unsafe fn make_in<const J: usize>(
     memory: *mut c_void,
     size: usize,
-    make: impl FnOnce() -> Result<Made<SetOf<J>>, Rejection>,
+    make: impl FnOnce() -> Result<StoredSpacecraft<SetOf<J>>, Rejection>,
 ) -> Result<(), Rejection>
 where
     Versions: Interface<J>,
@@ -178,7 +179,7 @@ where
     }
     let contents = make()?;
     // SAFETY: not null, aligned, large enough.
-    unsafe { craft.cast::<Made<SetOf<J>>>().write(contents) };
+    unsafe { craft.cast::<StoredSpacecraft<SetOf<J>>>().write(contents) };
     Ok(())
 }
 
@@ -213,7 +214,8 @@ where
         made::<J>(&hub, devices)
     };
     // SAFETY: by contract.
-    let call = || (None::<&Made<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
+    let call =
+        || (None::<&StoredSpacecraft<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
     // SAFETY: by contract.
     unsafe { reporting(fault, call) }
 }
@@ -225,7 +227,7 @@ pub(crate) fn code_number(result: Result<(), Code>) -> i32 {
 
 /// A number of a spacecraft of any version.
 pub(crate) trait Query<T> {
-    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> T;
+    fn value<D: Devices<Scalar = f64>>(&self, craft: &StoredSpacecraft<D>) -> T;
 }
 
 /// Writes one number of a spacecraft.
@@ -240,14 +242,14 @@ pub(crate) unsafe fn query<T: Plain>(
 ) -> i32 {
     let found = || {
         // SAFETY: by contract.
-        let to = unsafe { Out::new(to) }?;
+        let to = unsafe { OutputPointer::new(to) }?;
         // SAFETY: by contract.
         let number = if unsafe { joints_of(pointer) }? == VERSIONS[0] {
             // SAFETY: by contract.
-            query.of(unsafe { craft::<{ VERSIONS[0] }>(pointer) }?)
+            query.value(unsafe { craft::<{ VERSIONS[0] }>(pointer) }?)
         } else {
             // SAFETY: by contract.
-            query.of(unsafe { craft::<{ VERSIONS[1] }>(pointer) }?)
+            query.value(unsafe { craft::<{ VERSIONS[1] }>(pointer) }?)
         };
         to.write(number);
         Ok(())
@@ -258,7 +260,7 @@ pub(crate) unsafe fn query<T: Plain>(
 struct Mass;
 
 impl Query<f64> for Mass {
-    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> f64 {
+    fn value<D: Devices<Scalar = f64>>(&self, craft: &StoredSpacecraft<D>) -> f64 {
         craft.spacecraft.mass()
     }
 }
@@ -267,8 +269,8 @@ impl Query<f64> for Mass {
 struct Joints(usize);
 
 impl Query<u32> for Joints {
-    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> u32 {
-        u32::try_from(craft.places.joints_of(self.0)).unwrap_or(u32::MAX)
+    fn value<D: Devices<Scalar = f64>>(&self, craft: &StoredSpacecraft<D>) -> u32 {
+        u32::try_from(craft.entry_map.joints_of(self.0)).unwrap_or(u32::MAX)
     }
 }
 

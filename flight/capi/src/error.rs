@@ -180,7 +180,7 @@ impl Rejection {
         }
     }
 
-    fn of(self, part: Part) -> Self {
+    fn at_part(self, part: Part) -> Self {
         match part {
             Part::Hub => self,
             Part::Body { device, body } => self.at(device, body),
@@ -192,23 +192,23 @@ impl From<ParameterError> for Rejection {
     fn from(error: ParameterError) -> Self {
         match error {
             ParameterError::NotFinite { part, value, .. } => {
-                Self::valued(Code::NotFinite, value, 0.0).of(part)
+                Self::valued(Code::NotFinite, value, 0.0).at_part(part)
             }
             ParameterError::Mass { part, value, .. } => {
-                Self::valued(Code::Mass, value, 0.0).of(part)
+                Self::valued(Code::Mass, value, 0.0).at_part(part)
             }
             ParameterError::TotalMass { value } => Self::valued(Code::Mass, value, 0.0),
             ParameterError::Passive { part, value, .. } => {
-                Self::valued(Code::Passive, value, 0.0).of(part)
+                Self::valued(Code::Passive, value, 0.0).at_part(part)
             }
             ParameterError::Asymmetric { part, difference, bound, .. } => {
-                Self::valued(Code::Inertia, difference, bound).of(part)
+                Self::valued(Code::Inertia, difference, bound).at_part(part)
             }
             ParameterError::NegativeInertia { part, value, bound } => {
-                Self::valued(Code::Inertia, value, bound).of(part)
+                Self::valued(Code::Inertia, value, bound).at_part(part)
             }
             ParameterError::LargeInertia { part, value } => {
-                Self::valued(Code::Inertia, value, 0.0).of(part)
+                Self::valued(Code::Inertia, value, 0.0).at_part(part)
             }
             ParameterError::SkewedMount { device, residual, bound } => {
                 Self::valued(Code::Mount, residual, bound).at(device, None)

@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Each, Inputs, State};
 
-use crate::craft::{Craft, Made, craft, reporting};
+use crate::craft::{Craft, StoredSpacecraft, craft, reporting};
+use crate::entry_map::EntryMap;
 use crate::error::{Code, Fault, Rejection};
 use crate::inputs::take_inputs;
-use crate::memory::{self, Out, refer};
-use crate::places::Places;
+use crate::memory::{self, OutputPointer, refer};
 use crate::state::{state_of, structure_of, take_state};
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give};
@@ -16,7 +16,7 @@ use crate::version::{Interface, SetOf, Versions, give};
 pub const MAX_SUBSTEPS: u32 = 1000;
 
 /// Calls a function of a spacecraft and returns its code. The function takes a place for each of its
-/// results ([`Out`]) before it writes any.
+/// results ([`OutputPointer`]) before it writes any.
 ///
 /// # Safety
 ///
@@ -24,7 +24,7 @@ pub const MAX_SUBSTEPS: u32 = 1000;
 pub(crate) unsafe fn with<const J: usize>(
     pointer: *const Craft,
     fault: *mut Fault,
-    call: impl FnOnce(&Made<SetOf<J>>) -> Result<(), Rejection>,
+    call: impl FnOnce(&StoredSpacecraft<SetOf<J>>) -> Result<(), Rejection>,
 ) -> i32
 where
     Versions: Interface<J>,
@@ -45,7 +45,7 @@ where
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
 pub(crate) unsafe fn take_state_and_inputs<const J: usize>(
-    craft: &Made<SetOf<J>>,
+    craft: &StoredSpacecraft<SetOf<J>>,
     state: *const types::State<J>,
     inputs: *const types::Inputs<J>,
     to: (&mut State<SetOf<J>>, &mut Inputs<SetOf<J>>),
@@ -62,7 +62,7 @@ where
 
 fn of_accelerations<const J: usize>(
     found: &Accelerations<SetOf<J>>,
-    places: &Places,
+    entry_map: &EntryMap,
 ) -> types::Accelerations<J>
 where
     Versions: Interface<J>,
@@ -72,7 +72,7 @@ where
         angular: found.omega_dot.into(),
         joint: [[0.0; J]; crate::MAX_DEVICES],
     };
-    give(&mut to.joint, found.devices.values(), places, |acceleration| acceleration);
+    give(&mut to.joint, found.devices.values(), entry_map, |acceleration| acceleration);
     to
 }
 
@@ -91,15 +91,15 @@ pub(crate) unsafe fn accelerations_of<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let out = unsafe { Out::new(out) }?;
+        let out = unsafe { OutputPointer::new(out) }?;
         let mut at = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
         let found = craft.spacecraft.accelerations(&at, &given)?;
-        out.write(of_accelerations(&found, &craft.places));
+        out.write(of_accelerations(&found, &craft.entry_map));
         Ok(())
     };
     // SAFETY: by contract.
@@ -123,12 +123,12 @@ pub(crate) unsafe fn step<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         if substeps == 0 || substeps > MAX_SUBSTEPS {
             return Err(Code::TooMany.into());
         }
         // SAFETY: by contract.
-        let (to, work) = unsafe { (Out::new(state)?, Out::optional(work)?) };
+        let (to, work) = unsafe { (OutputPointer::new(state)?, OutputPointer::optional(work)?) };
         let mut next = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
@@ -159,7 +159,7 @@ where
         if let Some(work) = work {
             work.write(sum);
         }
-        to.write(structure_of(&next, &craft.places));
+        to.write(structure_of(&next, &craft.entry_map));
         Ok(())
     };
     // SAFETY: by contract.
@@ -181,9 +181,9 @@ pub(crate) unsafe fn stop<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let (to, lost) = unsafe { (Out::new(state)?, Out::optional(lost)?) };
+        let (to, lost) = unsafe { (OutputPointer::new(state)?, OutputPointer::optional(lost)?) };
         let mut before = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
@@ -193,7 +193,7 @@ where
         if let Some(lost) = lost {
             lost.write(stopped.energy_lost);
         }
-        to.write(structure_of(&stopped.state, &craft.places));
+        to.write(structure_of(&stopped.state, &craft.entry_map));
         Ok(())
     };
     // SAFETY: by contract.
@@ -214,9 +214,9 @@ pub(crate) unsafe fn energy<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let energy = unsafe { Out::new(energy) }?;
+        let energy = unsafe { OutputPointer::new(energy) }?;
         // SAFETY: by contract.
         let state = state_of(craft, unsafe { refer(state) }?);
         energy.write(craft.spacecraft.energy(&state)?);
@@ -243,9 +243,9 @@ pub(crate) unsafe fn momentum_of<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let out = unsafe { Out::new(out) }?;
+        let out = unsafe { OutputPointer::new(out) }?;
         // SAFETY: by contract.
         let state = state_of(craft, unsafe { refer(state) }?);
         let about = match about {
@@ -375,8 +375,8 @@ mod tests {
         let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
         assert_eq!(bits(&c_state.attitude), bits(&attitude));
         for (size, most) in [
-            (size_of::<Made<SetOf<3>>>(), <Versions as Interface<3>>::SIZE),
-            (size_of::<Made<SetOf<7>>>(), SIZE),
+            (size_of::<StoredSpacecraft<SetOf<3>>>(), <Versions as Interface<3>>::SIZE),
+            (size_of::<StoredSpacecraft<SetOf<7>>>(), SIZE),
         ] {
             assert!(size > most / 2, "{size} bytes: PRECESS_SPACECRAFT_SIZE is far too large");
             println!("{size} bytes of {most}");

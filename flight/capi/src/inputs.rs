@@ -3,28 +3,28 @@
 use nalgebra::Vector3;
 use precess_dynamics::{Each, Gravity, HubMode, Inputs, Mode, Wrench};
 
-use crate::craft::{Craft, Made, code_number, craft};
+use crate::craft::{Craft, StoredSpacecraft, code_number, craft};
 use crate::error::{Code, Rejection};
-use crate::memory::Out;
+use crate::memory::OutputPointer;
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give, take};
 
 /// Writes the inputs that a structure states to inputs in which nothing acts. They are large: a
 /// result of them would be copied.
 pub(crate) fn take_inputs<const J: usize>(
-    craft: &Made<SetOf<J>>,
+    craft: &StoredSpacecraft<SetOf<J>>,
     from: &types::Inputs<J>,
     inputs: &mut Inputs<SetOf<J>>,
 ) -> Result<(), Rejection>
 where
     Versions: Interface<J>,
 {
-    let Made { spacecraft, places, .. } = craft;
+    let StoredSpacecraft { spacecraft, entry_map, .. } = craft;
     let vector = Vector3::from;
     inputs.force = vector(from.force);
     inputs.torque_b = vector(from.torque);
-    take(inputs.motors.values_mut(), &from.motor, places, |motor| *motor);
-    let mut joints = places.joints();
+    take(inputs.motors.values_mut(), &from.motor, entry_map, |motor| *motor);
+    let mut joints = entry_map.joints();
     inputs.modes.values_mut().try_for_each(|to| {
         let Some([entry, joint]) = joints.next() else { return Ok(()) };
         let mode = from.mode.get(entry).and_then(|modes| modes.get(joint));
@@ -60,7 +60,7 @@ where
                 force: vector(wrench.force),
                 moment: vector(wrench.moment),
             };
-            take(bodies.values_mut(), &from.wrench, places, wrench);
+            take(bodies.values_mut(), &from.wrench, entry_map, wrench);
             inputs.bodies = Some(bodies);
         }
         _ => return Err(Code::UnknownChoice.into()),
@@ -83,7 +83,7 @@ where
     // SAFETY: by contract.
     code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
-        let inputs = unsafe { Out::new(inputs) }?;
+        let inputs = unsafe { OutputPointer::new(inputs) }?;
         let mut to = types::Inputs {
             force: [0.0; 3],
             torque: [0.0; 3],
@@ -101,7 +101,7 @@ where
             reserved: 0,
         };
         let own = Inputs::none_for(&craft.spacecraft);
-        give(&mut to.mode, own.modes.values(), &craft.places, |mode| match mode {
+        give(&mut to.mode, own.modes.values(), &craft.entry_map, |mode| match mode {
             Mode::Driven => 0,
             Mode::Prescribed(_) => 1,
             Mode::Locked => 2,

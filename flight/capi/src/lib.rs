@@ -13,6 +13,7 @@
 
 pub mod craft;
 mod device;
+mod entry_map;
 pub mod error;
 pub mod evaluate;
 mod exports;
@@ -21,7 +22,6 @@ pub mod inputs;
 mod layout;
 pub mod loads;
 pub mod memory;
-mod places;
 mod platform;
 #[cfg(test)]
 mod pointers;

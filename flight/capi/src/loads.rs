@@ -2,12 +2,12 @@
 
 use precess_dynamics::{Inputs, LoadAxes, State};
 
-use crate::craft::{Craft, Made};
+use crate::craft::{Craft, StoredSpacecraft};
 use crate::error::{Code, Fault};
 use crate::evaluate::{take_state_and_inputs, with};
-use crate::memory::Out;
+use crate::memory::OutputPointer;
 use crate::types::{self, Wrench};
-use crate::version::{Interface, Placed, SetOf, Versions};
+use crate::version::{Interface, LoadsByEntry, SetOf, Versions};
 
 /// See `precess.h`.
 ///
@@ -25,9 +25,9 @@ pub(crate) unsafe fn loads_of<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let call = |craft: &Made<SetOf<J>>| {
+    let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let out = unsafe { Out::new(out) }?;
+        let out = unsafe { OutputPointer::new(out) }?;
         let axes = match axes {
             0 => LoadAxes::Body,
             1 => LoadAxes::Parent,
@@ -42,14 +42,14 @@ where
         let accelerations = craft.spacecraft.accelerations(&at, &given)?;
         let found = craft.spacecraft.loads(&at, &given, &accelerations, axes)?;
         let mut to = types::Loads {
-            hub: Wrench::of(&found.hub),
+            hub: Wrench::from_wrench(&found.hub),
             mount: [Wrench::NONE; crate::MAX_DEVICES],
             joint: [[Wrench::NONE; J]; crate::MAX_DEVICES],
             motor: [[0.0; J]; crate::MAX_DEVICES],
         };
         Versions::loads(
             &found.devices,
-            &mut Placed { places: &craft.places, next: 0, to: &mut to },
+            &mut LoadsByEntry { entry_map: &craft.entry_map, next: 0, to: &mut to },
         );
         out.write(to);
         Ok(())

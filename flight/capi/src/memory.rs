@@ -68,9 +68,9 @@ pub unsafe fn refer<'a, T: Plain>(pointer: *const T) -> Result<&'a T, Code> {
 ///
 /// There is no other way to write one number or structure.
 #[derive(Debug)]
-pub struct Out<T>(*mut T);
+pub struct OutputPointer<T>(*mut T);
 
-impl<T: Plain> Out<T> {
+impl<T: Plain> OutputPointer<T> {
     /// The place at a pointer.
     ///
     /// # Errors

@@ -4,17 +4,17 @@ use nalgebra::Vector3;
 use precess_dynamics::{Devices, JointStates, Quaternion, State};
 
 use crate::MAX_DEVICES;
-use crate::craft::{Craft, Made, Query, code_number, craft, query};
+use crate::craft::{Craft, Query, StoredSpacecraft, code_number, craft, query};
+use crate::entry_map::EntryMap;
 use crate::error::{Code, Fault, Rejection};
 use crate::evaluate::with;
-use crate::memory::{self, Out, slice, slice_mut};
-use crate::places::Places;
+use crate::memory::{self, OutputPointer, slice, slice_mut};
 use crate::types;
 use crate::version::{Interface, SetOf, Versions};
 
 /// The state that a structure states.
 pub(crate) fn state_of<const J: usize>(
-    craft: &Made<SetOf<J>>,
+    craft: &StoredSpacecraft<SetOf<J>>,
     from: &types::State<J>,
 ) -> State<SetOf<J>>
 where
@@ -27,7 +27,7 @@ where
 
 /// Writes the state that a structure states to one at rest.
 pub(crate) fn take_state<const J: usize>(
-    craft: &Made<SetOf<J>>,
+    craft: &StoredSpacecraft<SetOf<J>>,
     from: &types::State<J>,
     state: &mut State<SetOf<J>>,
 ) where
@@ -38,7 +38,7 @@ pub(crate) fn take_state<const J: usize>(
     state.r_b_n_dot = Vector3::from(from.velocity);
     state.attitude = Quaternion { q0, q1, q2, q3 };
     state.omega = Vector3::from(from.omega);
-    let mut joints = craft.places.joints();
+    let mut joints = craft.entry_map.joints();
     state.devices.states_mut().for_each(|[coordinate, rate]| {
         let Some([entry, joint]) = joints.next() else { return };
         let at = |of: &types::PerJoint<f64, J>| of.get(entry).and_then(|of| of.get(joint)).copied();
@@ -51,7 +51,7 @@ pub(crate) fn take_state<const J: usize>(
 /// A state as a structure.
 pub(crate) fn structure_of<const J: usize>(
     state: &State<SetOf<J>>,
-    places: &Places,
+    entry_map: &EntryMap,
 ) -> types::State<J>
 where
     Versions: Interface<J>,
@@ -65,7 +65,7 @@ where
         coordinate: [[0.0; J]; MAX_DEVICES],
         rate: [[0.0; J]; MAX_DEVICES],
     };
-    let mut joints = places.joints();
+    let mut joints = entry_map.joints();
     state.devices.states().for_each(|[coordinate, rate]| {
         let Some([entry, joint]) = joints.next() else { return };
         let coordinates = to.coordinate.get_mut(entry).and_then(|joints| joints.get_mut(joint));
@@ -80,28 +80,28 @@ where
 struct Length;
 
 impl Query<u32> for Length {
-    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> u32 {
-        u32::try_from(length(&craft.places)).unwrap_or(u32::MAX)
+    fn value<D: Devices<Scalar = f64>>(&self, craft: &StoredSpacecraft<D>) -> u32 {
+        u32::try_from(length(&craft.entry_map)).unwrap_or(u32::MAX)
     }
 }
 
 /// The numbers of a state, in the order in which they are saved: that of the entries.
 fn numbers<'a, const J: usize>(
-    places: &'a Places,
+    entry_map: &'a EntryMap,
     state: &'a mut types::State<J>,
 ) -> impl Iterator<Item = &'a mut f64> {
     let types::State { position, velocity, attitude, omega, coordinate, rate } = state;
     let entries = coordinate.iter_mut().zip(rate).enumerate();
     let joints = entries.flat_map(|(entry, (coordinates, rates))| {
-        let joints = coordinates.iter_mut().zip(rates).take(places.joints_of(entry));
+        let joints = coordinates.iter_mut().zip(rates).take(entry_map.joints_of(entry));
         joints.flat_map(|(coordinate, rate)| [coordinate, rate])
     });
     position.iter_mut().chain(velocity).chain(attitude).chain(omega).chain(joints)
 }
 
 /// How many there are.
-fn length(places: &Places) -> usize {
-    13_usize.saturating_add(places.count().saturating_mul(2))
+fn length(entry_map: &EntryMap) -> usize {
+    13_usize.saturating_add(entry_map.count().saturating_mul(2))
 }
 
 /// See `precess.h`.
@@ -119,8 +119,8 @@ where
     // SAFETY: by contract.
     code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
-        let to = unsafe { Out::new(state) }?;
-        to.write(structure_of(&State::at_rest_for(&craft.spacecraft), &craft.places));
+        let to = unsafe { OutputPointer::new(state) }?;
+        to.write(structure_of(&State::at_rest_for(&craft.spacecraft), &craft.entry_map));
         Ok(())
     }))
 }
@@ -140,10 +140,10 @@ where
     // SAFETY: by contract.
     code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
-        let to = unsafe { Out::new(state) }?;
+        let to = unsafe { OutputPointer::new(state) }?;
         // SAFETY: by contract.
         let from = state_of(craft, unsafe { memory::refer(state.cast_const()) }?);
-        to.write(structure_of(&from.wrapped(&craft.spacecraft), &craft.places));
+        to.write(structure_of(&from.wrapped(&craft.spacecraft), &craft.entry_map));
         Ok(())
     }))
 }
@@ -178,12 +178,12 @@ where
         let craft = unsafe { craft::<J>(pointer) }?;
         // SAFETY: by contract.
         let mut state = unsafe { memory::read(state) }?;
-        if (count as usize) < length(&craft.places) {
+        if (count as usize) < length(&craft.entry_map) {
             return Err(Code::TooSmall);
         }
         // SAFETY: by contract.
         let to = unsafe { slice_mut(to, count as usize) }?;
-        to.iter_mut().zip(numbers(&craft.places, &mut state)).for_each(|(to, from)| *to = *from);
+        to.iter_mut().zip(numbers(&craft.entry_map, &mut state)).for_each(|(to, from)| *to = *from);
         Ok(())
     };
     code_number(save())
@@ -205,17 +205,17 @@ pub(crate) unsafe fn state_restore<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let restore = |craft: &Made<SetOf<J>>| {
+    let restore = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
-        let to = unsafe { Out::new(state) }?;
-        if count as usize != length(&craft.places) {
+        let to = unsafe { OutputPointer::new(state) }?;
+        if count as usize != length(&craft.entry_map) {
             return Err(Rejection::from(Code::TooSmall));
         }
         // SAFETY: by contract.
         let from = unsafe { slice(from, count as usize) }?;
         let at_rest = State::at_rest_for(&craft.spacecraft);
-        let mut restored = structure_of(&at_rest, &craft.places);
-        numbers(&craft.places, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
+        let mut restored = structure_of(&at_rest, &craft.entry_map);
+        numbers(&craft.entry_map, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
         // What is not finite, or no attitude, is rejected here, not at the next step.
         craft.spacecraft.energy(&state_of(craft, &restored))?;
         to.write(restored);

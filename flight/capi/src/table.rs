@@ -25,9 +25,9 @@ use core::ffi::c_void;
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
-use crate::craft::{Made, code_number, made, make_in, reporting};
+use crate::craft::{StoredSpacecraft, code_number, made, make_in, reporting};
 use crate::error::{Code, Fault, Rejection};
-use crate::memory::{Out, read, slice, slice_mut};
+use crate::memory::{OutputPointer, read, slice, slice_mut};
 use crate::types::{Device, Entry, Hub, Passive, Strut};
 use crate::version::{EntryOf, Interface, SetOf, Versions};
 use crate::{MAX_DEVICES, VERSIONS};
@@ -106,9 +106,9 @@ pub(crate) trait Pass {
 }
 
 /// What is left to be read.
-struct Reading<'a>(&'a [u8]);
+struct TableReader<'a>(&'a [u8]);
 
-impl Reading<'_> {
+impl TableReader<'_> {
     fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
         let (first, rest) = self.0.split_first_chunk()?;
         self.0 = rest;
@@ -116,7 +116,7 @@ impl Reading<'_> {
     }
 }
 
-impl Pass for Reading<'_> {
+impl Pass for TableReader<'_> {
     fn integer(&mut self, value: &mut i32) -> Option<()> {
         *value = i32::from_le_bytes(self.bytes()?);
         Some(())
@@ -155,7 +155,7 @@ fn read_table<const J: usize>(table: &[u8]) -> Result<(Hub, [EntryOf<J>; MAX_DEV
 where
     Versions: Interface<J>,
 {
-    let mut reading = Reading(table);
+    let mut reading = TableReader(table);
     let mut word = || reading.bytes().map(u32::from_le_bytes).ok_or(Code::TableLength);
     if word()? != MAGIC {
         return Err(Code::TableMagic);
@@ -227,7 +227,8 @@ where
         made::<J>(&hub, devices.get(..count).unwrap_or(&devices))
     };
     // SAFETY: by contract.
-    let call = || (None::<&Made<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
+    let call =
+        || (None::<&StoredSpacecraft<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
     // SAFETY: by contract.
     unsafe { reporting(fault, call) }
 }
@@ -257,7 +258,7 @@ where
         // SAFETY: by contract.
         let (hub, devices) = unsafe { (read(hub)?, slice(devices, count)?) };
         // SAFETY: by contract.
-        let length = unsafe { Out::new(length) }?;
+        let length = unsafe { OutputPointer::new(length) }?;
         if table.is_null() {
             return Err(Code::Null);
         }

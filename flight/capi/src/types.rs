@@ -222,7 +222,7 @@ impl Wrench {
     /// Without force and moment.
     pub(crate) const NONE: Self = Self { force: [0.0; 3], moment: [0.0; 3] };
 
-    pub(crate) fn of(wrench: &precess_dynamics::Wrench) -> Self {
+    pub(crate) fn from_wrench(wrench: &precess_dynamics::Wrench) -> Self {
         Self { force: wrench.force.into(), moment: wrench.moment.into() }
     }
 }

@@ -7,9 +7,9 @@
 use precess_dynamics::{BuiltIn, DeviceLoads, DeviceSet, Devices, Each, Isolated, Value, Wrench};
 
 use crate::device::device_of;
+use crate::entry_map::EntryMap;
 use crate::error::{Code, Rejection};
 use crate::memory::Plain;
-use crate::places::Places;
 use crate::platform::{is_platform, platform_of};
 use crate::table::Pass;
 use crate::types::{self, Device, Entry};
@@ -18,9 +18,9 @@ use crate::{MAX_DEVICES, MAX_ON_PLATFORM, MAX_PLATFORMS};
 /// The devices on a hub.
 pub(crate) type List = [Option<BuiltIn>; MAX_DEVICES];
 /// The devices on a platform.
-type Carried = [Option<BuiltIn>; MAX_ON_PLATFORM];
+type PlatformDevices = [Option<BuiltIn>; MAX_ON_PLATFORM];
 /// The platforms with what they carry.
-type Platforms = [Option<Isolated<Carried>>; MAX_PLATFORMS];
+type Platforms = [Option<Isolated<PlatformDevices>>; MAX_PLATFORMS];
 
 /// Carries the versions, each by the joints that a device has at most.
 pub(crate) struct Versions;
@@ -44,11 +44,11 @@ pub(crate) trait Interface<const J: usize> {
     const EMPTY: Self::Entry;
 
     /// The set of some entries, at most `MAX_DEVICES`, and where its joints are in the caller's arrays.
-    fn set(entries: &[Self::Entry]) -> Result<(Self::Set, Places), Rejection>;
+    fn set(entries: &[Self::Entry]) -> Result<(Self::Set, EntryMap), Rejection>;
     /// Passes over an entry of a table of a layout.
     fn pass(pass: &mut impl Pass, entry: &mut Self::Entry, layout: usize) -> Option<()>;
     /// Writes the loads of the devices.
-    fn loads(from: &LoadsOf<Self::Set>, to: &mut Placed<'_, J>);
+    fn loads(from: &LoadsOf<Self::Set>, to: &mut LoadsByEntry<'_, J>);
 }
 
 impl Interface<3> for Versions {
@@ -58,22 +58,22 @@ impl Interface<3> for Versions {
     const SIZE: usize = 16_384;
     const EMPTY: Device<3> = Device::EMPTY;
 
-    fn set(entries: &[Device<3>]) -> Result<(List, Places), Rejection> {
+    fn set(entries: &[Device<3>]) -> Result<(List, EntryMap), Rejection> {
         let mut list: List = [None; MAX_DEVICES];
-        let mut places = Places::none();
+        let mut entry_map = EntryMap::none();
         for (index, (to, entry)) in list.iter_mut().zip(entries).enumerate() {
             let device = device_of(index, entry)?;
-            places.add(index, device.kind().joints().len());
+            entry_map.add(index, device.kind().joints().len());
             *to = Some(device);
         }
-        Ok((list, places))
+        Ok((list, entry_map))
     }
 
     fn pass(pass: &mut impl Pass, entry: &mut Device<3>, _: usize) -> Option<()> {
         pass.device(entry, 3)
     }
 
-    fn loads(from: &LoadsOf<List>, to: &mut Placed<'_, 3>) {
+    fn loads(from: &LoadsOf<List>, to: &mut LoadsByEntry<'_, 3>) {
         from.iter().flatten().for_each(|of| to.put(of));
     }
 }
@@ -85,15 +85,15 @@ impl Interface<7> for Versions {
     const SIZE: usize = 49_152;
     const EMPTY: Entry = Entry::EMPTY;
 
-    fn set(entries: &[Entry]) -> Result<((List, Platforms), Places), Rejection> {
+    fn set(entries: &[Entry]) -> Result<((List, Platforms), EntryMap), Rejection> {
         let mut list: List = [None; MAX_DEVICES];
         let mut platforms: Platforms = [const { None }; MAX_PLATFORMS];
-        let mut places = Places::none();
+        let mut entry_map = EntryMap::none();
         let at = |index: usize, code: Code| Rejection { entry: Some(index), ..code.into() };
         let hub =
             entries.iter().enumerate().filter(|(_, entry)| !is_platform(entry) && entry.on == 0);
         for (to, (index, entry)) in list.iter_mut().zip(hub) {
-            *to = Some(placed(index, entry, &mut places)?);
+            *to = Some(placed(index, entry, &mut entry_map)?);
         }
         for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.on != 0) {
             let named =
@@ -106,19 +106,19 @@ impl Interface<7> for Versions {
         for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| is_platform(entry)) {
             let to = free.next().ok_or(at(index, Code::TooMany))?;
             let (platform, suspension) = platform_of(index, entry)?;
-            places.add(index, types::PLATFORM_JOINTS);
-            let mut carried: Carried = [None; MAX_ON_PLATFORM];
+            entry_map.add(index, types::PLATFORM_JOINTS);
+            let mut carried: PlatformDevices = [None; MAX_ON_PLATFORM];
             let mut room = carried.iter_mut();
             let stands = |entry: &Entry| {
                 usize::try_from(entry.on).is_ok_and(|on| on == index.wrapping_add(1))
             };
             for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| stands(entry)) {
                 let to = room.next().ok_or(at(index, Code::TooMany))?;
-                *to = Some(placed(index, entry, &mut places)?);
+                *to = Some(placed(index, entry, &mut entry_map)?);
             }
             *to = Some(Isolated { platform, suspension, carried });
         }
-        Ok(((list, platforms), places))
+        Ok(((list, platforms), entry_map))
     }
 
     fn pass(pass: &mut impl Pass, entry: &mut Entry, layout: usize) -> Option<()> {
@@ -126,7 +126,7 @@ impl Interface<7> for Versions {
         if layout == 7 { pass.standing(entry) } else { Some(()) }
     }
 
-    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut Placed<'_, 7>) {
+    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut LoadsByEntry<'_, 7>) {
         list.iter().flatten().for_each(|of| to.put(of));
         for of in platforms.iter().flatten() {
             to.put(&of.platform);
@@ -135,30 +135,30 @@ impl Interface<7> for Versions {
     }
 }
 
-/// The device of an entry, whose joints are added to the places.
-fn placed(index: usize, entry: &Entry, places: &mut Places) -> Result<BuiltIn, Rejection> {
+/// The device of an entry, whose joints are added to the map.
+fn placed(index: usize, entry: &Entry, entry_map: &mut EntryMap) -> Result<BuiltIn, Rejection> {
     let device = device_of(index, &entry.device)?;
-    places.add(index, device.kind().joints().len());
+    entry_map.add(index, device.kind().joints().len());
     Ok(device)
 }
 
 /// Loads by entry: devices come in the order of the set.
-pub(crate) struct Placed<'a, const J: usize> {
-    pub(crate) places: &'a Places,
+pub(crate) struct LoadsByEntry<'a, const J: usize> {
+    pub(crate) entry_map: &'a EntryMap,
     /// The number of the next device.
     pub(crate) next: usize,
     pub(crate) to: &'a mut types::Loads<J>,
 }
 
-impl<const J: usize> Placed<'_, J> {
+impl<const J: usize> LoadsByEntry<'_, J> {
     fn put<W: Each<Wrench>, U: Each<f64>, P>(&mut self, of: &DeviceLoads<W, U, P, f64>) {
-        let entry = self.places.entry(self.next);
+        let entry = self.entry_map.entry(self.next);
         self.next = self.next.wrapping_add(1);
         if let Some(mount) = self.to.mount.get_mut(entry) {
-            *mount = types::Wrench::of(&of.mount);
+            *mount = types::Wrench::from_wrench(&of.mount);
         }
         let joints = self.to.joint.get_mut(entry).into_iter().flatten();
-        copy(joints, of.joints.values().map(|wrench| types::Wrench::of(&wrench)));
+        copy(joints, of.joints.values().map(|wrench| types::Wrench::from_wrench(&wrench)));
         copy(self.to.motor.get_mut(entry).into_iter().flatten(), of.motors.values());
     }
 }
@@ -171,10 +171,10 @@ fn copy<'a, V: Copy + 'a>(to: impl Iterator<Item = &'a mut V>, from: impl Iterat
 pub(crate) fn take<'a, V: Value + 'a, U: 'a, const J: usize>(
     to: impl Iterator<Item = &'a mut V>,
     from: &types::PerJoint<U, J>,
-    places: &Places,
+    entry_map: &EntryMap,
     of: impl Fn(&U) -> V,
 ) {
-    let mut joints = places.joints();
+    let mut joints = entry_map.joints();
     // Not a loop: it would look for the device of each number anew.
     to.for_each(|to| {
         let from = joints.next().and_then(|[entry, joint]| from.get(entry)?.get(joint));
@@ -188,10 +188,10 @@ pub(crate) fn take<'a, V: Value + 'a, U: 'a, const J: usize>(
 pub(crate) fn give<V, U, const J: usize>(
     to: &mut types::PerJoint<U, J>,
     from: impl Iterator<Item = V>,
-    places: &Places,
+    entry_map: &EntryMap,
     of: impl Fn(V) -> U,
 ) {
-    let mut joints = places.joints();
+    let mut joints = entry_map.joints();
     from.for_each(|from| {
         let to = joints.next().and_then(|[entry, joint]| to.get_mut(entry)?.get_mut(joint));
         if let Some(to) = to {

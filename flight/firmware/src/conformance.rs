@@ -16,7 +16,7 @@ use precess_dynamics::{
 };
 
 use crate::bits::{Bits, Hash, write};
-use crate::craft::{Craft, HubIs};
+use crate::craft::{Craft, HubModes};
 use crate::random::Random;
 use crate::sets::{EachSet, each_set};
 use crate::structure::{Storage, Structure, Wheels};
@@ -174,7 +174,7 @@ impl<T: Bits> EachSet<T> for Lines<'_> {
         for seed in 0..EVALUATIONS {
             let mut random = Random::new(seed);
             let set = draw(&mut random);
-            let drawn = Craft::drawn(&set, HubIs::Any, &mut random)?;
+            let drawn = Craft::drawn(&set, HubModes::Any, &mut random)?;
             let found = drawn.craft.accelerations(&drawn.state, &drawn.inputs)?;
             numbers(&found).for_each(|number| hash.take(number));
             last = Some(found);
@@ -184,7 +184,7 @@ impl<T: Bits> EachSet<T> for Lines<'_> {
 
         let mut random = Random::new(EVALUATIONS);
         let set = draw(&mut random);
-        let Craft { craft, mut state, inputs } = Craft::drawn(&set, HubIs::Free, &mut random)?;
+        let Craft { craft, mut state, inputs } = Craft::drawn(&set, HubModes::Free, &mut random)?;
         if core::mem::take(&mut self.nudge) {
             state.omega.x = state.omega.x.next();
         }

@@ -27,7 +27,7 @@ pub struct Craft<D: FixedSet> {
 
 /// The modes that a drawn spacecraft's hub may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HubIs {
+pub enum HubModes {
     /// Free, to be run.
     Free,
     /// Free, clamped or prescribed, as drawn.
@@ -41,7 +41,7 @@ impl<D: FixedSet> Craft<D> {
     /// As [`Spacecraft::new`].
     pub fn drawn(
         devices: &D,
-        hub_is: HubIs,
+        hub_is: HubModes,
         random: &mut Random,
     ) -> Result<Self, ParameterError<D::Scalar>> {
         let mass = random.within(200.0, 1000.0);
@@ -63,7 +63,7 @@ impl<D: FixedSet> Craft<D> {
             }
             inputs.bodies = Some(bodies);
         }
-        if hub_is == HubIs::Any {
+        if hub_is == HubModes::Any {
             hold_hub(&mut state, &mut inputs, random);
         }
         Ok(Self { craft, state, inputs })

@@ -12,7 +12,7 @@ use precess_dynamics::{
 use crate::random::Random;
 
 /// A kind of which a device can be drawn.
-pub trait Drawn: Kind {
+pub trait RandomDevice: Kind {
     /// The next device.
     fn drawn(random: &mut Random) -> Self;
 }
@@ -47,7 +47,7 @@ macro_rules! balanced_wheel {
 
 macro_rules! drawn {
     ($($kind:ident $wheel:ident $inboard:ident;)*) => {$(
-        impl<T: Scalar> Drawn for $kind<T> {
+        impl<T: Scalar> RandomDevice for $kind<T> {
             fn drawn(random: &mut Random) -> Self {
                 let wheel = $wheel!($kind, random);
                 let mut device = $inboard!($kind, random, wheel);
@@ -122,7 +122,7 @@ drawn! {
     FlexibleReactionWheel wheel bearings;
 }
 
-impl<T: Scalar> Drawn for HingedPanel<T> {
+impl<T: Scalar> RandomDevice for HingedPanel<T> {
     fn drawn(random: &mut Random) -> Self {
         let mass = random.within(2.0, 20.0);
         let mut panel = Self {
@@ -136,7 +136,7 @@ impl<T: Scalar> Drawn for HingedPanel<T> {
     }
 }
 
-impl<T: Scalar> Drawn for SloshMass<T> {
+impl<T: Scalar> RandomDevice for SloshMass<T> {
     fn drawn(random: &mut Random) -> Self {
         let mut mass = Self {
             mount: random.rotation(),

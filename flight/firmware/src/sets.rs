@@ -8,7 +8,7 @@ use precess_dynamics::{
     SloshMass,
 };
 
-use crate::devices::{Drawn, isolated};
+use crate::devices::{RandomDevice, isolated};
 use crate::random::Random;
 
 /// Something to do with sets of devices.
@@ -51,27 +51,28 @@ pub fn each_set<T: Scalar, V: EachSet<T>>(visitor: &mut V) -> Result<(), V::Erro
         };
     }
     precess_dynamics::every_kind!(each);
-    visitor
-        .visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] { from_fn(|_| Drawn::drawn(random)) })?;
+    visitor.visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] {
+        from_fn(|_| RandomDevice::drawn(random))
+    })?;
     visitor.visit("mixed", 7, mixed::<T>)?;
     visitor.visit("isolated", 5, with_platform::<T>)
 }
 
-fn single<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
+fn single<K: RandomDevice, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
     visitor.visit(K::NAME, 1, |random| [K::drawn(random)])
 }
 
 fn mixed<T: Scalar>(random: &mut Random) -> Mixed<T> {
     (
-        from_fn(|_| Drawn::drawn(random)),
-        Drawn::drawn(random),
-        (Drawn::drawn(random), Drawn::drawn(random)),
-        from_fn(|_| Drawn::drawn(random)),
-        Drawn::drawn(random),
+        from_fn(|_| RandomDevice::drawn(random)),
+        RandomDevice::drawn(random),
+        (RandomDevice::drawn(random), RandomDevice::drawn(random)),
+        from_fn(|_| RandomDevice::drawn(random)),
+        RandomDevice::drawn(random),
     )
 }
 
 fn with_platform<T: Scalar>(random: &mut Random) -> WithPlatform<T> {
-    let carried = (from_fn(|_| Drawn::drawn(random)), Drawn::drawn(random));
-    (isolated(carried, random), Drawn::drawn(random))
+    let carried = (from_fn(|_| RandomDevice::drawn(random)), RandomDevice::drawn(random));
+    (isolated(carried, random), RandomDevice::drawn(random))
 }

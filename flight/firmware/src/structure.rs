@@ -8,8 +8,8 @@ use precess_dynamics::{
     Quaternion, ReactionWheel, Scalar, Spacecraft, State,
 };
 
-use crate::craft::{Craft, HubIs};
-use crate::devices::Drawn;
+use crate::craft::{Craft, HubModes};
+use crate::devices::RandomDevice;
 use crate::random::Random;
 
 /// Modes of the structure.
@@ -41,8 +41,8 @@ impl<T: Scalar> Structure<T> {
     /// # Errors
     /// As [`Spacecraft::flexible`].
     pub fn drawn(random: &mut Random) -> Result<Self, ModesError<T>> {
-        let devices: Wheels<T> = from_fn(|_| Drawn::drawn(random));
-        let rigid = Craft::drawn(&devices, HubIs::Free, random).map_err(ModesError::Rigid)?;
+        let devices: Wheels<T> = from_fn(|_| RandomDevice::drawn(random));
+        let rigid = Craft::drawn(&devices, HubModes::Free, random).map_err(ModesError::Rigid)?;
         let mass = random.within(200.0, 1000.0);
         let hub =
             Hub { m_b: T::from_f64(mass), r_bc_b: random.vector(0.2), i_b_bc: random.block(mass) };

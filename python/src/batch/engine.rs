@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use precess::record::RunError;
 use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
+use precess::record::RunError;
 use precess::scenario::Scenario;
 use precess_dynamics::{BuiltIn, Each as _, Hub, ParameterError, SolveError};
-use precess_lanes::{Acting, Lanes, Made, PART, SEGMENT, Steps, Watch, lanes};
+use precess_lanes::{Acting, BatchSupport, Lanes, PART, RunObserver, SEGMENT, Steps, lanes};
 use pyo3::PyErr;
 
-use super::reduce::Part;
+use super::reduce::PartHistory;
 use crate::errors;
 use crate::evaluator::flat;
 
@@ -38,7 +38,7 @@ impl Failure {
     }
 }
 
-pub(super) type Ends = Vec<Result<(), Failure>>;
+pub(super) type StateResults = Vec<Result<(), Failure>>;
 
 /// What evaluates a batch.
 pub(super) enum Engine {
@@ -75,7 +75,7 @@ impl Engine {
         (y, count): (&[f64], usize),
         inputs: &[CraftInputs],
         out: &mut [f64],
-    ) -> Ends {
+    ) -> StateResults {
         match self {
             Self::Lanes(lanes, errors) => {
                 let ends = lanes.accelerations(part, y, &acting(inputs), out);
@@ -105,15 +105,15 @@ impl Engine {
         y: &mut [f64],
         inputs: &[CraftInputs],
         steps: Steps,
-        kept: &mut Part<'_>,
+        kept: &mut PartHistory<'_>,
         go: &(dyn Fn() -> bool + Sync),
-    ) -> Ends {
+    ) -> StateResults {
         match self {
             Self::Lanes(lanes, errors) => {
                 let size = kept.size();
                 let count = y.len() / size;
                 let mut see = |index: usize, steps: usize, row: &[f64]| kept.see(index, steps, row);
-                let watch = Watch { see: &mut see, go };
+                let watch = RunObserver { see: &mut see, go };
                 let ends = lanes.run(part, y, &acting(inputs), steps, watch);
                 joined(ends, errors, part, count)
             }
@@ -161,11 +161,11 @@ fn craft(
 
 /// Ends of lanes, or what is wrong with the spacecraft.
 fn joined(
-    ends: precess_lanes::Ends,
+    ends: precess_lanes::StateResults,
     errors: &[Option<ParameterError>],
     part: usize,
     count: usize,
-) -> Ends {
+) -> StateResults {
     let wrong = |index: usize| {
         let place = if errors.len() == 1 { 0 } else { part * PART + index };
         errors.get(place).copied().flatten()
@@ -188,8 +188,8 @@ fn of_kind(scenarios: &[&Scenario], each: bool, in_lanes: bool) -> Option<Engine
     let crafts: Vec<(Hub, Vec<BuiltIn>)> =
         scenarios.iter().map(|of| (of.hub, of.devices.0.clone())).collect();
     match lanes(&crafts, each) {
-        Made::Lanes(lanes, errors) => Some(Engine::Lanes(lanes, errors)),
-        Made::Unsupported => None,
+        BatchSupport::Lanes(lanes, errors) => Some(Engine::Lanes(lanes, errors)),
+        BatchSupport::Unsupported => None,
     }
 }
 

@@ -26,7 +26,7 @@ use crate::inputs::NativeInputs;
 use crate::scenario::NativeScenario;
 
 use engine::{Engine, Failure};
-use reduce::{Kept, Reduction};
+use reduce::{BatchHistory, Reduction};
 use rows::failed_rows;
 pub(crate) use rows::{ActingRows, BatchRows, Linearized, Sizes};
 use work::{Progress, share, watched};
@@ -122,7 +122,7 @@ impl NativeBatch {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Rows<'py>, Failures)> {
-        let Given { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let BatchArguments { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
         let width = self.rows.acceleration_size();
         let mut out = vec![f64::NAN; count * width];
         let given = (y.as_slice(), &acting);
@@ -151,17 +151,17 @@ impl NativeBatch {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<RunFacts<'py>> {
-        let Given { mut y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
+        let BatchArguments { mut y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
         let every = every.max(1);
         let samples = if history { steps / every + 1 } else { 0 };
         let reductions: PyResult<Vec<Reduction>> =
             reductions.iter().map(|name| Reduction::of_name(name)).collect();
         let reductions = reductions?;
-        let mut kept = Kept::new(count, samples, size, reductions);
+        let mut kept = BatchHistory::new(count, samples, size, reductions);
         let jobs = y.chunks_mut(PART * size).zip(kept.parts()).enumerate();
         let jobs = jobs.map(|(part, (y, kept))| (part, y, kept)).collect();
         let of = Steps { length: dt, count: steps, every };
-        let work = |(part, y, mut kept): (usize, &mut [f64], reduce::Part<'_>),
+        let work = |(part, y, mut kept): (usize, &mut [f64], reduce::PartHistory<'_>),
                     go: &(dyn Fn() -> bool + Sync)| {
             let inputs = acting.of_part(part, y.len() / size);
             kept.start(y);
@@ -194,7 +194,7 @@ impl NativeBatch {
         threads: usize,
     ) -> PyResult<LinearizedFacts<'py>> {
         self.of_one()?;
-        let Given { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let BatchArguments { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
         let shape = self.rows.linearized(&acting.base);
         let shape = shape.map_err(|error| errors::evaluation(&error))?;
         let Sizes { rows, states, inputs } = shape.sizes();
@@ -213,7 +213,7 @@ impl NativeBatch {
 }
 
 /// What a call of a batch was given.
-struct Given {
+struct BatchArguments {
     /// The states, one after the other.
     y: Vec<f64>,
     /// How many.
@@ -239,10 +239,10 @@ impl NativeBatch {
         y: &PyReadonlyArray2<'_, f64>,
         inputs: &NativeInputs,
         u: Option<&PyReadonlyArray2<'_, f64>>,
-    ) -> PyResult<Given> {
+    ) -> PyResult<BatchArguments> {
         let (y, count) = self.states(y)?;
         let acting = self.acting(inputs.get()?.clone(), u, count)?;
-        Ok(Given { y, count, size: self.rows.state_size(), acting })
+        Ok(BatchArguments { y, count, size: self.rows.state_size(), acting })
     }
 
     /// The rows of states.

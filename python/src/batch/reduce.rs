@@ -1,4 +1,4 @@
-//! [`Kept`]: what a run of a batch keeps of each element: samples, or what they are reduced to on the
+//! [`BatchHistory`]: what a run of a batch keeps of each element: samples, or what they are reduced to on the
 //! way.
 
 use pyo3::PyResult;
@@ -53,7 +53,7 @@ impl Reduction {
 }
 
 /// What is kept, element by element.
-pub(super) struct Kept {
+pub(super) struct BatchHistory {
     samples: usize,
     size: usize,
     history: Vec<f64>,
@@ -62,7 +62,7 @@ pub(super) struct Kept {
 }
 
 /// What is kept of the elements of a part.
-pub(super) struct Part<'a> {
+pub(super) struct PartHistory<'a> {
     samples: usize,
     size: usize,
     history: &'a mut [f64],
@@ -70,7 +70,7 @@ pub(super) struct Part<'a> {
     counts: &'a mut [u64],
 }
 
-impl Kept {
+impl BatchHistory {
     pub(super) fn new(
         count: usize,
         samples: usize,
@@ -88,14 +88,14 @@ impl Kept {
     }
 
     /// Part by part.
-    pub(super) fn parts(&mut self) -> Vec<Part<'_>> {
+    pub(super) fn parts(&mut self) -> Vec<PartHistory<'_>> {
         let (samples, size) = (self.samples, self.size);
         let rows = PART * size;
         let mut histories = self.history.chunks_mut((rows * samples).max(1));
         let mut reduced: Vec<_> =
             self.reductions.iter_mut().map(|(of, all)| (*of, all.chunks_mut(rows))).collect();
         let counts = self.counts.chunks_mut(PART);
-        let part = |counts| Part {
+        let part = |counts| PartHistory {
             samples,
             size,
             history: histories.next().unwrap_or_default(),
@@ -115,7 +115,7 @@ impl Kept {
     }
 }
 
-impl Part<'_> {
+impl PartHistory<'_> {
     /// Numbers of a state.
     pub(super) fn size(&self) -> usize {
         self.size

@@ -8,7 +8,7 @@ use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 use precess_lanes::PART;
 
 use super::engine::{Engine, Failure};
-use super::work::{Look, share};
+use super::work::{ProgressCheck, share};
 
 /// Index of an element that failed, and why.
 pub(crate) type Failed = Vec<(usize, Failure)>;
@@ -72,7 +72,7 @@ impl BatchRows {
         (y, acting): (&[f64], &ActingRows),
         out: &mut [f64],
         threads: usize,
-        look: Look<'_>,
+        look: ProgressCheck<'_>,
     ) -> Failed {
         let (size, width) = (self.state_size(), self.acceleration_size());
         let jobs = out.chunks_mut((PART * width).max(1)).zip(y.chunks(PART * size)).enumerate();
@@ -105,7 +105,7 @@ impl BatchRows {
         Sizes { rows, states, inputs }: Sizes,
         (c, d): (&mut [f64], &mut [f64]),
         threads: usize,
-        look: Look<'_>,
+        look: ProgressCheck<'_>,
     ) -> Failed {
         let (size, none): (usize, &[&str]) = (self.state_size(), &[]);
         let (of_c, of_d) = ((rows * states).max(1), (rows * inputs).max(1));

@@ -32,15 +32,15 @@ impl Progress {
 }
 
 /// Whether work may go on.
-type Go<'a> = &'a (dyn Fn() -> bool + Sync);
+type ContinueCheck<'a> = &'a (dyn Fn() -> bool + Sync);
 /// Whether work may go on, asked by the thread that called, with the share that is done.
-pub(crate) type Look<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+pub(crate) type ProgressCheck<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
 /// Does work without the interpreter's lock. An exception of a signal or of `progress` ends it early.
 pub(super) fn watched<R: Send>(
     py: Python<'_>,
     progress: Progress,
-    work: impl FnOnce(Look<'_>) -> R + Send,
+    work: impl FnOnce(ProgressCheck<'_>) -> R + Send,
 ) -> PyResult<R> {
     // Only the calling thread locks it, so it may hold it while Python is called.
     let watch = Mutex::new((Instant::now(), None));
@@ -64,9 +64,9 @@ pub(super) fn watched<R: Send>(
 /// zero; what the jobs return, joined in no order.
 pub(super) fn share<J: Send, R: Send>(
     threads: usize,
-    look: Look<'_>,
+    look: ProgressCheck<'_>,
     jobs: Vec<J>,
-    work: impl Fn(J, Go<'_>) -> Vec<R> + Sync,
+    work: impl Fn(J, ContinueCheck<'_>) -> Vec<R> + Sync,
 ) -> Vec<R> {
     let total = jobs.len();
     // Reads files of the system: only where it matters.
@@ -75,7 +75,7 @@ pub(super) fn share<J: Send, R: Send>(
     let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let queue = Mutex::new(jobs.into_iter());
     let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let each_job = |go: Go<'_>, found: &mut dyn FnMut(Vec<R>)| {
+    let each_job = |go: ContinueCheck<'_>, found: &mut dyn FnMut(Vec<R>)| {
         while go() {
             let Some(job) = next() else { return };
             found(work(job, go));

@@ -216,14 +216,14 @@ unsafe fn failed(frame: &CallFrame, message: String, code: i32) -> Error {
 }
 
 /// What a call passes: the number, two arguments, and so many results.
-type Taken<'a, const R: usize> = (i64, [&'a [f64]; 2], [&'a mut [f64]; R]);
+type CallArguments<'a, const R: usize> = (i64, [&'a [f64]; 2], [&'a mut [f64]; R]);
 
 /// The number, arguments and results of a call.
 ///
 /// # Safety
 ///
 /// As [`accelerations`]; results overlap neither arguments nor each other.
-unsafe fn taken<const R: usize>(frame: &CallFrame) -> Result<Taken<'_, R>, String> {
+unsafe fn taken<const R: usize>(frame: &CallFrame) -> Result<CallArguments<'_, R>, String> {
     let attributes = &frame.attributes;
     // SAFETY: XLA has as many kinds and items as it says.
     let number = unsafe {

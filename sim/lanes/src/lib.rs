@@ -7,7 +7,7 @@
 //! Every number has the bits of `Spacecraft` with a `Vec<BuiltIn>`: the order of sums over devices is
 //! the same.
 
-mod laned;
+mod kind_batch;
 mod side_by_side;
 
 pub use side_by_side::{Motion, SideBySide, side_by_side};
@@ -40,21 +40,21 @@ pub struct Acting {
 }
 
 /// Sees states on the way: number within the part, steps so far, state.
-pub type See<'a> = dyn FnMut(usize, usize, &[f64]) + 'a;
+pub type Observer<'a> = dyn FnMut(usize, usize, &[f64]) + 'a;
 
 /// Steps between two looks at whether to go on, and of which samples are kept before they are seen.
 pub const SEGMENT: usize = 256;
 
 /// Who watches a run.
-pub struct Watch<'a> {
+pub struct RunObserver<'a> {
     /// Sees states.
-    pub see: &'a mut See<'a>,
+    pub see: &'a mut Observer<'a>,
     /// Whether to go on.
     pub go: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// What became of each state of a part.
-pub type Ends = Vec<Result<(), SolveError<f64>>>;
+pub type StateResults = Vec<Result<(), SolveError<f64>>>;
 
 /// Some steps.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,13 @@ pub struct Steps {
 /// A batch of spacecraft.
 pub trait Lanes: Send + Sync {
     /// Accelerations of the states of a part, one row each; `inputs` has one of each, or the same.
-    fn accelerations(&self, part: usize, y: &[f64], inputs: &[Acting], out: &mut [f64]) -> Ends;
+    fn accelerations(
+        &self,
+        part: usize,
+        y: &[f64],
+        inputs: &[Acting],
+        out: &mut [f64],
+    ) -> StateResults;
     /// Steps of RK4, inputs held, while `go` says so. A state that fails is left as it was before the
     /// step that failed.
     fn run(
@@ -79,12 +85,12 @@ pub trait Lanes: Send + Sync {
         y: &mut [f64],
         inputs: &[Acting],
         steps: Steps,
-        watch: Watch<'_>,
-    ) -> Ends;
+        watch: RunObserver<'_>,
+    ) -> StateResults;
 }
 
 /// What a batch was made of.
-pub enum Made {
+pub enum BatchSupport {
     /// A batch, and what is wrong with each spacecraft.
     Lanes(Box<dyn Lanes>, Vec<Option<ParameterError<f64>>>),
     /// The devices are of several kinds or of one without lanes, or there are none.
@@ -129,13 +135,13 @@ use in_lanes;
 
 /// The batch of one spacecraft for every state, or of one for each.
 #[must_use]
-pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
-    let Some(first) = one_kind(crafts) else { return Made::Unsupported };
+pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> BatchSupport {
+    let Some(first) = one_kind(crafts) else { return BatchSupport::Unsupported };
     macro_rules! by_kind {
         ($($kind:ident $module:ident $number:literal;)*) => {
             match first {
                 $(BuiltIn::$kind(_) => {
-                    in_lanes!($kind, laned::of_kind(&devices_of!(crafts, $kind), each), Made::Unsupported)
+                    in_lanes!($kind, kind_batch::of_kind(&devices_of!(crafts, $kind), each), BatchSupport::Unsupported)
                 })*
             }
         };

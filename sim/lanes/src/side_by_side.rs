@@ -8,8 +8,8 @@ use precess_dynamics::{
     BuiltIn, Hub, Inputs, JointStates as _, Quaternion, SolveError, Spacecraft, State, every_kind,
 };
 
-use crate::laned::{Set, write_inputs};
-use crate::{Acting, Ends, devices_of, in_lanes, one_kind};
+use crate::kind_batch::{Set, write_inputs};
+use crate::{Acting, StateResults, devices_of, in_lanes, one_kind};
 
 /// The state of a spacecraft, of whatever kind its devices are.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub trait SideBySide: Send {
     /// Advances each by so many steps of RK4 of this length, s, inputs held: the bits of
     /// [`Spacecraft::step`] of each by itself. A state that fails is left as it was before the step
     /// that failed. `at` has one entry for each spacecraft.
-    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> Ends;
+    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> StateResults;
 }
 
 /// These spacecraft; none where their devices are of several kinds, of a kind without lanes, of different numbers, or
@@ -55,19 +55,24 @@ fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)]) -> Option<Box<dyn Si
     let first = made.first()?;
     let states = vec![State::at_rest_for(first); made.len()];
     let inputs = vec![Inputs::none_for(first); made.len()];
-    Some(Box::new(OfKind { batch: Batch::from_spacecraft(made), states, inputs, ends: Vec::new() }))
+    Some(Box::new(KindRuns {
+        batch: Batch::from_spacecraft(made),
+        states,
+        inputs,
+        ends: Vec::new(),
+    }))
 }
 
 /// Spacecraft with devices of a kind; what the batch reads and writes.
-struct OfKind<K: Kind<Scalar = f64>> {
+struct KindRuns<K: Kind<Scalar = f64>> {
     batch: Batch<Set<K>>,
     states: Vec<State<Set<K>>>,
     inputs: Vec<Inputs<Set<K>>>,
-    ends: Ends,
+    ends: StateResults,
 }
 
-impl<K: Kind<Scalar = f64>> SideBySide for OfKind<K> {
-    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> Ends {
+impl<K: Kind<Scalar = f64>> SideBySide for KindRuns<K> {
+    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> StateResults {
         let Self { batch, states, inputs, ends } = self;
         let Some(shape) = batch.spacecraft().first() else { return Vec::new() };
         if at.len() != states.len() {

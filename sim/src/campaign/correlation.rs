@@ -32,7 +32,7 @@ impl Copula {
     /// # Errors
     /// A coefficient that is not between -1 and 1, a pair that is not of two variations or is there twice, a phase, a matrix
     /// that is not positive definite.
-    pub(super) fn of(variations: &[Variation]) -> Result<Self, CampaignError> {
+    pub(super) fn from_variations(variations: &[Variation]) -> Result<Self, CampaignError> {
         let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
         for (place, of) in variations.iter().enumerate() {
             for Correlation { key, coefficient } in &of.correlations {
@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn scores_are_those_of_the_factor_by_hand() {
         let of = three(&[("a", "b", 0.6), ("c", "a", 0.2), ("b", "c", 0.3)]);
-        let copula = Copula::of(&of).expect("a copula");
+        let copula = Copula::from_variations(&of).expect("a copula");
         // Phi(1), Phi(-2), Phi(0.5).
         let independent = [0.841_344_746_068_543, 0.022_750_131_948_179, 0.691_462_461_274_013];
         let found = copula.scores_at(&independent);
@@ -189,16 +189,16 @@ mod tests {
 
     #[test]
     fn those_that_are_not_correlated_have_no_place() {
-        let copula = Copula::of(&three(&[("a", "c", -0.5)])).expect("a copula");
+        let copula = Copula::from_variations(&three(&[("a", "c", -0.5)])).expect("a copula");
         assert_eq!(copula.places(), [0, 2]);
-        assert!(Copula::of(&three(&[])).expect("an empty one").places().is_empty());
+        assert!(Copula::from_variations(&three(&[])).expect("an empty one").places().is_empty());
     }
 
     /// With 0.9 and 0.9 of a with b and c, that of b with c is above 0.81 - 0.19 and below 0.81 + 0.19.
     #[test]
     fn what_is_not_positive_definite_is_refused_with_the_pair_and_its_bounds() {
         let of = three(&[("a", "b", 0.9), ("a", "c", 0.9), ("b", "c", -0.95)]);
-        let error = Copula::of(&of).expect_err("indefinite");
+        let error = Copula::from_variations(&of).expect_err("indefinite");
         let CampaignError::Indefinite { keys, within: Some([low, high]), pivot } = &error else {
             panic!("{error}");
         };
@@ -206,11 +206,14 @@ mod tests {
         assert!((low - 0.62).abs() < 1e-6 && (high - 1.0).abs() < 1e-6 && *pivot < 0.0, "{error}");
         assert!(error.to_string().contains("`b` and `c`"), "{error}");
         // Within the bounds there is a factor.
-        assert!(Copula::of(&three(&[("a", "b", 0.9), ("a", "c", 0.9), ("b", "c", 0.63)])).is_ok());
+        assert!(
+            Copula::from_variations(&three(&[("a", "b", 0.9), ("a", "c", 0.9), ("b", "c", 0.63)]))
+                .is_ok()
+        );
         // Singular: c is a and b together.
         let root = 0.5_f64.sqrt();
-        let error =
-            Copula::of(&three(&[("a", "c", root), ("b", "c", root)])).expect_err("singular");
+        let error = Copula::from_variations(&three(&[("a", "c", root), ("b", "c", root)]))
+            .expect_err("singular");
         assert!(error.to_string().contains("`c`"), "{error}");
     }
 
@@ -226,7 +229,7 @@ mod tests {
             (three(&[("a", "b", 0.5), ("b", "a", 0.5)]), "remove one"),
             (phase, "phases"),
         ] {
-            let error = Copula::of(&of).expect_err(part).to_string();
+            let error = Copula::from_variations(&of).expect_err(part).to_string();
             assert!(error.contains(part), "{error}");
         }
     }

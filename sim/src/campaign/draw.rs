@@ -58,7 +58,7 @@ pub fn draw(
     latin: bool,
 ) -> Result<Plan, CampaignError> {
     check(variations, samples)?;
-    let copula = Copula::of(variations)?;
+    let copula = Copula::from_variations(variations)?;
     let rows = if latin {
         let mut rows = hypercube(variations, samples, seed);
         reorder(&mut rows, variations, &copula, seed);
@@ -151,7 +151,7 @@ impl Plan {
         probabilities: &[Vec<f64>],
     ) -> Result<Self, CampaignError> {
         check(variations, probabilities.len())?;
-        let copula = Copula::of(variations)?;
+        let copula = Copula::from_variations(variations)?;
         let keys = variations.len();
         let within = |row: &Vec<f64>| {
             row.len() == keys && row.iter().all(|share| *share > 0.0 && *share < 1.0)

@@ -9,7 +9,7 @@ use std::thread;
 
 use super::journal::kept;
 use super::{CampaignError, Journal, Plan, Reducer, Selection};
-use crate::engine::{Keep, SIDE_BY_SIDE, run_side_by_side};
+use crate::engine::{RunQuantities, SIDE_BY_SIDE, run_side_by_side};
 use crate::file::{Override, Template};
 use crate::record::columns::Quantity;
 use crate::record::{Columns, End, Outcome, Recorder, RunError};
@@ -17,7 +17,7 @@ use crate::scenario::Scenario;
 
 /// A finished sample.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct SampleResult {
     /// Its number in the plan.
     pub sample: usize,
     /// Its numbers, or why it has none.
@@ -45,7 +45,7 @@ pub struct Execution<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished {
     /// One for each sample, in order; none of those that were not run.
-    pub rows: Vec<Option<Row>>,
+    pub rows: Vec<Option<SampleResult>>,
     /// How many the journal had.
     pub resumed: usize,
 }
@@ -65,13 +65,13 @@ impl Finished {
 /// A journal that cannot be written, a table that is too large. An error of a sample is in its row.
 pub fn execute(
     execution: &Execution<'_>,
-    opened: (Journal, Vec<Row>),
+    opened: (Journal, Vec<SampleResult>),
     progress: &(dyn Fn(usize) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Finished, CampaignError> {
     execution.plan.check_size(execution.fields)?;
     let (journal, known) = opened;
-    let mut rows: Vec<Option<Row>> = vec![None; execution.plan.samples.len()];
+    let mut rows: Vec<Option<SampleResult>> = vec![None; execution.plan.samples.len()];
     for row in known {
         if let Some(place) = rows.get_mut(row.sample) {
             place.get_or_insert(row);
@@ -96,7 +96,7 @@ pub fn execute(
             }
             for (&sample, result) in group.iter().zip(run_samples(execution, group, &stopped)) {
                 let Some(result) = result else { return };
-                let row = Row { sample, result };
+                let row = SampleResult { sample, result };
                 let Ok(mut shared) = shared.lock() else { return };
                 let (journal, rows, error) = &mut *shared;
                 if let Err(found) = journal.append(&row) {
@@ -198,7 +198,8 @@ pub fn run_reduced(
         scenarios.iter().map(|scenario| Reducer::new(scenario, selection)).collect();
     let recorders = reducers.iter_mut().map(|reducer| reducer as &mut dyn Recorder);
     let runs = scenarios.iter().zip(recorders).collect();
-    let keep = if scenarios.iter().any(shows_work) { Keep::All } else { Keep::Motion };
+    let keep =
+        if scenarios.iter().any(shows_work) { RunQuantities::All } else { RunQuantities::Motion };
     let outcomes = run_side_by_side(runs, keep, &mut || {
         if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
@@ -215,7 +216,7 @@ pub fn run_reduced(
 
 /// Whether a column is the work, which is not computed otherwise.
 fn shows_work(scenario: &Scenario) -> bool {
-    Columns::of(scenario).is_ok_and(|columns| {
+    Columns::from_scenario(scenario).is_ok_and(|columns| {
         columns.as_slice().iter().any(|column| column.quantity == Quantity::Work)
     })
 }

@@ -15,7 +15,7 @@ use std::io::{BufReader, ErrorKind, Read, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::{CampaignError, Row};
+use super::{CampaignError, SampleResult};
 use crate::record::partial::{Reservation, in_use};
 
 const MAGIC: &[u8] = b"precess-journal-1\n";
@@ -43,7 +43,7 @@ impl Journal {
         digest: &[u8; 32],
         fields: usize,
         force: bool,
-    ) -> Result<(Self, Vec<Row>), CampaignError> {
+    ) -> Result<(Self, Vec<SampleResult>), CampaignError> {
         let io = |source| CampaignError::Io { path: path.to_owned(), source };
         let mut header = MAGIC.to_vec();
         header.extend_from_slice(digest);
@@ -76,7 +76,7 @@ impl Journal {
     ///
     /// # Errors
     /// The operating system's reason.
-    pub fn append(&mut self, row: &Row) -> Result<(), CampaignError> {
+    pub fn append(&mut self, row: &SampleResult) -> Result<(), CampaignError> {
         let content = content(row);
         let mut record = u32::try_from(content.len()).unwrap_or(u32::MAX).to_le_bytes().to_vec();
         record.extend(crc32fast::hash(&content).to_le_bytes());
@@ -128,7 +128,7 @@ fn lock(file: &File, path: &Path) -> Result<(), CampaignError> {
     }
 }
 
-fn content(row: &Row) -> Vec<u8> {
+fn content(row: &SampleResult) -> Vec<u8> {
     let mut content = u32::try_from(row.sample).unwrap_or(u32::MAX).to_le_bytes().to_vec();
     match &row.result {
         Ok(numbers) => {
@@ -160,7 +160,7 @@ impl Boundary for str {
 }
 
 /// Whole records from the present place on, and their length in bytes.
-fn records(file: &File, fields: usize) -> (Vec<Row>, u64) {
+fn records(file: &File, fields: usize) -> (Vec<SampleResult>, u64) {
     let mut reader = BufReader::new(file);
     let (mut rows, mut length) = (Vec::new(), 0);
     while let Some((row, bytes)) = record(&mut reader, fields) {
@@ -170,7 +170,7 @@ fn records(file: &File, fields: usize) -> (Vec<Row>, u64) {
     (rows, length)
 }
 
-fn record(reader: &mut impl Read, fields: usize) -> Option<(Row, u64)> {
+fn record(reader: &mut impl Read, fields: usize) -> Option<(SampleResult, u64)> {
     let (mut size, mut sum) = ([0; 4], [0; 4]);
     reader.read_exact(&mut size).ok()?;
     reader.read_exact(&mut sum).ok()?;
@@ -193,7 +193,7 @@ fn record(reader: &mut impl Read, fields: usize) -> Option<(Row, u64)> {
         (1, text) => Err(String::from_utf8(text.to_vec()).ok()?),
         _ => return None,
     };
-    Some((Row { sample, result }, u64::try_from(size + 8).ok()?))
+    Some((SampleResult { sample, result }, u64::try_from(size + 8).ok()?))
 }
 
 #[cfg(test)]
@@ -202,9 +202,9 @@ mod tests {
 
     const PLAN: [u8; 32] = [7; 32];
 
-    fn rows() -> Vec<Row> {
-        let failed = Row { sample: 1, result: Err("solver: \u{b5}".to_owned()) };
-        let row = |sample, numbers: &[f64]| Row { sample, result: Ok(numbers.to_vec()) };
+    fn rows() -> Vec<SampleResult> {
+        let failed = SampleResult { sample: 1, result: Err("solver: \u{b5}".to_owned()) };
+        let row = |sample, numbers: &[f64]| SampleResult { sample, result: Ok(numbers.to_vec()) };
         vec![row(2, &[1.0, -0.0]), failed, row(0, &[f64::MAX, 5e-324])]
     }
 

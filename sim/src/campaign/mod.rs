@@ -34,7 +34,7 @@ mod tangent;
 
 pub use axis::{Axis, Spacing};
 pub use draw::draw;
-pub use engine::{Execution, Finished, Row, execute, run_reduced};
+pub use engine::{Execution, Finished, SampleResult, execute, run_reduced};
 pub use error::CampaignError;
 pub use inference::{Estimate, percentile, probability, probability_between, spearman};
 pub use journal::Journal;

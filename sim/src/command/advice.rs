@@ -110,7 +110,7 @@ fn of_field(scenario: &Scenario) -> Option<Advice> {
     let Gravity::Central { mu } = scenario.gravity else { return None };
     let spacecraft = scenario.spacecraft().ok()?;
     let MassProperties { mass, centre_of_mass: centre, inertia_b } =
-        MassProperties::of(scenario, &spacecraft).ok()?;
+        MassProperties::from_spacecraft(scenario, &spacecraft).ok()?;
     let far = scenario.initial.r_b_n.norm();
     // At its centre there is no field.
     if far == 0.0 {
@@ -227,7 +227,7 @@ mod tests {
 
     use super::*;
     use crate::disturbance::{Disturbance, Harmonic, Model, SourceTarget};
-    use crate::engine::checks::{scenario, set_joint, wheel};
+    use crate::engine::tests::{scenario, set_joint, wheel};
 
     /// 60 rad/s, recorded at 18 Hz; at 1 kHz; in steps of 10 ms.
     #[test]

@@ -66,7 +66,7 @@ fn properties(scenario: &Scenario) -> String {
     let state = &scenario.initial;
     let mut rows = Vec::new();
     if let Ok(MassProperties { mass, centre_of_mass, inertia_b: i }) =
-        MassProperties::of(scenario, &spacecraft)
+        MassProperties::from_spacecraft(scenario, &spacecraft)
     {
         rows.push(row("total mass", &[mass], "kg"));
         rows.push(row("centre of mass from B, B axes", centre_of_mass.as_slice(), "m"));
@@ -94,7 +94,7 @@ fn properties(scenario: &Scenario) -> String {
         }
     }
     text.push_str(&aligned(&rows));
-    let matrix = MassMatrix::of(scenario, &spacecraft);
+    let matrix = MassMatrix::from_spacecraft(scenario, &spacecraft);
     text.push_str(&joints(scenario, matrix.as_ref().ok()));
     text.push_str(&sources::sources(scenario));
     if let Ok(MassMatrix { condition: Some(condition), .. }) = &matrix {

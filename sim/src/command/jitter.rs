@@ -89,7 +89,7 @@ fn speed(text: &str) -> Result<f64, String> {
 }
 
 /// Everything that is computed.
-struct Found {
+struct JitterResults {
     sweep: Sweep,
     assessed: Vec<Assessed>,
     campbell_speeds: Vec<f64>,
@@ -184,7 +184,7 @@ impl Jitter {
         scenario: &Scenario,
         budget: &Budget,
         prepared: Prepared,
-    ) -> Result<Found, CommandError> {
+    ) -> Result<JitterResults, CommandError> {
         let other = |error: &dyn std::fmt::Display| {
             CommandError::Other(format!("{}: {error}", scenario.name))
         };
@@ -234,7 +234,7 @@ impl Jitter {
                 sensitivities(&model, budget, of, speed, &names)
             })
             .collect();
-        Ok(Found {
+        Ok(JitterResults {
             sensitivities: ranked.map_err(|error| other(&error))?,
             sweep: found,
             assessed,
@@ -248,7 +248,7 @@ impl Jitter {
 }
 
 /// For the terminal: verdicts, worst speeds, agreement.
-fn summary(budget: &Budget, found: &Found) -> String {
+fn summary(budget: &Budget, found: &JitterResults) -> String {
     let mut rows = vec![
         ["requirement", "state", "worst", "limit", "margin dB", "at", "keep out of"]
             .map(str::to_owned)
@@ -369,7 +369,7 @@ fn lines_csv(sweep: &Sweep) -> String {
 }
 
 /// A row for each speed: the metric of each requirement, SI.
-fn requirements_csv(found: &Found) -> String {
+fn requirements_csv(found: &JitterResults) -> String {
     let mut text = String::from("speed_rad_per_s");
     for name in column_heads(found.assessed.iter().map(|of| &of.limit.name)) {
         let _ = write!(text, ",{name}");

@@ -20,7 +20,7 @@ pub(super) struct Kinds {
 }
 
 /// What is known of a kind of device, or of the platform that carries devices.
-struct Described {
+struct KindDescription {
     name: &'static str,
     joints: &'static [JointInfo],
     parameters: &'static [ParameterInfo],
@@ -29,14 +29,14 @@ struct Described {
 }
 
 /// Every kind, and the platform.
-fn described() -> impl Iterator<Item = Described> {
-    let kinds = BuiltInKind::ALL.iter().map(|kind| Described {
+fn described() -> impl Iterator<Item = KindDescription> {
+    let kinds = BuiltInKind::ALL.iter().map(|kind| KindDescription {
         name: kind.name(),
         joints: kind.joints(),
         parameters: kind.parameters(),
         example: format!("`precess new {}` prints a scenario with one.", kind.name()),
     });
-    let platform = Described {
+    let platform = KindDescription {
         name: <Platform as Kind>::NAME,
         joints: <Platform as Kind>::JOINTS,
         parameters: <Platform as Kind>::PARAMETERS,
@@ -77,7 +77,7 @@ fn table() -> String {
     aligned_left(&rows)
 }
 
-impl Described {
+impl KindDescription {
     /// Joints and parameters.
     fn detail(&self) -> String {
         let mut text = String::new();

@@ -11,7 +11,7 @@ use super::outputs::{Outputs, files};
 use super::progress::{interrupted, watch_interrupts, with_progress};
 use super::scenarios::read_all;
 use super::terminal::{note, print};
-use crate::record::Between;
+use crate::record::IntervalRecorder;
 use crate::report::Report;
 use crate::scenario::Scenario;
 use crate::units::{Measure, Plain, parse_quantity};
@@ -57,7 +57,7 @@ impl Plot {
         for (scenario, _) in &scenarios {
             let mut report = Report::new(scenario, &[]);
             let interval = self.interval(scenario)?;
-            let mut part = Between::new(interval, &mut report);
+            let mut part = IntervalRecorder::new(interval, &mut report);
             with_progress(scenario, interval[1], &mut part)?;
             let figures = report.figures().map_err(|e| CommandError::Other(e.to_string()))?;
             let name = |of: String| format!("{}-{of}.svg", scenario.name);

@@ -128,9 +128,9 @@ impl Signals {
 }
 
 /// Places of columns; names and units of all columns; values of the time and of those columns.
-type Read = (Vec<usize>, [Vec<String>; 2], Vec<Vec<f64>>);
+type ReadColumns = (Vec<usize>, [Vec<String>; 2], Vec<Vec<f64>>);
 
-fn of_csv(path: &Path, names: &[String]) -> Result<Read, CommandError> {
+fn of_csv(path: &Path, names: &[String]) -> Result<ReadColumns, CommandError> {
     let mut rows = Rows::open(path)?;
     let places = chosen(path, names, &rows.names)?;
     let mut values = vec![Vec::new(); 1 + places.len()];
@@ -144,12 +144,12 @@ fn of_csv(path: &Path, names: &[String]) -> Result<Read, CommandError> {
     Ok((places, [rows.names, rows.units], values))
 }
 
-fn of_npz(path: &Path, names: &[String]) -> Result<Read, CommandError> {
+fn of_npz(path: &Path, names: &[String]) -> Result<ReadColumns, CommandError> {
     let failure = |source| CommandError::Io { path: path.to_owned(), source };
     let mut bytes = Vec::new();
     open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failure)?;
     let wrong = |text: &dyn std::fmt::Display| wrong(path, &text.to_string());
-    let members = Members::of(&bytes)
+    let members = Members::from_bytes(&bytes)
         .map_err(|error| wrong(&format!("it was cut, or is no NPZ file: {error}")))?;
     let texts = |name: &str| {
         let array = members.needed(name).map_err(|error| wrong(&error))?;

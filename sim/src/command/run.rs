@@ -18,7 +18,7 @@ use super::scenarios::read_all;
 use super::terminal::{note, print};
 use crate::file::Diagnostics;
 use crate::record::partial::Reservation;
-use crate::record::{Csv, Many, Npz, Outcome, Recorder};
+use crate::record::{Csv, Npz, Outcome, Recorder, RecorderGroup};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
 
@@ -107,7 +107,7 @@ impl Run {
             all.push(file.as_mut());
         }
         let duration = scenario.settings.duration;
-        let outcome = with_progress(scenario, duration, &mut Many::new(all))?;
+        let outcome = with_progress(scenario, duration, &mut RecorderGroup::new(all))?;
         // Rates that were reached only during the run.
         let known = advice::initial(scenario);
         let reached = advice(scenario, outcome.peak_rates.iter().copied());

@@ -37,9 +37,9 @@ const CYCLES_PER_STEP: f64 = 0.5;
 #[derive(Clone, Debug)]
 struct Source<'a> {
     of: &'a Disturbance,
-    exerts: Exerts<'a>,
+    exerts: SourceSignal<'a>,
     wheel: Option<usize>,
-    on: On,
+    on: SourceBodyPoint,
     /// R.
     axes: Matrix3<f64>,
     /// p, from the point that moments are about, in the body's axes, m.
@@ -48,7 +48,7 @@ struct Source<'a> {
 
 /// What a source exerts, as functions of time and angle.
 #[derive(Clone, Debug)]
-enum Exerts<'a> {
+enum SourceSignal<'a> {
     Tones(&'a [Harmonic]),
     Noise(Box<Noise>),
     Record(Box<Playback<'a>>),
@@ -56,7 +56,7 @@ enum Exerts<'a> {
 
 /// What a source acts on.
 #[derive(Clone, Debug)]
-enum On {
+enum SourceBodyPoint {
     Hub,
     /// A mount of a structure, by its number in the library.
     Mount(usize),
@@ -79,7 +79,7 @@ impl<'a> Disturbances<'a> {
 
     /// Whether one acts on the child body of a joint.
     pub(crate) fn on_joints(&self) -> bool {
-        self.sources.iter().any(|source| matches!(source.on, On::Body(..)))
+        self.sources.iter().any(|source| matches!(source.on, SourceBodyPoint::Body(..)))
     }
 
     pub(crate) fn set_turns(&self, turns: &[f64]) {
@@ -135,22 +135,22 @@ impl<'a> Source<'a> {
     fn new(of: &'a Disturbance, scenario: &Scenario, joints: &[JointPlace]) -> Option<Self> {
         let place = scenario.source_place(of)?;
         let on = match place.body {
-            SourceBody::Hub => On::Hub,
-            SourceBody::Mount(mount) => On::Mount(mount),
-            SourceBody::Node(node) => {
-                On::Node(Box::new(scenario.structure.as_ref()?.nodes.get(node)?.point()))
-            }
+            SourceBody::Hub => SourceBodyPoint::Hub,
+            SourceBody::Mount(mount) => SourceBodyPoint::Mount(mount),
+            SourceBody::Node(node) => SourceBodyPoint::Node(Box::new(
+                scenario.structure.as_ref()?.nodes.get(node)?.point(),
+            )),
             SourceBody::Joint(joint) => {
                 let info = joints.get(joint)?.info;
-                On::Body(joint, place.of_parent.then_some(info))
+                SourceBodyPoint::Body(joint, place.of_parent.then_some(info))
             }
         };
         let exerts = match &of.model {
-            Model::Harmonic(tones) => Exerts::Tones(tones),
+            Model::Harmonic(tones) => SourceSignal::Tones(tones),
             Model::Broadband(noise) => {
-                Exerts::Noise(Box::new(noise.realise(of.seed.unwrap_or_default(), &of.name)))
+                SourceSignal::Noise(Box::new(noise.realise(of.seed.unwrap_or_default(), &of.name)))
             }
-            Model::Measured(record) => Exerts::Record(Box::new(Playback::new(record))),
+            Model::Measured(record) => SourceSignal::Record(Box::new(Playback::new(record))),
         };
         let SourcePlace { axes, point, .. } = place;
         Some(Self { of, exerts, wheel: of.wheel, on, axes, point })
@@ -162,9 +162,9 @@ impl<'a> Source<'a> {
             return [0.0; COMPONENT_COUNT];
         }
         match &self.exerts {
-            Exerts::Tones(tones) => Harmonic::sum(tones, &wheel),
-            Exerts::Noise(noise) => noise.at(time, wheel.rate),
-            Exerts::Record(record) => record.at(time, from_below),
+            SourceSignal::Tones(tones) => Harmonic::sum(tones, &wheel),
+            SourceSignal::Noise(noise) => noise.at(time, wheel.rate),
+            SourceSignal::Record(record) => record.at(time, from_below),
         }
     }
 
@@ -185,19 +185,19 @@ impl<'a> Source<'a> {
             Wrench::at(&self.point, force).plus(&Wrench::torque(moment))
         };
         match &self.on {
-            On::Hub => {
+            SourceBodyPoint::Hub => {
                 all.rigid.torque_b += moment;
                 all.rigid.add_force(&self.point, &force);
             }
-            On::Mount(mount) => {
+            SourceBodyPoint::Mount(mount) => {
                 if let Some(sum) = all.modal.mounts.get_mut(*mount) {
                     *sum = sum.plus(&about(&force, &moment));
                 }
             }
-            On::Node(node) => {
+            SourceBodyPoint::Node(node) => {
                 all.add_wrench(node, &force, &(moment + self.point.cross(&force)));
             }
-            On::Body(joint, turned) => {
+            SourceBodyPoint::Body(joint, turned) => {
                 let (mut force, mut moment) = (force, moment);
                 if let Some(info) = turned {
                     let [angle, _] = state.rigid.devices.states().nth(*joint).unwrap_or_default();

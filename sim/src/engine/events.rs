@@ -27,13 +27,13 @@ const INTERVALS: u32 = 4;
 /// The end stops and crossings of a scenario.
 pub(crate) struct Monitors<'a> {
     stops: Vec<&'a EndStop>,
-    crossings: Vec<Watched>,
+    crossings: Vec<MonitoredCrossing>,
     /// States at the ends of an interval and within it.
     moment: Option<Moment>,
 }
 
 /// A crossing, and the quantity that it is of.
-struct Watched {
+struct MonitoredCrossing {
     index: usize,
     quantity: Quantity,
     value: f64,
@@ -42,25 +42,25 @@ struct Watched {
 
 /// What a step has passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Passage {
+pub(crate) struct StepEvent {
     /// When, s: the last time found before it.
     pub(crate) time: f64,
-    pub(crate) what: Passed,
+    pub(crate) what: EventKind,
 }
 
 /// A stop of a joint or a crossing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Passed {
+pub(crate) enum EventKind {
     /// The joint and the bound reached, rad or m.
     Stop { joint: usize, bound: f64, action: StopAction },
     /// The index of the crossing.
     Crossing { index: usize, ends: bool },
 }
 
-impl Passage {
+impl StepEvent {
     /// Whether the step ends there.
     fn cuts(&self) -> bool {
-        !matches!(self.what, Passed::Crossing { ends: false, .. })
+        !matches!(self.what, EventKind::Crossing { ends: false, .. })
     }
 }
 
@@ -71,7 +71,7 @@ struct Function {
     value: f64,
     /// One, or minus one of an upper stop.
     sign: f64,
-    what: Passed,
+    what: EventKind,
 }
 
 impl<'a> Monitors<'a> {
@@ -92,7 +92,7 @@ impl<'a> Monitors<'a> {
                 nearest: nearest(&crossing.column, names.iter().map(|(name, ..)| name.as_str())),
             })?;
             let (value, ends) = (crossing.value, crossing.ends);
-            Ok(Watched { index, quantity: *quantity, value, ends })
+            Ok(MonitoredCrossing { index, quantity: *quantity, value, ends })
         };
         let crossings = scenario.crossings.iter().enumerate().map(watched);
         let crossings = crossings.collect::<Result<_, RunError>>()?;
@@ -121,7 +121,7 @@ impl<'a> Monitors<'a> {
         &mut self,
         system: &System<'_>,
         stepper: &mut Stepper,
-    ) -> Result<Vec<Passage>, RunError> {
+    ) -> Result<Vec<StepEvent>, RunError> {
         let functions = self.functions(&system.acting);
         let mut found = Vec::new();
         let Some(mut moment) = self.moment.take().filter(|_| !functions.is_empty()) else {
@@ -131,7 +131,7 @@ impl<'a> Monitors<'a> {
         self.moment = Some(moment);
         searched?;
         found.sort_by(|a, b| a.time.total_cmp(&b.time));
-        if let Some(cut) = found.iter().position(Passage::cuts) {
+        if let Some(cut) = found.iter().position(StepEvent::cuts) {
             found.truncate(cut + 1);
         }
         Ok(found)
@@ -146,7 +146,7 @@ impl<'a> Monitors<'a> {
             }
             for (bound, sign) in [(stop.lower, 1.0), (stop.upper, -1.0)] {
                 if bound.is_finite() {
-                    let what = Passed::Stop { joint: stop.joint, bound, action: stop.action };
+                    let what = EventKind::Stop { joint: stop.joint, bound, action: stop.action };
                     let quantity = Quantity::Coordinate(stop.joint);
                     functions.push(Function { quantity, value: bound, sign, what });
                 }
@@ -156,7 +156,7 @@ impl<'a> Monitors<'a> {
             quantity: watched.quantity,
             value: watched.value,
             sign: 1.0,
-            what: Passed::Crossing { index: watched.index, ends: watched.ends },
+            what: EventKind::Crossing { index: watched.index, ends: watched.ends },
         }));
         functions
     }
@@ -171,8 +171,8 @@ impl Function {
     /// Whether a passage lies between two values: out of a stop, or through a value either way.
     fn passes(&self, [from, to]: [f64; 2]) -> bool {
         match self.what {
-            Passed::Stop { .. } => to < 0.0 && to < from,
-            Passed::Crossing { .. } => (from < 0.0 && to >= 0.0) || (from > 0.0 && to <= 0.0),
+            EventKind::Stop { .. } => to < 0.0 && to < from,
+            EventKind::Crossing { .. } => (from < 0.0 && to >= 0.0) || (from > 0.0 && to <= 0.0),
         }
     }
 }
@@ -183,7 +183,7 @@ fn search(
     stepper: &mut Stepper,
     functions: &[Function],
     moment: &mut Moment,
-    found: &mut Vec<Passage>,
+    found: &mut Vec<StepEvent>,
 ) -> Result<(), RunError> {
     let (start, end) = (stepper.time_before(), stepper.time());
     let intervals = if stepper.is_dense() { INTERVALS } else { 1 };
@@ -228,12 +228,12 @@ fn search(
                 Ok::<_, RunError>(function.at(stepper, moment))
             })?;
             // Before a stop, so that the joint is within it; after a crossing.
-            let time = if matches!(function.what, Passed::Stop { .. }) { time } else { after };
-            found.push(Passage { time, what: function.what });
+            let time = if matches!(function.what, EventKind::Stop { .. }) { time } else { after };
+            found.push(StepEvent { time, what: function.what });
         }
         (from, rates_from, earlier) = (to, rates_to, later);
         // Whatever comes later lies beyond a cut.
-        if found.iter().any(Passage::cuts) {
+        if found.iter().any(StepEvent::cuts) {
             break;
         }
     }
@@ -243,10 +243,10 @@ fn search(
 /// The rate of each function of a stop; zero of a crossing, which is not searched for extrema.
 fn rates(stepper: &Stepper, functions: &[Function], moment: &Moment) -> Vec<f64> {
     let rate = |function: &Function| match function.what {
-        Passed::Stop { joint, .. } => {
+        EventKind::Stop { joint, .. } => {
             function.sign * Layout::joint(joint, &moment.state, stepper.turns())[1]
         }
-        Passed::Crossing { .. } => 0.0,
+        EventKind::Crossing { .. } => 0.0,
     };
     functions.iter().map(rate).collect()
 }

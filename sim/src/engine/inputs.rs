@@ -24,7 +24,7 @@ pub(crate) struct Acting<'a> {
     drives: Vec<&'a Drive>,
     /// Whether each joint has a motor as an input; otherwise its kind keeps its rate.
     driven: Vec<bool>,
-    wrenches: Vec<Placed<'a>>,
+    wrenches: Vec<WrenchOnBody<'a>>,
     disturbances: Disturbances<'a>,
     chains: Vec<Chain>,
     start: f64,
@@ -33,7 +33,7 @@ pub(crate) struct Acting<'a> {
 
 /// What a wrench acts on.
 #[derive(Clone, Debug)]
-enum On {
+enum WrenchBody {
     /// The hub.
     Hub,
     /// Device, joint in the device, joint in the set.
@@ -44,28 +44,28 @@ enum On {
 
 /// A wrench, and of which body.
 #[derive(Clone, Debug)]
-struct Placed<'a> {
+struct WrenchOnBody<'a> {
     wrench: &'a AppliedWrench,
-    on: On,
+    on: WrenchBody,
 }
 
 impl<'a> Acting<'a> {
     pub(crate) fn new(scenario: &'a Scenario, joints: &[JointPlace]) -> Self {
         let placed = |wrench: &'a AppliedWrench| {
             let on = match wrench.body {
-                Target::Hub => Some(On::Hub),
+                Target::Hub => Some(WrenchBody::Hub),
                 Target::Joint(joint) => {
                     let place = joints.get(joint);
-                    place.map(|place| On::Body(place.device, place.info.index, joint))
+                    place.map(|place| WrenchBody::Body(place.device, place.info.index, joint))
                 }
                 Target::Node(node) => {
                     let nodes = scenario.structure.as_ref().map(|structure| &structure.nodes);
                     let node = nodes.and_then(|nodes| nodes.get(node));
-                    node.map(|node| On::Node(Box::new(node.point())))
+                    node.map(|node| WrenchBody::Node(Box::new(node.point())))
                 }
             };
             // A checked scenario has every joint and node that it names.
-            on.map(|on| Placed { wrench, on })
+            on.map(|on| WrenchOnBody { wrench, on })
         };
         let acts = |wrench: &&AppliedWrench| {
             !wrench.force.iter().chain(&wrench.moment).all(Profile::is_zero)
@@ -121,7 +121,7 @@ impl<'a> Acting<'a> {
 
     /// Whether one acts on the child body of a joint.
     pub(crate) fn on_joints(&self) -> bool {
-        self.wrenches.iter().any(|placed| matches!(placed.on, On::Body(..)))
+        self.wrenches.iter().any(|placed| matches!(placed.on, WrenchBody::Body(..)))
             || self.disturbances.on_joints()
     }
 
@@ -189,23 +189,23 @@ impl<'a> Acting<'a> {
         all.modal.forces.fill(0.0);
         all.modal.mounts.fill(Wrench::none());
         self.disturbances.add(time, from_below, state, all);
-        for Placed { wrench, on } in &self.wrenches {
+        for WrenchOnBody { wrench, on } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));
             let (mut force, mut moment) = (vector(&wrench.force), vector(&wrench.moment));
             if wrench.axes == WrenchAxes::Inertial {
                 (force, moment) = (bn * force, bn * moment);
             }
             let (device, index, joint) = match on {
-                On::Hub => {
+                WrenchBody::Hub => {
                     all.rigid.torque_b += moment;
                     all.rigid.add_force(&wrench.point, &force);
                     continue;
                 }
-                On::Node(point) => {
+                WrenchBody::Node(point) => {
                     all.add_wrench(point, &force, &moment);
                     continue;
                 }
-                On::Body(device, index, joint) => (*device, *index, *joint),
+                WrenchBody::Body(device, index, joint) => (*device, *index, *joint),
             };
             if wrench.axes == WrenchAxes::Inertial {
                 let joints: Vec<_> = state.rigid.devices.states().collect();

@@ -8,7 +8,7 @@ use precess_dynamics::kind::Each as _;
 use precess_lanes::{Acting, Motion, SideBySide, side_by_side};
 
 use super::recorded::Recorded;
-use super::{Craft, CraftState, Keep, Run};
+use super::{Craft, CraftState, Run, RunQuantities};
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 
@@ -25,7 +25,7 @@ pub(crate) struct Lanes {
 impl Lanes {
     /// These runs. None where there are fewer than two, one has ended, keeps more than its motion, is not of
     /// RK4 or has a structure or platforms, or where their devices are not of one kind.
-    pub(crate) fn of<'a, 's: 'a, 'r: 'a>(
+    pub(crate) fn from_runs<'a, 's: 'a, 'r: 'a>(
         runs: impl Iterator<Item = Option<&'a Recorded<'s, 'r>>>,
     ) -> Option<Self> {
         let mut crafts = Vec::new();
@@ -36,7 +36,7 @@ impl Lanes {
             let Craft::Rigid(_) = run.system.craft else { return None };
             let (devices, platforms) = &scenario.devices;
             let fixed = matches!(scenario.settings.integrator, IntegratorChoice::Rk4 { .. });
-            if !(fixed && platforms.is_empty() && run.system.keep == Keep::Motion) {
+            if !(fixed && platforms.is_empty() && run.system.quantities == RunQuantities::Motion) {
                 return None;
             }
             crafts.push((scenario.bare_hub().ok()?, devices.clone()));
@@ -54,7 +54,7 @@ impl Lanes {
         &mut self,
         runs: impl Iterator<Item = Option<&'a mut Recorded<'s, 'r>>>,
     ) -> Vec<Option<Result<(), RunError>>> {
-        let mut runs: Vec<_> = runs.map(Lane::of).collect();
+        let mut runs: Vec<_> = runs.map(Lane::new).collect();
         let first = runs.iter().find_map(Lane::length);
         let together = || runs.iter().filter(|lane| lane.length() == first);
         let steps = together().map(|lane| lane.steps).min().unwrap_or(0);
@@ -85,7 +85,7 @@ struct Lane<'a, 's, 'r> {
 }
 
 impl<'a, 's, 'r> Lane<'a, 's, 'r> {
-    fn of(recorded: Option<&'a mut Recorded<'s, 'r>>) -> Self {
+    fn new(recorded: Option<&'a mut Recorded<'s, 'r>>) -> Self {
         let mut lane = Self { recorded, length: 0.0, steps: 0, advanced: None };
         let Some(recorded) = &mut lane.recorded else { return lane };
         let until = recorded.next_sample();

@@ -9,8 +9,6 @@
 //! running maxima, and events beyond the first ten thousand are only counted.
 
 mod actions;
-#[cfg(test)]
-pub(crate) mod checks;
 mod clipping;
 mod dense;
 mod disturbances;
@@ -20,7 +18,6 @@ mod error;
 mod events;
 mod inputs;
 mod integrator;
-mod keep;
 mod kinematics;
 #[cfg(feature = "lanes")]
 mod lanes;
@@ -29,23 +26,26 @@ mod packing;
 mod recorded;
 mod rk4;
 mod roots;
-mod row;
+mod run_quantities;
+mod sample_values;
 mod sampling;
 mod segments;
 mod side_by_side;
 mod system;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
 use precess_dynamics::{About, JointStates, ModalState, State};
 
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
-pub use keep::Keep;
 pub use recorded::run;
+pub use run_quantities::RunQuantities;
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
 use drift::Conserved;
-use events::{Monitors, Passage, Passed};
+use events::{EventKind, Monitors, StepEvent};
 pub(crate) use inputs::Acting;
 use integrator::{Moment, Stepper};
 pub(crate) use kinematics::Chain;
@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
     /// found with the spacecraft: a joint beyond its stops, a moving joint that is locked, a
     /// crossing of an unknown column, a state that the solver cannot solve.
     pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
-        Self::keeping(scenario, Keep::All)
+        Self::with_quantities(scenario, RunQuantities::All)
     }
 
     /// As [`Self::new`]; computes no more than what is kept.
@@ -118,13 +118,16 @@ impl<'a> Run<'a> {
     /// # Errors
     ///
     /// As [`Self::new`].
-    pub fn keeping(scenario: &'a Scenario, keep: Keep) -> Result<Self, RunError> {
+    pub fn with_quantities(
+        scenario: &'a Scenario,
+        quantities: RunQuantities,
+    ) -> Result<Self, RunError> {
         let errors = scenario.check();
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
         let craft = craft_of(scenario)?;
-        let system = System::new(scenario, craft, keep);
+        let system = System::new(scenario, craft, quantities);
         let (eta, eta_dot) = scenario
             .structure
             .as_ref()
@@ -143,9 +146,9 @@ impl<'a> Run<'a> {
             events: Vec::new(),
             events_omitted: 0,
             lost: 0.0,
-            peak_rates: match keep {
-                Keep::All => vec![0.0; scenario.joint_count()],
-                Keep::Motion => Vec::new(),
+            peak_rates: match quantities {
+                RunQuantities::All => vec![0.0; scenario.joint_count()],
+                RunQuantities::Motion => Vec::new(),
             },
             moment,
             time: 0.0,
@@ -194,9 +197,9 @@ impl<'a> Run<'a> {
     fn finish_step(&mut self) -> Result<(), RunError> {
         let passed = self.monitors.passed(&self.system, &mut self.stepper)?;
         let mut reached = self.stepper.time();
-        for Passage { time, what } in passed {
+        for StepEvent { time, what } in passed {
             match what {
-                Passed::Crossing { index, ends } => {
+                EventKind::Crossing { index, ends } => {
                     let name = self.scenario.crossings[index].name.clone();
                     self.note(time, format!("crossing `{name}`"));
                     if ends {
@@ -204,7 +207,7 @@ impl<'a> Run<'a> {
                         self.end = Some(End::Crossing { name });
                     }
                 }
-                Passed::Stop { joint, bound, action } => {
+                EventKind::Stop { joint, bound, action } => {
                     reached = time;
                     let place = &self.system.layout.joints[joint];
                     let (name, [unit, ..]) = (place.name.clone(), place.info.units());
@@ -280,9 +283,9 @@ impl<'a> Run<'a> {
     /// How far conserved quantities have drifted so far; nothing where only the motion is kept.
     #[must_use]
     pub fn drift(&self) -> Drift {
-        match self.system.keep {
-            Keep::All => self.conserved.drift(),
-            Keep::Motion => Drift::default(),
+        match self.system.quantities {
+            RunQuantities::All => self.conserved.drift(),
+            RunQuantities::Motion => Drift::default(),
         }
     }
 
@@ -331,7 +334,7 @@ impl<'a> Run<'a> {
 
     /// Enters the present moment into the peaks and the drifts, where these are kept.
     fn enter(&mut self) -> Result<(), RunError> {
-        if self.system.keep == Keep::Motion {
+        if self.system.quantities == RunQuantities::Motion {
             return Ok(());
         }
         let joints = self.moment.state.rigid.devices.states();

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::sampling::Sampling;
-use super::{Advance, Keep, Run};
+use super::{Advance, Run, RunQuantities};
 use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 
@@ -22,10 +22,10 @@ impl<'a, 'r> Recorded<'a, 'r> {
     /// As [`Run::new`], and [`RunError::Record`] of the recorder.
     pub(crate) fn begin(
         scenario: &'a Scenario,
-        keep: Keep,
+        quantities: RunQuantities,
         recorder: &'r mut dyn Recorder,
     ) -> Result<Self, RunError> {
-        let run = Run::keeping(scenario, keep)?;
+        let run = Run::with_quantities(scenario, quantities)?;
         let sampling = Sampling::new(scenario, &run)?;
         recorder.begin(sampling.header())?;
         Ok(Self { run, sampling, recorder })
@@ -94,7 +94,7 @@ pub fn run(
     recorder: &mut dyn Recorder,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Outcome, RunError> {
-    let mut recorded = Recorded::begin(scenario, Keep::All, recorder)?;
+    let mut recorded = Recorded::begin(scenario, RunQuantities::All, recorder)?;
     loop {
         if let Some(end) = recorded.advance()? {
             return recorded.finish(end);

@@ -9,7 +9,7 @@ use precess_dynamics::{JointStates, Mode, SolveError};
 
 use super::dop853::same;
 use super::integrator::Moment;
-use super::keep::Keep;
+use super::run_quantities::RunQuantities;
 use super::system::{System, work_of};
 use crate::record::RunError;
 use precess_craft::CraftState;
@@ -125,7 +125,7 @@ fn stepped(
     system.count(4);
     let Moment { state, integrals: [work, throughput] } = moment;
     let inputs = system.inputs(time, state);
-    if system.keep == Keep::Motion {
+    if system.quantities == RunQuantities::Motion {
         let next = system.craft.step(state, &inputs, length)?;
         return Ok(Moment { state: next, integrals: [f64::NAN; 2] });
     }

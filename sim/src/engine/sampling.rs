@@ -6,7 +6,7 @@
 use super::Run;
 use super::dop853::same;
 use super::integrator::Moment;
-use super::row::Row;
+use super::sample_values::SampleValues;
 use crate::record::columns::Columns;
 use crate::record::{Header, Recorder, RunError};
 use crate::scenario::Scenario;
@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 /// The samples of a run.
 pub(crate) struct Sampling {
     header: Header,
-    row: Row,
+    row: SampleValues,
     rate: f64,
     /// Samples so far.
     count: u64,
@@ -25,11 +25,11 @@ pub(crate) struct Sampling {
 
 impl Sampling {
     pub(crate) fn new(scenario: &Scenario, run: &Run<'_>) -> Result<Self, RunError> {
-        let columns = Columns::of(scenario)?;
+        let columns = Columns::from_scenario(scenario)?;
         let header = Header::new(scenario, &columns);
         Ok(Self {
             header,
-            row: Row::new(scenario, columns),
+            row: SampleValues::new(scenario, columns),
             rate: scenario.output.rate,
             count: 0,
             last: None,

@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use super::Keep;
+use super::RunQuantities;
 #[cfg(feature = "lanes")]
 use super::lanes::Lanes;
 use super::recorded::Recorded;
@@ -23,55 +23,55 @@ pub const SIDE_BY_SIDE: usize = if cfg!(feature = "lanes") { 4 } else { 1 };
 ///
 /// # Errors
 ///
-/// In each place those of [`run`](super::run).
+/// In each run those of [`run`](super::run).
 pub fn run_side_by_side(
     runs: Vec<(&Scenario, &mut dyn Recorder)>,
-    keep: Keep,
+    quantities: RunQuantities,
     progress: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Vec<Result<Outcome, RunError>> {
-    let places: Vec<Place<'_, '_>> = runs
+    let runs: Vec<RunState<'_, '_>> = runs
         .into_iter()
-        .map(|(scenario, recorder)| match Recorded::begin(scenario, keep, recorder) {
-            Ok(run) => Place::Running(Box::new(run)),
-            Err(error) => Place::Ended(Box::new(Err(error))),
+        .map(|(scenario, recorder)| match Recorded::begin(scenario, quantities, recorder) {
+            Ok(run) => RunState::Running(Box::new(run)),
+            Err(error) => RunState::Ended(Box::new(Err(error))),
         })
         .collect();
     #[cfg(feature = "lanes")]
-    let places = in_lanes(places, progress);
-    let alone = |mut place: Place<'_, '_>| {
-        while place.running().is_some() && progress().is_continue() {
-            place = place.step(Recorded::advance);
+    let runs = in_lanes(runs, progress);
+    let alone = |mut run: RunState<'_, '_>| {
+        while run.running().is_some() && progress().is_continue() {
+            run = run.step(Recorded::advance);
         }
-        place.ended()
+        run.ended()
     };
-    places.into_iter().map(alone).collect()
+    runs.into_iter().map(alone).collect()
 }
 
 /// The steps that lanes support.
 #[cfg(feature = "lanes")]
 fn in_lanes<'a, 'r>(
-    mut places: Vec<Place<'a, 'r>>,
+    mut runs: Vec<RunState<'a, 'r>>,
     progress: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Vec<Place<'a, 'r>> {
-    let Some(mut lanes) = Lanes::of(places.iter().map(Place::running)) else { return places };
-    while places.iter().any(|place| place.running().is_some()) {
-        let advanced = lanes.advance(places.iter_mut().map(Place::running_mut));
-        let each = places.into_iter().zip(advanced);
-        places = each.map(|(place, advanced)| place.after(advanced)).collect();
+) -> Vec<RunState<'a, 'r>> {
+    let Some(mut lanes) = Lanes::from_runs(runs.iter().map(RunState::running)) else { return runs };
+    while runs.iter().any(|run| run.running().is_some()) {
+        let advanced = lanes.advance(runs.iter_mut().map(RunState::running_mut));
+        let each = runs.into_iter().zip(advanced);
+        runs = each.map(|(run, advanced)| run.after(advanced)).collect();
         if progress().is_break() {
             break;
         }
     }
-    places
+    runs
 }
 
 /// A run, or what became of it.
-enum Place<'a, 'r> {
+enum RunState<'a, 'r> {
     Running(Box<Recorded<'a, 'r>>),
     Ended(Box<Result<Outcome, RunError>>),
 }
 
-impl<'a, 'r> Place<'a, 'r> {
+impl<'a, 'r> RunState<'a, 'r> {
     fn running(&self) -> Option<&Recorded<'a, 'r>> {
         match self {
             Self::Running(run) => Some(run),

@@ -11,8 +11,8 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
 use super::inputs::Acting;
-use super::keep::Keep;
 use super::packing::Layout;
+use super::run_quantities::RunQuantities;
 use crate::scenario::Scenario;
 use precess_craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 
@@ -22,7 +22,7 @@ pub(crate) struct System<'a> {
     pub(crate) craft: Craft,
     pub(crate) layout: Layout,
     pub(crate) acting: Acting<'a>,
-    pub(crate) keep: Keep,
+    pub(crate) quantities: RunQuantities,
     /// Whether something other than motors and a force on the hub does work, drives aside.
     sources: bool,
     /// Whether gravity or a spring acts.
@@ -38,7 +38,7 @@ struct Scratch {
 }
 
 impl<'a> System<'a> {
-    pub(crate) fn new(scenario: &'a Scenario, craft: Craft, keep: Keep) -> Self {
+    pub(crate) fn new(scenario: &'a Scenario, craft: Craft, quantities: RunQuantities) -> Self {
         let layout = Layout::new(scenario);
         let acting = Acting::new(scenario, &layout.joints);
         let passive = |is: fn(&Passive) -> bool| {
@@ -60,7 +60,7 @@ impl<'a> System<'a> {
             craft,
             layout,
             acting,
-            keep,
+            quantities,
             sources,
             potential,
             scratch: RefCell::new(Scratch { state, inputs }),

@@ -24,12 +24,12 @@ pub struct Parameter {
     pub unit: &'static str,
     /// What it is.
     pub meaning: String,
-    of: Of,
+    of: ParameterSubject,
 }
 
 /// Whose it is.
 #[derive(Clone, Debug, PartialEq)]
-enum Of {
+enum ParameterSubject {
     HubMass,
     HubCentre(Axis),
     HubInertia(Axis, Axis),
@@ -62,21 +62,27 @@ impl Parameter {
         let mut add = |name: String, unit, meaning: &str, of| {
             all.push(Self { name, unit, meaning: meaning.to_owned(), of });
         };
-        add("hub.m_b".to_owned(), "kg", "mass of the hub", Of::HubMass);
+        add("hub.m_b".to_owned(), "kg", "mass of the hub", ParameterSubject::HubMass);
         for (axis, _, letter) in AXES {
             let name = format!("hub.r_bc_b_{letter}");
-            add(name, "m", "centre of mass of the hub from B, in B", Of::HubCentre(axis));
+            add(
+                name,
+                "m",
+                "centre of mass of the hub from B, in B",
+                ParameterSubject::HubCentre(axis),
+            );
         }
         for (row, column, letters) in ELEMENTS {
             let name = format!("hub.i_b_bc_{letters}");
             let meaning = "inertia of the hub about its centre of mass, in B";
-            add(name, "kg m²", meaning, Of::HubInertia(row, column));
+            add(name, "kg m²", meaning, ParameterSubject::HubInertia(row, column));
         }
         for (index, (device, member)) in scenario.members().enumerate() {
             let Some(of) = member.device() else { continue };
             for info in of.kind().parameters() {
                 let base = format!("{device}.{}", info.name);
-                let field = |component| Of::Field(index, info.name.to_owned(), component);
+                let field =
+                    |component| ParameterSubject::Field(index, info.name.to_owned(), component);
                 match info.shape {
                     Shape::Scalar => add(base, info.unit, info.meaning, field(Component::Number)),
                     Shape::Vector => {
@@ -96,7 +102,7 @@ impl Parameter {
                         for (axis, _, letter) in AXES {
                             let name = format!("{base}_{letter}");
                             let meaning = "small rotation of the mount about an axis of B";
-                            add(name, "rad", meaning, Of::Mount(index, axis));
+                            add(name, "rad", meaning, ParameterSubject::Mount(index, axis));
                         }
                     }
                     Shape::Model => {}
@@ -108,16 +114,26 @@ impl Parameter {
                     let field = format!("passive.{body}.{name}");
                     let unit = units[usize::from(info.slides)];
                     let meaning = format!("{name} of the joint of the {}", info.body);
-                    let of = Of::Field(index, field.clone(), Component::Number);
+                    let of = ParameterSubject::Field(index, field.clone(), Component::Number);
                     add(format!("{device}.{field}"), unit, &meaning, of);
                 }
             }
             if of.parameter("d").is_ok() {
                 let meaning = "imbalance of the wheel, as a data sheet states it";
                 let name = |what: &str| format!("{device}.{what}");
-                add(name("static_imbalance"), "kg m", meaning, Of::StaticImbalance(index));
-                add(name("dynamic_imbalance"), "kg m²", meaning, Of::DynamicImbalance(index));
-                add(name("phase"), "rad", meaning, Of::Phase(index));
+                add(
+                    name("static_imbalance"),
+                    "kg m",
+                    meaning,
+                    ParameterSubject::StaticImbalance(index),
+                );
+                add(
+                    name("dynamic_imbalance"),
+                    "kg m²",
+                    meaning,
+                    ParameterSubject::DynamicImbalance(index),
+                );
+                add(name("phase"), "rad", meaning, ParameterSubject::Phase(index));
             }
         }
         all
@@ -148,18 +164,24 @@ impl Parameter {
     #[must_use]
     pub fn variable(&self) -> ParameterVariable<'_> {
         match &self.of {
-            Of::HubMass => ParameterVariable::HubMass,
-            Of::HubCentre(axis) => ParameterVariable::HubCentre(*axis),
-            Of::HubInertia(row, column) => ParameterVariable::HubInertia(*row, *column),
-            Of::Field(device, name, component) => {
+            ParameterSubject::HubMass => ParameterVariable::HubMass,
+            ParameterSubject::HubCentre(axis) => ParameterVariable::HubCentre(*axis),
+            ParameterSubject::HubInertia(row, column) => {
+                ParameterVariable::HubInertia(*row, *column)
+            }
+            ParameterSubject::Field(device, name, component) => {
                 ParameterVariable::Device { device: *device, name, component: *component }
             }
-            Of::Mount(device, about) => {
+            ParameterSubject::Mount(device, about) => {
                 ParameterVariable::MountRotation { device: *device, about: *about }
             }
-            Of::StaticImbalance(device) => ParameterVariable::StaticImbalance { device: *device },
-            Of::DynamicImbalance(device) => ParameterVariable::DynamicImbalance { device: *device },
-            Of::Phase(device) => ParameterVariable::Phase { device: *device },
+            ParameterSubject::StaticImbalance(device) => {
+                ParameterVariable::StaticImbalance { device: *device }
+            }
+            ParameterSubject::DynamicImbalance(device) => {
+                ParameterVariable::DynamicImbalance { device: *device }
+            }
+            ParameterSubject::Phase(device) => ParameterVariable::Phase { device: *device },
         }
     }
 
@@ -168,10 +190,12 @@ impl Parameter {
     #[must_use]
     pub fn value(&self, hub: &Hub, devices: &Set) -> Option<f64> {
         match &self.of {
-            Of::HubMass => Some(hub.m_b),
-            Of::HubCentre(axis) => Some(hub.r_bc_b[place(*axis)]),
-            Of::HubInertia(row, column) => Some(hub.i_b_bc[(place(*row), place(*column))]),
-            Of::Field(index, name, component) => {
+            ParameterSubject::HubMass => Some(hub.m_b),
+            ParameterSubject::HubCentre(axis) => Some(hub.r_bc_b[place(*axis)]),
+            ParameterSubject::HubInertia(row, column) => {
+                Some(hub.i_b_bc[(place(*row), place(*column))])
+            }
+            ParameterSubject::Field(index, name, component) => {
                 let value = device(devices, *index)?.parameter(name).ok()?;
                 match (value, component) {
                     (ParameterValue::Scalar(value), Component::Number) => Some(value),
@@ -184,28 +208,37 @@ impl Parameter {
                     _ => None,
                 }
             }
-            Of::Mount(..) | Of::StaticImbalance(_) | Of::DynamicImbalance(_) | Of::Phase(_) => None,
+            ParameterSubject::Mount(..)
+            | ParameterSubject::StaticImbalance(_)
+            | ParameterSubject::DynamicImbalance(_)
+            | ParameterSubject::Phase(_) => None,
         }
     }
 
     /// Whether [`Self::set`] can write it.
     #[must_use]
     pub fn is_number(&self) -> bool {
-        matches!(self.of, Of::HubMass | Of::HubCentre(_) | Of::HubInertia(..) | Of::Field(..))
+        matches!(
+            self.of,
+            ParameterSubject::HubMass
+                | ParameterSubject::HubCentre(_)
+                | ParameterSubject::HubInertia(..)
+                | ParameterSubject::Field(..)
+        )
     }
 
     /// Writes it into hub and devices; off the diagonal of a tensor both elements. Nothing is
     /// checked. Returns whether it is a number there.
     pub fn set(&self, hub: &mut Hub, devices: &mut Set, number: f64) -> bool {
         match &self.of {
-            Of::HubMass => hub.m_b = number,
-            Of::HubCentre(axis) => hub.r_bc_b[place(*axis)] = number,
-            Of::HubInertia(row, column) => {
+            ParameterSubject::HubMass => hub.m_b = number,
+            ParameterSubject::HubCentre(axis) => hub.r_bc_b[place(*axis)] = number,
+            ParameterSubject::HubInertia(row, column) => {
                 let (row, column) = (place(*row), place(*column));
                 hub.i_b_bc[(row, column)] = number;
                 hub.i_b_bc[(column, row)] = number;
             }
-            Of::Field(index, name, component) => {
+            ParameterSubject::Field(index, name, component) => {
                 let Some(device) = device_mut(devices, *index) else { return false };
                 let Ok(mut value) = device.parameter(name) else { return false };
                 match (&mut value, component) {
@@ -222,7 +255,10 @@ impl Parameter {
                 }
                 return device.set_parameter(name, value).is_ok();
             }
-            Of::Mount(..) | Of::StaticImbalance(_) | Of::DynamicImbalance(_) | Of::Phase(_) => {
+            ParameterSubject::Mount(..)
+            | ParameterSubject::StaticImbalance(_)
+            | ParameterSubject::DynamicImbalance(_)
+            | ParameterSubject::Phase(_) => {
                 return false;
             }
         }

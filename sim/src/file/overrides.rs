@@ -38,7 +38,7 @@ pub(super) fn apply(
 }
 
 /// What is wrong, and the remedy.
-type Wrong = (String, String);
+type MessageAndHelp = (String, String);
 
 /// Puts an override of one key over a tree.
 fn one(node: &mut Node, (text, numbers): (&str, Numbers), reports: &mut Diagnostics) {
@@ -53,7 +53,7 @@ fn one(node: &mut Node, (text, numbers): (&str, Numbers), reports: &mut Diagnost
 }
 
 /// Overrides of one key each, without signs that stand for several.
-fn plain(tree: &Node, text: &str) -> Result<Vec<String>, Wrong> {
+fn plain(tree: &Node, text: &str) -> Result<Vec<String>, MessageAndHelp> {
     let Some((key, value)) = text.split_once('=') else { return Ok(vec![text.to_owned()]) };
     if key.contains(['"', '\'']) || !key.contains(['*', '+', '[']) {
         return Ok(vec![text.to_owned()]);
@@ -66,7 +66,7 @@ fn plain(tree: &Node, text: &str) -> Result<Vec<String>, Wrong> {
 }
 
 /// The keys that a key with `+` and `*` stands for.
-pub(super) fn keys_of(tree: &Node, key: &str) -> Result<Vec<String>, Wrong> {
+pub(super) fn keys_of(tree: &Node, key: &str) -> Result<Vec<String>, MessageAndHelp> {
     let mut found = Vec::new();
     for key in key.split('+').map(str::trim) {
         let (path, index) = key.split_at(key.find('[').unwrap_or(key.len()));
@@ -105,7 +105,7 @@ fn descend(
     parts: &[&str],
     path: &str,
     found: &mut Vec<String>,
-) -> Result<(), Wrong> {
+) -> Result<(), MessageAndHelp> {
     let Some((part, rest)) = parts.split_first() else {
         found.push(path.to_owned());
         return Ok(());
@@ -146,7 +146,12 @@ fn matches(pattern: &str, name: &str) -> bool {
 }
 
 /// The override of a whole vector, with another value of one component.
-fn component(tree: &Node, vector: &str, index: &str, value: &str) -> Result<String, Wrong> {
+fn component(
+    tree: &Node,
+    vector: &str,
+    index: &str,
+    value: &str,
+) -> Result<String, MessageAndHelp> {
     let wrong = |message: String, help: &str| (message, help.to_owned());
     let index = index.trim_end().strip_suffix(']').unwrap_or_default().trim();
     let number = match index {

@@ -14,7 +14,7 @@ use crate::variation::{Correlation, Distribution, Variation};
 const FORMAT: u32 = 1;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Word {
+enum DistributionName {
     Uniform,
     Normal,
     Lognormal,
@@ -22,12 +22,12 @@ enum Word {
     Phase,
 }
 
-const WORDS: [(&str, Word); 5] = [
-    ("uniform", Word::Uniform),
-    ("normal", Word::Normal),
-    ("lognormal", Word::Lognormal),
-    ("list", Word::List),
-    ("phase", Word::Phase),
+const WORDS: [(&str, DistributionName); 5] = [
+    ("uniform", DistributionName::Uniform),
+    ("normal", DistributionName::Normal),
+    ("lognormal", DistributionName::Lognormal),
+    ("list", DistributionName::List),
+    ("phase", DistributionName::Phase),
 ];
 
 /// Reads a plan.
@@ -63,11 +63,13 @@ fn variation(keys: &Keys<'_>) -> Option<Variation> {
     }
     let word = keys.choice("distribution", &WORDS);
     let names: &[(&str, &str)] = match word? {
-        Word::Uniform => &[("from", "from = \"1 kg\""), ("to", "to = \"2 kg\"")],
-        Word::Normal => &[("mean", "mean = \"1 kg\""), ("deviation", "deviation = \"0.1 kg\"")],
-        Word::Lognormal => &[("median", "median = \"1 kg\""), ("sigma", "sigma = 0.2")],
-        Word::List => &[("values", "values = \"1, 2, 5 kg\"")],
-        Word::Phase => &[],
+        DistributionName::Uniform => &[("from", "from = \"1 kg\""), ("to", "to = \"2 kg\"")],
+        DistributionName::Normal => {
+            &[("mean", "mean = \"1 kg\""), ("deviation", "deviation = \"0.1 kg\"")]
+        }
+        DistributionName::Lognormal => &[("median", "median = \"1 kg\""), ("sigma", "sigma = 0.2")],
+        DistributionName::List => &[("values", "values = \"1, 2, 5 kg\"")],
+        DistributionName::Phase => &[],
     };
     let mut found: Vec<Quantity> = Vec::new();
     for (name, example) in names {
@@ -129,7 +131,7 @@ fn correlation(keys: &Keys<'_>, all: &mut [Variation]) {
 
 /// The distribution of quantities, in a unit; or which of them is wrong.
 fn distribution(
-    word: Word,
+    word: DistributionName,
     found: &[Quantity],
     unit: &str,
 ) -> Result<Distribution, (usize, &'static str)> {
@@ -146,7 +148,7 @@ fn distribution(
         }
     };
     match word {
-        Word::Uniform => {
+        DistributionName::Uniform => {
             let (from, to) = (single(0, dimension)? / size, single(1, dimension)? / size);
             let rises = from < to;
             if rises {
@@ -155,7 +157,7 @@ fn distribution(
                 Err((1, "`to` is not above `from`"))
             }
         }
-        Word::Normal => {
+        DistributionName::Normal => {
             let (mean, deviation) = (single(0, dimension)? / size, single(1, dimension)? / size);
             let is = deviation > 0.0;
             if is {
@@ -164,7 +166,7 @@ fn distribution(
                 Err((1, "a deviation is above zero"))
             }
         }
-        Word::Lognormal => {
+        DistributionName::Lognormal => {
             let (median, sigma) = (single(0, dimension)? / size, single(1, Dimension::default())?);
             match (median > 0.0, sigma > 0.0 && sigma <= 5.0) {
                 (false, _) => Err((0, "a median is above zero")),
@@ -172,10 +174,10 @@ fn distribution(
                 _ => Ok(Distribution::Lognormal { median, sigma }),
             }
         }
-        Word::List => {
+        DistributionName::List => {
             let values = found.first().map_or(&[][..], |of| &of.values);
             Ok(Distribution::List(values.iter().map(|value| value / size).collect()))
         }
-        Word::Phase => Ok(Distribution::Phase),
+        DistributionName::Phase => Ok(Distribution::Phase),
     }
 }

@@ -194,7 +194,8 @@ pub fn fit_with_progress(
 ) -> Result<Fitted, FitError> {
     measurement.check()?;
     check(options)?;
-    let rotations = measurement.records.iter().map(Rotation::of).collect::<Result<Vec<_>, _>>()?;
+    let rotations =
+        measurement.records.iter().map(Rotation::from_record).collect::<Result<Vec<_>, _>>()?;
     let tracked = tracked(measurement, rotations, options, progress)?;
     let numbers: Vec<f64> = tracked.orders.iter().map(|order| order.value).collect();
     let mut groups = Vec::new();

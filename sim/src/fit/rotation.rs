@@ -59,7 +59,7 @@ impl Rotation {
     ///
     /// # Errors
     /// [`FitError::Pulses`] where there are too few, or one is far from a whole turn.
-    pub fn of(record: &Record) -> Result<Self, FitError> {
+    pub fn from_record(record: &Record) -> Result<Self, FitError> {
         let stated = Self::stated(record.speed, record.drift);
         if record.pulses.is_empty() {
             return Ok(stated);

@@ -134,7 +134,7 @@ impl SweptDevice {
         let mut tones = Vec::new();
         let states = states_at(&joints.states, &rotors, unit);
         for (index, rotor) in rotors.iter().enumerate() {
-            let harmonics = Blocked { set: &set, mount, motors: &joints.motors }
+            let harmonics = BlockedLoads { set: &set, mount, motors: &joints.motors }
                 .harmonics(&states, rotor.joint)?;
             let rate = rotor.rate(unit);
             for (harmonic, load) in (1..ANGLES / 2).zip(harmonics.into_iter().skip(1)) {
@@ -207,7 +207,7 @@ impl SweptDevice {
         let set = set_of(scenario, &chosen);
         let joints = SteadyJoints::new(scenario, &chosen, steady.motor, steady.sprung);
         let states = states_at(&joints.states, &self.rotors, speed);
-        let blocked = Blocked { set: &set, mount: &Vector3::zeros(), motors: &joints.motors };
+        let blocked = BlockedLoads { set: &set, mount: &Vector3::zeros(), motors: &joints.motors };
         let Some(rotor) = self.rotors.first() else { return Ok(vec![0.0; self.free.len()]) };
         let harmonics = blocked.harmonics(&states, rotor.joint)?;
         let mean =
@@ -297,13 +297,13 @@ fn is_rounding(load: &DVector<Complex<f64>>, mass: &DMatrix<f64>) -> bool {
 }
 
 /// What mount and free joints need to stay where they are while rotors turn.
-struct Blocked<'a> {
+struct BlockedLoads<'a> {
     set: &'a Set,
     mount: &'a Vector3<f64>,
     motors: &'a [Motor],
 }
 
-impl Blocked<'_> {
+impl BlockedLoads<'_> {
     /// Fourier coefficients over a turn of a joint.
     fn harmonics(
         &self,

@@ -86,7 +86,7 @@ impl Columns {
     /// # Errors
     ///
     /// [`RecordError::UnknownColumn`] with the nearest names.
-    pub fn of(scenario: &Scenario) -> Result<Self, RecordError> {
+    pub fn from_scenario(scenario: &Scenario) -> Result<Self, RecordError> {
         let Self(all) = Self::all(scenario);
         let selected = &scenario.output.columns;
         let mut taken: Vec<bool> =

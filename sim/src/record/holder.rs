@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// The program that has a lock on a file, as `process 1234 (precess)`; none where the system does not say.
 #[cfg(target_os = "linux")]
-pub(super) fn of(file: &File) -> Option<String> {
+pub(super) fn lock_holder(file: &File) -> Option<String> {
     use std::os::unix::fs::MetadataExt as _;
     let inode = file.metadata().ok()?.ino().to_string();
     let locks = std::fs::read_to_string("/proc/locks").ok()?;
@@ -27,7 +27,7 @@ pub(super) fn of(file: &File) -> Option<String> {
 
 /// The program that has a lock on a file: this system does not say.
 #[cfg(not(target_os = "linux"))]
-pub(super) fn of(_: &File) -> Option<String> {
+pub(super) fn lock_holder(_: &File) -> Option<String> {
     None
 }
 

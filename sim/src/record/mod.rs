@@ -2,11 +2,8 @@
 //!
 //! A [`Recorder`] receives the columns, then every sample, then the result. Files are written as
 //! they come and renamed when the run has ended ([`partial`]); [`Samples`] and [`Histories`] keep them in
-//! memory; [`Many`] passes them to several recorders, [`Between`] those of an interval.
+//! memory; [`RecorderGroup`] passes them to several recorders, [`IntervalRecorder`] those of an interval.
 
-mod between;
-#[cfg(test)]
-mod checks;
 pub mod columns;
 pub mod csv;
 pub mod decimate;
@@ -14,30 +11,33 @@ mod error;
 pub(crate) mod extent;
 mod histories;
 mod holder;
+mod interval;
 mod load_columns;
-mod many;
 pub mod no_data;
 pub mod npz;
 mod outcome;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod partial;
+mod recorder_group;
 mod run_error;
 mod samples;
 pub mod statistics;
+#[cfg(test)]
+mod tests;
 pub(crate) mod welch;
 
-pub use between::Between;
 pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};
 pub use error::RecordError;
 pub use histories::{Histories, replay};
-pub use many::Many;
+pub use interval::IntervalRecorder;
 pub use npz::Npz;
 pub use outcome::{Drift, End, Event, Outcome, Steps};
 #[cfg(feature = "parquet")]
 pub use parquet::Parquet;
+pub use recorder_group::RecorderGroup;
 pub use run_error::{Fault, RunError};
 pub use samples::Samples;
 pub use statistics::{Statistics, Verdict};

@@ -115,7 +115,7 @@ pub(super) fn begin(reserved: Option<Reservation>, path: &Path) -> io::Result<Pa
 
 /// The error of a file that another program has locked.
 pub(crate) fn in_use(file: &File) -> io::Error {
-    let who = holder::of(file).unwrap_or_else(|| "another program".to_owned());
+    let who = holder::lock_holder(file).unwrap_or_else(|| "another program".to_owned());
     let text = format!("in use by {who}; wait for its end, or choose another folder");
     io::Error::new(ErrorKind::ResourceBusy, text)
 }

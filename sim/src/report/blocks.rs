@@ -22,7 +22,7 @@ pub(super) enum Block {
     /// A paragraph in smaller type.
     Note { text: String },
     /// A table.
-    Table { caption: String, columns: Vec<Heading>, rows: Vec<Row> },
+    Table { caption: String, columns: Vec<Heading>, rows: Vec<TableRow> },
     /// A static figure.
     Figure { id: String, number: String, caption: String, svg: String },
     /// Events, numbered from 1.
@@ -45,7 +45,7 @@ pub(super) struct Heading {
 
 /// A row of a table; `state` is `met`, `violated` or empty.
 #[derive(Serialize)]
-pub(super) struct Row {
+pub(super) struct TableRow {
     pub(super) state: &'static str,
     pub(super) cells: Vec<Cell>,
 }
@@ -125,7 +125,7 @@ pub(super) fn table(
             number: numbers.contains(&index),
             state: !state.is_empty() && index == said,
         };
-        Row { state, cells: texts.into_iter().enumerate().map(cell).collect() }
+        TableRow { state, cells: texts.into_iter().enumerate().map(cell).collect() }
     };
     Block::Table {
         caption: caption.to_owned(),

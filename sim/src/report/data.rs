@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::error::ReportError;
-use super::run::chart::Drawn;
+use super::run::chart::ScaledChart;
 use super::run::replay::ReplayData;
 use crate::record::Event;
 use crate::scenario::Scenario;
@@ -59,7 +59,7 @@ pub(super) fn data(
     scenario: &Scenario,
     time: &[f64],
     end: f64,
-    drawn: &[Drawn],
+    drawn: &[ScaledChart],
     events: &[Event],
     replay: Option<&ReplayData>,
 ) -> Result<String, ReportError> {
@@ -119,7 +119,7 @@ pub(super) fn without_charts(name: &str, title: &str) -> Result<String, ReportEr
 }
 
 /// The id of a chart's static figure.
-pub(super) fn figure_id(chart: &Drawn) -> String {
+pub(super) fn figure_id(chart: &ScaledChart) -> String {
     format!("figure-{}", chart.slug)
 }
 

@@ -30,7 +30,7 @@ pub use draw::cells;
 pub(crate) use draw::{mode_shapes, response, spectrum};
 pub use error::{DrawError, ReportError};
 
-use run::chart::{Chart, Drawn, drawn};
+use run::chart::{Chart, ScaledChart, drawn};
 use run::extremes::{Extremes, Magnitude};
 use run::replay::Collector;
 use run::{grouping, summary};
@@ -112,7 +112,7 @@ impl Report {
     ///
     /// [`ReportError`] if a figure cannot be drawn, which is a fault of the program.
     pub fn figures(&self) -> Result<Vec<(String, String)>, ReportError> {
-        let file = |drawn: &Drawn| Ok((drawn.slug.clone(), drawn.figure().file()?));
+        let file = |drawn: &ScaledChart| Ok((drawn.slug.clone(), drawn.figure().file()?));
         self.drawn().iter().map(file).collect()
     }
 
@@ -129,7 +129,7 @@ impl Report {
     }
 
     /// The charts with their values; those that are zero throughout included.
-    fn drawn(&self) -> Vec<Drawn> {
+    fn drawn(&self) -> Vec<ScaledChart> {
         let Some(collected) = &self.collected else { return Vec::new() };
         let buckets = collected.history.buckets();
         let [first, last] = [&collected.first, &collected.row];
@@ -143,7 +143,7 @@ impl Report {
         let buckets = collected.history.buckets();
         let [first, last] = [&collected.first, &collected.row];
         let charts = collected.charts.iter().map(|chart| drawn(chart, buckets, first, last));
-        charts.filter(Drawn::is_zero).map(|drawn| drawn.title).collect()
+        charts.filter(ScaledChart::is_zero).map(|drawn| drawn.title).collect()
     }
 }
 

@@ -9,7 +9,7 @@ use tera::{Context, Tera};
 use super::blocks::{Block, Item, ScenarioLine, Section, Summary, Verdict};
 use super::data::{data, figure_id};
 use super::error::ReportError;
-use super::run::chart::{Drawn, Part};
+use super::run::chart::{Part, ScaledChart};
 use super::run::replay::{Collector, ReplayData};
 use super::run::{load_tables, mass, requirements, summary, tables};
 use super::{Report, number};
@@ -48,7 +48,7 @@ pub(super) struct Page<'a> {
 
 /// A page with what every page has.
 #[derive(Serialize)]
-struct Whole<'a> {
+struct RenderedPage<'a> {
     #[serde(flatten)]
     page: &'a Page<'a>,
     made: String,
@@ -62,7 +62,7 @@ impl Page<'_> {
     /// The page as one HTML file.
     pub(super) fn html(&self) -> Result<String, ReportError> {
         let hashes: Hashes = serde_json::from_str(HASHES)?;
-        let whole = Whole {
+        let whole = RenderedPage {
             page: self,
             made: format!(
                 "Written by precess {}. This page holds everything it shows and fetches nothing.",
@@ -103,7 +103,7 @@ pub(super) fn page(report: &Report, outcome: &Outcome) -> Result<String, ReportE
 fn sections(
     report: &Report,
     outcome: &Outcome,
-    drawn: &[Drawn],
+    drawn: &[ScaledChart],
     replay: Option<&ReplayData>,
 ) -> Result<Vec<Section>, ReportError> {
     let mut number = 0;
@@ -142,7 +142,7 @@ fn sections(
     Ok(sections.map(|(id, title, blocks)| Section { id, title, blocks }).collect())
 }
 
-fn caption(drawn: &Drawn) -> String {
+fn caption(drawn: &ScaledChart) -> String {
     let banded = drawn.curves.iter().any(|curve| curve.min != curve.max);
     let mut frames: Vec<_> = drawn.curves.iter().map(|curve| curve.curve.frame.as_str()).collect();
     frames.dedup();

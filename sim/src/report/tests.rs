@@ -61,7 +61,7 @@ fn outcome(end_time: f64) -> Outcome {
 fn sampled(scenario: &Scenario, rate: f64, spike: Option<(usize, f64)>) -> (Report, Outcome) {
     let mut scenario = scenario.clone();
     scenario.output.rate = rate;
-    let header = Header::new(&scenario, &Columns::of(&scenario).expect("columns"));
+    let header = Header::new(&scenario, &Columns::from_scenario(&scenario).expect("columns"));
     let mut report = Report::new(&scenario, &["a < b & \"c\"".to_owned()]);
     report.begin(&header).expect("begins");
     let mut seed = 1_u64;

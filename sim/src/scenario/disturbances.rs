@@ -26,7 +26,7 @@ const KNOTS_MAX: usize = 1 << 22;
 const SKEW_MAX: f64 = 1e-6;
 
 /// A member with the number of its first joint.
-type Placed<'a> = (usize, Member<'a>);
+type NumberedMember<'a> = (usize, Member<'a>);
 
 impl Scenario {
     /// Everything that is wrong with its disturbances.
@@ -197,7 +197,7 @@ impl Scenario {
     }
 
     /// The members with the number of the first joint of each.
-    fn placed(&self) -> Vec<Placed<'_>> {
+    fn placed(&self) -> Vec<NumberedMember<'_>> {
         let mut first = 0;
         let place = |member: Member<'_>| {
             let place = first;
@@ -213,10 +213,10 @@ impl Scenario {
     fn device_of<'a>(
         &self,
         of: &Disturbance,
-        placed: &[Placed<'a>],
+        placed: &[NumberedMember<'a>],
     ) -> Option<(&str, &'a BuiltIn)> {
         let joint_of = |joint: usize| {
-            let within = |(first, member): &&Placed<'_>| {
+            let within = |(first, member): &&NumberedMember<'_>| {
                 (*first..first + member.joints().len()).contains(&joint)
             };
             placed.iter().position(|place| within(&place))
@@ -232,7 +232,11 @@ impl Scenario {
     }
 
     /// What the wheel already has, and the key that says that it was removed.
-    fn twice(&self, of: &Disturbance, placed: &[Placed<'_>]) -> Option<(&'static str, String)> {
+    fn twice(
+        &self,
+        of: &Disturbance,
+        placed: &[NumberedMember<'_>],
+    ) -> Option<(&'static str, String)> {
         let (name, device) = self.device_of(of, placed)?;
         let on_bearings = matches!(
             device.kind(),

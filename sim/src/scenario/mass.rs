@@ -62,7 +62,10 @@ impl MassProperties {
     /// # Errors
     ///
     /// [`SolveError::Overflow`].
-    pub fn of(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<Self, SolveError> {
+    pub fn from_spacecraft(
+        scenario: &Scenario,
+        spacecraft: &Spacecraft<Set>,
+    ) -> Result<Self, SolveError> {
         let mut state = at_rest(scenario, spacecraft);
         let mut inertia_b = Matrix3::zeros();
         for axis in 0..3 {
@@ -81,7 +84,10 @@ impl MassMatrix {
     /// # Errors
     ///
     /// [`SolveError::Singular`] with the joint, where the pose has no accelerations.
-    pub fn of(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<Self, SolveError> {
+    pub fn from_spacecraft(
+        scenario: &Scenario,
+        spacecraft: &Spacecraft<Set>,
+    ) -> Result<Self, SolveError> {
         let (inverse, motors) = inverse(scenario, spacecraft)?;
         // Not positive definite: singular but for rounding, which the solver's bound let through.
         let matrix = inverse.clone().cholesky().map(|factors| factors.inverse());
@@ -213,20 +219,20 @@ mod tests {
     use precess_dynamics::BuiltIn;
 
     use super::*;
-    use crate::engine::checks::{panel, scenario, wheel};
+    use crate::engine::tests::{panel, scenario, wheel};
 
-    fn of(devices: Vec<BuiltIn>) -> (MassProperties, MassMatrix) {
+    fn mass_of(devices: Vec<BuiltIn>) -> (MassProperties, MassMatrix) {
         let names = ["a", "b"];
         let scenario = scenario(&names[..devices.len()], devices, 1.0);
         let spacecraft = scenario.spacecraft().expect("accepted");
-        let properties = MassProperties::of(&scenario, &spacecraft).expect("finite");
-        (properties, MassMatrix::of(&scenario, &spacecraft).expect("regular"))
+        let properties = MassProperties::from_spacecraft(&scenario, &spacecraft).expect("finite");
+        (properties, MassMatrix::from_spacecraft(&scenario, &spacecraft).expect("regular"))
     }
 
     /// A rotor of 0.2 kg m^2 about the hub's first axis through B, where the hub has 30 kg m^2.
     #[test]
     fn a_rotor_on_a_free_hub_has_its_reduced_inertia() {
-        let (properties, matrix) = of(vec![wheel().into()]);
+        let (properties, matrix) = mass_of(vec![wheel().into()]);
         assert_eq!(properties.mass, 104.0);
         assert!(
             (properties.inertia_b - Matrix3::from_diagonal(&Vector3::new(30.2, 40.1, 50.1))).amax()
@@ -248,7 +254,7 @@ mod tests {
             4.0,
             Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)),
         ));
-        let (_, matrix) = of(vec![panel().into(), kind]);
+        let (_, matrix) = mass_of(vec![panel().into(), kind]);
         let has: Vec<_> = matrix.joints.iter().map(|joint| joint.held.is_some()).collect();
         assert_eq!(has, [true, true, false]);
     }
@@ -259,7 +265,7 @@ mod tests {
         let mut locked = scenario(&["wheel"], vec![wheel().into()], 1.0);
         locked.drives = vec![Drive::Locked];
         let spacecraft = locked.spacecraft().expect("accepted");
-        let matrix = MassMatrix::of(&locked, &spacecraft).expect("regular");
+        let matrix = MassMatrix::from_spacecraft(&locked, &spacecraft).expect("regular");
         let [joint] = matrix.joints[..] else { panic!("{matrix:?}") };
         assert!(joint.held.is_some_and(|held| (held - 0.2).abs() < 1e-15), "{joint:?}");
         assert_eq!(joint.free, None);
@@ -270,7 +276,7 @@ mod tests {
         let mut clamped = scenario(&[], vec![], 1.0);
         clamped.hub_mode = HubMode::Fixed;
         let spacecraft = clamped.spacecraft().expect("accepted");
-        let matrix = MassMatrix::of(&clamped, &spacecraft).expect("no equations");
+        let matrix = MassMatrix::from_spacecraft(&clamped, &spacecraft).expect("no equations");
         assert_eq!(matrix, MassMatrix { joints: vec![], condition: None });
     }
 }

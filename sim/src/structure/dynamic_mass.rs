@@ -63,7 +63,11 @@ impl Wheel {
     ///
     /// # Errors
     /// [`Fault::Range`] where mass or inertia is not above zero, or a number not finite.
-    pub fn of(wheel: &ReactionWheel, mount: &Vector3<f64>, rate: f64) -> Result<Self, Fault> {
+    pub fn from_reaction_wheel(
+        wheel: &ReactionWheel,
+        mount: &Vector3<f64>,
+        rate: f64,
+    ) -> Result<Self, Fault> {
         let across = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
         let i = wheel.i_w_wc + across * (wheel.m_w * wheel.d * wheel.d);
         let positive = [f64::MIN_POSITIVE, 1e12];

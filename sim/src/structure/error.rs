@@ -10,16 +10,16 @@ pub struct StructureError {
     /// The file; empty of bytes that a program passed.
     pub file: PathBuf,
     /// Where in the file.
-    pub place: Place,
+    pub place: FileLocation,
     /// What is wrong.
     pub fault: Fault,
 }
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FileLocation {
     /// The file as a whole.
-    Whole,
+    File,
     /// A line, from 1.
     Line(usize),
     /// A byte, from 0.
@@ -204,14 +204,14 @@ pub enum Fault {
 impl Fault {
     /// The error at a place; the file is added by who opened it.
     #[must_use]
-    pub fn at(self, place: Place) -> StructureError {
+    pub fn at(self, place: FileLocation) -> StructureError {
         StructureError { file: PathBuf::new(), place, fault: self }
     }
 }
 
 impl From<Fault> for StructureError {
     fn from(fault: Fault) -> Self {
-        fault.at(Place::Whole)
+        fault.at(FileLocation::File)
     }
 }
 
@@ -224,10 +224,10 @@ impl StructureError {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FileLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Whole => Ok(()),
+            Self::File => Ok(()),
             Self::Line(line) => write!(f, "line {line}: "),
             Self::Byte(byte) => write!(f, "byte {byte}: "),
             Self::Member(name) => write!(f, "`{name}`: "),

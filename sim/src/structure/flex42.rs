@@ -19,7 +19,7 @@
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 
 use super::modes::{Modal, normalised};
-use super::{COORDINATES, Fault, MOST, Node, Place, Structure, StructureError};
+use super::{COORDINATES, Fault, FileLocation, MOST, Node, Structure, StructureError};
 
 /// Words of the first line.
 const TITLE: &str = "Flexible Body Inputs for 42";
@@ -249,7 +249,7 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn fault(&self, fault: Fault) -> StructureError {
-        fault.at(Place::Line(self.number))
+        fault.at(FileLocation::Line(self.number))
     }
 
     /// The next line that is not blank.

@@ -49,7 +49,7 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3};
 use crate::names::{NAME_MAX, name_fault};
 
 pub use bytes::{MOST_BYTES, bytes_of};
-pub use error::{Fault, Place, StructureError};
+pub use error::{Fault, FileLocation, StructureError};
 
 /// Coordinates of a node: three of translation, three of rotation.
 pub const COORDINATES: usize = 6;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use precess::fit::{Discrepancy, Estimate, FitError, Fitted, Measurement, Options, Record, fit};
 
-use super::{Ended, folder, precess};
+use super::{CommandResult, folder, precess};
 
 /// Static imbalance, kg m, dynamic imbalance, kg m², its phase, rad, and the second harmonic, kg m.
 const U_S: f64 = 5e-7;
@@ -96,7 +96,7 @@ fn as_it_is(_: usize, stated: f64) -> String {
 }
 
 /// Fits a description into a folder `out` of its own.
-fn fitted(folder: &Path, name: &str, description: &str) -> (Ended, PathBuf) {
+fn fitted(folder: &Path, name: &str, description: &str) -> (CommandResult, PathBuf) {
     let file = folder.join(format!("{name}.toml"));
     fs::write(&file, description).expect("a file");
     let out = folder.join(name);

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use super::{Ended, case, folder, precess};
+use super::{CommandResult, case, folder, precess};
 
 fn write(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);
@@ -13,7 +13,7 @@ fn write(folder: &Path, name: &str, text: &str) -> String {
     path.to_str().expect("text").to_owned()
 }
 
-fn jitter(folder: &Path, budget: &str, more: &[&str]) -> Ended {
+fn jitter(folder: &Path, budget: &str, more: &[&str]) -> CommandResult {
     let budget = write(folder, "budget.toml", budget);
     let out = folder.join("out");
     let arguments = ["jitter", &budget, "--force", "--out", out.to_str().expect("text")];

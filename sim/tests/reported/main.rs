@@ -16,18 +16,22 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What a command ended with.
-struct Ended {
+struct CommandResult {
     code: Option<i32>,
     out: String,
     error: String,
 }
 
 /// The command `precess` with these arguments.
-fn precess(arguments: &[&str]) -> Ended {
+fn precess(arguments: &[&str]) -> CommandResult {
     let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
     let output = command.args(arguments).output().expect("the command starts");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
-    Ended { code: output.status.code(), out: text(output.stdout), error: text(output.stderr) }
+    CommandResult {
+        code: output.status.code(),
+        out: text(output.stdout),
+        error: text(output.stderr),
+    }
 }
 
 /// An empty folder.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{Ended, folder, precess};
+use super::{CommandResult, folder, precess};
 
 /// A wheel at 3000 rpm on a hub, for a tenth of a second at 1 kHz: frequencies of a spectrum are 10 Hz apart.
 const WHEEL: &str = r#"format = 1
@@ -63,7 +63,7 @@ fn write(folder: &Path, name: &str, text: &str) -> String {
 }
 
 /// Runs a scenario with these requirements.
-fn run(folder: &Path, requirements: &str) -> (Ended, PathBuf) {
+fn run(folder: &Path, requirements: &str) -> (CommandResult, PathBuf) {
     let file = write(folder, "wheel.toml", &format!("{WHEEL}{requirements}"));
     let out = folder.join("out");
     let ended = precess(&["run", &file, "--force", "--out", out.to_str().expect("text")]);
@@ -180,7 +180,7 @@ fn campaigns_tell_what_is_not_evaluated_from_what_is_violated() {
     }
 }
 
-fn budget(folder: &Path, requirement: &str) -> Ended {
+fn budget(folder: &Path, requirement: &str) -> CommandResult {
     write(folder, "wheel.toml", WHEEL);
     let budget = write(
         folder,

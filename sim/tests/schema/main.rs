@@ -142,7 +142,7 @@ fn every_scenario_file_is_valid_and_so_is_what_the_tool_writes() {
 }
 
 /// A table of a document: the keys and indices that lead to it, and the part of the schema for it.
-struct Place<'a> {
+struct DocumentTable<'a> {
     steps: Vec<Step>,
     /// Tables with one definition are one place: `#/$defs/body`.
     name: String,
@@ -156,7 +156,7 @@ enum Step {
 }
 
 /// Every table of a document with its part of the schema.
-fn places<'a>(schema: &'a Value, table: &Table) -> Vec<Place<'a>> {
+fn places<'a>(schema: &'a Value, table: &Table) -> Vec<DocumentTable<'a>> {
     let mut found = Vec::new();
     let value = toml::Value::Table(table.clone());
     walk(schema, (schema, String::new()), &value, &mut Vec::new(), &mut found);
@@ -168,7 +168,7 @@ fn walk<'a>(
     (mut part, mut name): (&'a Value, String),
     value: &toml::Value,
     steps: &mut Vec<Step>,
-    found: &mut Vec<Place<'a>>,
+    found: &mut Vec<DocumentTable<'a>>,
 ) {
     if let Some(reference) = part["$ref"].as_str() {
         reference.clone_into(&mut name);
@@ -184,7 +184,7 @@ fn walk<'a>(
         toml::Value::Table(table) => {
             let properties = part["properties"].as_object();
             let properties = properties.unwrap_or_else(|| panic!("`{name}` has no table"));
-            found.push(Place { steps: steps.clone(), name: name.clone(), properties });
+            found.push(DocumentTable { steps: steps.clone(), name: name.clone(), properties });
             for (key, value) in table {
                 let part = properties.get(key).unwrap_or_else(|| panic!("`{name}` has no {key}"));
                 steps.push(Step::Key(key.clone()));

@@ -44,7 +44,7 @@ fn a_wheel_has_the_dynamic_mass_of_the_closed_form() {
         for (rate, motor, frequency) in
             [(400.0, FREE, 37.0), (-90.0, HELD, 300.0), (0.0, HELD, 5.0)]
         {
-            let closed = Wheel::of(&device, &mount, rate).expect("valid");
+            let closed = Wheel::from_reaction_wheel(&device, &mount, rate).expect("valid");
             let closed = Wheel { motor, ..closed };
             let found = AveragedDevices::new(&list([device]), &mount, &[[0.7, rate]], &[motor])
                 .expect("valid");

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::{DMatrix, Vector3};
 use precess::file::structure_from_file;
-use precess::structure::{Place, Structure, flex42, npz, op4};
+use precess::structure::{FileLocation, Structure, flex42, npz, op4};
 
 use super::{FLEX, bytes, example, path};
 
@@ -111,7 +111,7 @@ fn an_error_has_line_value_bound_and_remedy() {
     let cut = &bytes("dense-little.op4")[..100];
     let error = op4::read(cut).expect_err("cut off");
     assert!(
-        matches!(error.place, Place::Byte(_)) && error.to_string().contains("cut off"),
+        matches!(error.place, FileLocation::Byte(_)) && error.to_string().contains("cut off"),
         "{error}"
     );
     let error = structure_from_file(&path("dense-ascii.op4")).expect_err("no nodes").to_string();

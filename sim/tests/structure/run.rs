@@ -75,7 +75,7 @@ fn predicted(panel: &HingedPanel) -> Motion {
     let own = Accelerance::new(&whole, Base::Free, &[0], &[0]).expect("a node");
     let own = own.at(RATE).expect("damped");
     let device = wheel(OFFSET);
-    let averaged = Wheel::of(&device, &Vector3::zeros(), RATE).expect("valid");
+    let averaged = Wheel::from_reaction_wheel(&device, &Vector3::zeros(), RATE).expect("valid");
     let mass = averaged.dynamic_mass(RATE).expect("above zero");
     let force = mounted_force(&mass, &own, &blocked(&device, RATE), RATE).expect("damped");
     let acceleration = own * force;

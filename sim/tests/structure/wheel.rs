@@ -65,7 +65,7 @@ pub(crate) fn blocked(wheel: &ReactionWheel, rate: f64) -> DVector<Complex<f64>>
 #[test]
 fn the_dynamic_mass_is_the_linearisation_of_the_nonlinear_solver() {
     let (rate, frequency) = (400.0, 37.0);
-    let averaged = Wheel::of(&wheel(0.0), &Vector3::zeros(), rate).expect("valid");
+    let averaged = Wheel::from_reaction_wheel(&wheel(0.0), &Vector3::zeros(), rate).expect("valid");
     let mass = averaged.dynamic_mass(frequency).expect("above zero");
     let f = Vector6::new(3e-4, -2e-4, 1e-4, 5e-5, -8e-5, 2e-5);
     let omega = Vector3::new(2e-7, -5e-7, 3e-7);
@@ -90,7 +90,7 @@ fn the_dynamic_mass_is_the_linearisation_of_the_nonlinear_solver() {
 fn the_mounted_force_of_an_imbalanced_wheel_is_that_of_the_nonlinear_motion() {
     let (rate, d) = (400.0, 1e-7);
     let imbalanced = wheel(d);
-    let averaged = Wheel::of(&imbalanced, &Vector3::zeros(), rate).expect("valid");
+    let averaged = Wheel::from_reaction_wheel(&imbalanced, &Vector3::zeros(), rate).expect("valid");
     let mass = averaged.dynamic_mass(rate).expect("above zero");
     let own = hub_mass().try_inverse().expect("positive definite");
     let own = complex(&DMatrix::from_column_slice(6, 6, own.as_slice()));

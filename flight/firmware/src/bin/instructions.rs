@@ -61,7 +61,7 @@ impl From<fmt::Error> for Stop {
 /// Counts each of these: `module device devices;`.
 macro_rules! count {
     ($counts:ident, $($module:ident $device:ident $devices:literal;)*) => {$(
-        $counts.of(
+        $counts.count(
             stringify!($module),
             &[$device; $devices],
             library::$module::accelerations,
@@ -139,7 +139,7 @@ struct Counts<'a> {
 
 impl Counts<'_> {
     /// An evaluation and a step of these devices.
-    fn of<D: FixedSet<Scalar = f64>>(
+    fn count<D: FixedSet<Scalar = f64>>(
         &mut self,
         name: &str,
         devices: &D,

@@ -74,7 +74,7 @@ pub fn tangents(
     };
     let middle = read(None)?;
     parameters::supported(&middle)?;
-    let columns = Columns::of(&middle).map_err(|error| error.to_string())?;
+    let columns = Columns::from_scenario(&middle).map_err(|error| error.to_string())?;
     let header = Header::new(&middle, &columns);
     let (outcome, own) = reduced(&middle, selection)?;
     let kinds = statistic::kinds(&middle, selection, &header)?;

@@ -24,10 +24,10 @@ const SHARE: f64 = 0.1;
 pub(super) struct Kind {
     columns: Vec<usize>,
     window: [f64; 2],
-    of: Of,
+    of: StatisticKind,
 }
 
-enum Of {
+enum StatisticKind {
     /// RMS over time, by the trapezoidal rule.
     Rms,
     Peak,
@@ -53,15 +53,15 @@ pub(super) fn kinds(
     let mut kinds = Vec::new();
     for requirement in &scenario.requirements {
         let of = match requirement.statistic {
-            Statistic::Peak => Of::Peak,
-            Statistic::Rms => Of::Rms,
-            Statistic::Final => Of::Final,
-            Statistic::Drift => Of::Drift,
-            Statistic::BandRms(band) => Of::BandRms(band),
+            Statistic::Peak => StatisticKind::Peak,
+            Statistic::Rms => StatisticKind::Rms,
+            Statistic::Final => StatisticKind::Final,
+            Statistic::Drift => StatisticKind::Drift,
+            Statistic::BandRms(band) => StatisticKind::BandRms(band),
             Statistic::Displacement(_) | Statistic::Smear(_) | Statistic::Jitter(_) => {
-                Of::Quadratic(Box::new(requirement.clone()))
+                StatisticKind::Quadratic(Box::new(requirement.clone()))
             }
-            Statistic::Index { .. } => Of::None,
+            Statistic::Index { .. } => StatisticKind::None,
         };
         kinds.push(Kind {
             columns: columns(&requirement.quantity)?,
@@ -71,8 +71,8 @@ pub(super) fn kinds(
     }
     for name in &selection.columns {
         let window = [selection.from, f64::INFINITY];
-        kinds.push(Kind { columns: columns(name)?, window, of: Of::Rms });
-        kinds.push(Kind { columns: columns(name)?, window, of: Of::Peak });
+        kinds.push(Kind { columns: columns(name)?, window, of: StatisticKind::Rms });
+        kinds.push(Kind { columns: columns(name)?, window, of: StatisticKind::Peak });
     }
     Ok(kinds)
 }
@@ -113,22 +113,22 @@ impl Kind {
             all.max_by(|a, b| a.value.total_cmp(&b.value))
         };
         let found = match &self.of {
-            Of::Rms => return rms(&history, keys),
-            Of::BandRms(band) => {
+            StatisticKind::Rms => return rms(&history, keys),
+            StatisticKind::BandRms(band) => {
                 let whole = outcome.end_time >= to;
                 let settings = (*band, header.rate, (to - from) * header.rate);
                 return band_rms(&history, settings, keys).filter(|_| whole);
             }
-            Of::Quadratic(requirement) => {
+            StatisticKind::Quadratic(requirement) => {
                 return quadratic(requirement, &self.columns, (samples, header, outcome), keys);
             }
-            Of::Peak => largest(&magnitude)?,
-            Of::Final => magnitude(&history.last()?.1),
-            Of::Drift => largest(&|values| {
+            StatisticKind::Peak => largest(&magnitude)?,
+            StatisticKind::Final => magnitude(&history.last()?.1),
+            StatisticKind::Drift => largest(&|values| {
                 let apart: Vec<Number> = values.iter().zip(&first).map(|(a, b)| *a - *b).collect();
                 magnitude(&apart)
             })?,
-            Of::None => return None,
+            StatisticKind::None => return None,
         };
         found.value.is_finite().then(|| (found.value, found.derivatives[..keys].to_vec()))
     }

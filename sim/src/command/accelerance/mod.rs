@@ -62,7 +62,7 @@ pub(super) struct AcceleranceCommand {
     points: u32,
     /// Whether the structure is free, or held at B.
     #[arg(long, default_value = "free")]
-    base: Held,
+    base: BaseCondition,
     #[command(flatten)]
     devices: DeviceOptions,
     /// Folder for tables and figures; made if it is missing.
@@ -74,7 +74,7 @@ pub(super) struct AcceleranceCommand {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Held {
+enum BaseCondition {
     /// A rigid motion follows forces.
     Free,
     /// B does not move.
@@ -166,8 +166,8 @@ impl AcceleranceCommand {
 
     fn base(&self) -> Base {
         match self.base {
-            Held::Free => Base::Free,
-            Held::Fixed => Base::Fixed,
+            BaseCondition::Free => Base::Free,
+            BaseCondition::Fixed => Base::Fixed,
         }
     }
 

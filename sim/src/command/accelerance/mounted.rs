@@ -29,14 +29,14 @@ pub(super) struct DeviceOptions {
     device: Vec<String>,
     /// What motors of wheels do to small changes of their rates.
     #[arg(long, default_value = "torque")]
-    motor: Keeps,
+    motor: MotorCondition,
     /// Joints that do not spin: on their springs if they have any, or locked.
     #[arg(long, default_value = "sprung")]
     gimbals: Gimbals,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Keeps {
+enum MotorCondition {
     /// They keep their torque: wheels spin freely.
     Torque,
     /// They keep the relative rates.
@@ -71,8 +71,8 @@ impl DeviceOptions {
         let (scenario, _) = from_file(path, &[]).map_err(CommandError::Scenario)?;
         let chosen = self.chosen(&scenario)?;
         let motor = match self.motor {
-            Keeps::Torque => Motor::ConstantTorque,
-            Keeps::Rate => Motor::ConstantRate,
+            MotorCondition::Torque => Motor::ConstantTorque,
+            MotorCondition::Rate => Motor::ConstantRate,
         };
         let joints = SteadyJoints::new(&scenario, &chosen, motor, self.gimbals == Gimbals::Sprung);
         for (name, rate) in &joints.stopped {

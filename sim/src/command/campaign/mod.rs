@@ -78,7 +78,7 @@ impl CampaignOptions {
         scenario.output.columns.clone_from(&columns);
         let selection =
             Selection { columns, lines: usize::from(self.lines), from: self.from.unwrap_or(0.0) };
-        let header = Header::new(&scenario, &Columns::of(&scenario)?);
+        let header = Header::new(&scenario, &Columns::from_scenario(&scenario)?);
         for name in &selection.columns {
             header.quantity(name)?;
         }
@@ -202,7 +202,7 @@ fn readable(prepared: &Prepared, plan: &Plan) -> Result<(), CommandError> {
 
 /// The numbers of a field over the samples; none of a sample that failed or does not have it.
 pub(super) fn values_of(finished: &Finished, field: usize) -> Vec<Option<f64>> {
-    let value = |row: &crate::campaign::Row| {
+    let value = |row: &crate::campaign::SampleResult| {
         let numbers = row.result.as_ref().ok()?;
         numbers.get(field).copied().filter(|value| !value.is_nan())
     };
@@ -212,7 +212,7 @@ pub(super) fn values_of(finished: &Finished, field: usize) -> Vec<Option<f64>> {
 /// Samples that were run and do not have a number of a field; those that failed are not among them.
 pub(super) fn without_number(finished: &Finished, field: usize) -> Vec<usize> {
     let rows = finished.rows.iter().flatten();
-    let has_none = |row: &&crate::campaign::Row| {
+    let has_none = |row: &&crate::campaign::SampleResult| {
         let numbers = row.result.as_ref().ok();
         numbers.is_some_and(|numbers| numbers.get(field).is_none_or(|value| value.is_nan()))
     };
@@ -267,10 +267,10 @@ pub(super) fn failures(plan: &Plan, finished: &Finished) -> String {
 }
 
 /// Name, place in a row, unit with its size, limit.
-pub(super) type Shown = (String, usize, (String, f64), Option<f64>);
+pub(super) type ResultColumn = (String, usize, (String, f64), Option<f64>);
 
 /// What pictures and summary show: requirements, then RMS and peak of columns.
-pub(super) fn shown(prepared: &Prepared) -> impl Iterator<Item = Shown> {
+pub(super) fn shown(prepared: &Prepared) -> impl Iterator<Item = ResultColumn> {
     let requirements = &prepared.scenario.requirements;
     let count = requirements.len();
     let of_requirements = requirements.iter().enumerate().map(|(index, of)| {

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    CampaignOptions, Prepared, Shown, failures, not_evaluated, shown, values_of, without_number,
+    CampaignOptions, Prepared, ResultColumn, failures, not_evaluated, shown, values_of,
+    without_number,
 };
 use crate::campaign::{
     Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, digits,
@@ -119,7 +120,7 @@ impl MonteCarlo {
 }
 
 /// Derivatives of each number, ranked.
-type Ranked = Vec<(String, Vec<Derivative>)>;
+type RankedDerivatives = Vec<(String, Vec<Derivative>)>;
 
 impl MonteCarlo {
     /// Exact derivatives, and central differences of numbers that have none; none where Ctrl-C ended the runs of these.
@@ -128,7 +129,7 @@ impl MonteCarlo {
         prepared: &Prepared,
         variations: &[Variation],
         beside: &str,
-    ) -> Result<Option<Ranked>, CommandError> {
+    ) -> Result<Option<RankedDerivatives>, CommandError> {
         let steps = central_differences(variations);
         if steps.samples.is_empty() {
             let message = "no key of the plan has a derivative; vary one continuously";
@@ -146,7 +147,7 @@ impl MonteCarlo {
             }
         };
         let slope = |number: usize| slopes.get(number).and_then(Option::as_ref);
-        let names: Vec<Shown> = shown(prepared).collect();
+        let names: Vec<ResultColumn> = shown(prepared).collect();
         let mut differences = None;
         if (0..names.len()).any(|number| slope(number).is_none()) {
             let Some(finished) = self.options.run(prepared, &steps, beside)? else {
@@ -172,7 +173,7 @@ impl MonteCarlo {
 type Planes = Vec<Option<Vec<(String, [f64; 2])>>>;
 
 fn planes(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Planes {
-    let of = |(_, field, ..): Shown| {
+    let of = |(_, field, ..): ResultColumn| {
         let numbers = values_of(finished, field);
         let rows: Vec<(&[f64], f64)> = plan
             .samples
@@ -197,7 +198,7 @@ fn sorted(finished: &Finished, field: usize) -> Vec<f64> {
 }
 
 /// How many samples meet a limit.
-struct Meeting {
+struct ComplianceCount {
     /// Samples that meet it.
     met: usize,
     /// Samples that were run and do not have the number, which neither meet it nor do not.
@@ -207,19 +208,19 @@ struct Meeting {
     probability: Estimate,
 }
 
-fn meets(finished: &Finished, field: usize, limit: f64) -> Option<Meeting> {
+fn meets(finished: &Finished, field: usize, limit: f64) -> Option<ComplianceCount> {
     let values = values_of(finished, field);
     let met = values.iter().filter(|value| value.is_some_and(|value| value <= limit)).count();
     let not_evaluated = without_number(finished, field).len();
     let probability = probability_between([met, met + not_evaluated], values.len(), LEVEL)?;
-    Some(Meeting { met, not_evaluated, probability })
+    Some(ComplianceCount { met, not_evaluated, probability })
 }
 
 /// Rank correlations of each number with each key.
 type Correlations = Vec<(String, Vec<(String, Option<f64>)>)>;
 
 fn correlations(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Correlations {
-    let of = |(name, field, ..): Shown| {
+    let of = |(name, field, ..): ResultColumn| {
         let numbers = values_of(finished, field);
         let by = plan.labels.iter().enumerate().map(|(key, label)| {
             let pairs = plan.samples.iter().zip(&numbers);
@@ -254,7 +255,7 @@ fn percentiles_csv(prepared: &Prepared, finished: &Finished) -> String {
             );
         }
         let found = limit.and_then(|limit| meets(finished, field, limit));
-        if let Some(Meeting { probability: found, .. }) = found {
+        if let Some(ComplianceCount { probability: found, .. }) = found {
             let [lower, upper] = found.interval.map(cell);
             let _ = writeln!(
                 text,

@@ -36,7 +36,7 @@ impl Joint {
 
 /// What a kind requires of a body.
 #[derive(Clone, Copy)]
-pub(super) struct Needs {
+pub(super) struct BodyRequirements {
     pub(super) joint: &'static JointInfo,
     /// Whether the link has a body; those of flexible bearings have only a joint.
     pub(super) mass: bool,
@@ -58,7 +58,7 @@ pub(super) struct JointMeasures {
 }
 
 impl JointMeasures {
-    pub(super) fn of(joint: &JointInfo) -> Self {
+    pub(super) fn of_joint(joint: &JointInfo) -> Self {
         if joint.slides {
             Self {
                 coordinate: Measure::LENGTH,
@@ -82,8 +82,12 @@ impl JointMeasures {
 }
 
 /// The table of a body; what is missing or wrong has been reported.
-pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> Option<Body> {
-    let measures = JointMeasures::of(needs.joint);
+pub(super) fn body(
+    keys: &Keys<'_>,
+    needs: BodyRequirements,
+    folder: &std::path::Path,
+) -> Option<Body> {
+    let measures = JointMeasures::of_joint(needs.joint);
     let (mass, centre) = if needs.mass {
         (mass(keys), keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros))
     } else {

@@ -12,7 +12,7 @@ use crate::scenario::{Scenario, ScenarioError};
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
 pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
     let names = &scenario.names;
-    let tables = places::Tables::of(scenario);
+    let tables = places::Tables::from_scenario(scenario);
     for error in scenario.check() {
         if let ScenarioError::Parameters(ParameterError::NegativeInertia {
             part: Part::Body { device, .. },

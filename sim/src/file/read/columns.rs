@@ -16,7 +16,7 @@ pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
     let all = all.as_slice();
     if let Some(output) = keys.table("output") {
         let selected = Scenario { requirements: Vec::new(), ..scenario.clone() };
-        if let Err(error) = Columns::of(&selected) {
+        if let Err(error) = Columns::from_scenario(&selected) {
             output.error("columns", error.to_string(), "");
         }
     }

@@ -12,7 +12,7 @@ const BY_AXIS: [[&str; 2]; 2] =
     [["radial_force", "axial_force"], ["radial_moment", "axial_moment"]];
 
 /// What one key gives.
-pub(super) struct Given {
+pub(super) struct ComponentEntry {
     pub(super) key: &'static str,
     /// The components that it is of, and by how much the phase of each differs, rad. Radial ones: the
     /// second is a quarter of a cycle after the first, so that the vector turns with the wheel.
@@ -38,7 +38,7 @@ pub(super) fn given(
     keys: &Keys<'_>,
     spin_axis: usize,
     measures: [Measure; 2],
-) -> Option<Vec<Given>> {
+) -> Option<Vec<ComponentEntry>> {
     let mut taken: Six<Option<&str>> = [None; 6];
     let mut found = Some(Vec::new());
     for (key, components) in all(spin_axis) {
@@ -56,7 +56,7 @@ pub(super) fn given(
             }
         }
         match (values.filter(|_| again.is_none()), &mut found) {
-            (Some(values), Some(found)) => found.push(Given { key, components, values }),
+            (Some(values), Some(found)) => found.push(ComponentEntry { key, components, values }),
             _ => found = None,
         }
     }
@@ -68,7 +68,7 @@ pub(super) fn given(
 pub(super) fn beside(
     keys: &Keys<'_>,
     spin_axis: usize,
-    others: Option<&[Given]>,
+    others: Option<&[ComponentEntry]>,
     measure: Measure,
 ) -> Vec<(&'static str, f64)> {
     let mut found = Vec::new();

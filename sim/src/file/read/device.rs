@@ -13,16 +13,16 @@ use precess_dynamics::{
 use super::super::diagnostic::Span;
 use super::super::document::Value;
 use super::super::keys::{Keys, shown_name};
-use super::body::{Body, Joint, Needs, body};
+use super::body::{Body, BodyRequirements, Joint, body};
 use super::copies::{help_of_copy, original, with_original};
-use super::layout::{Place, layout, turned};
+use super::layout::{MountedPosition, layout, turned};
 use super::mount::{DeviceAxes, mount};
 use super::structure::Structure;
 use crate::scenario::{Drive, StopAction, body_key};
 use crate::units::Measure;
 
 /// A device of a kind, or a platform without the devices on it.
-pub(super) enum Of {
+pub(super) enum DeviceOrPlatform {
     BuiltIn(Box<BuiltIn>),
     Platform(Box<Isolated<Vec<BuiltIn>>>),
 }
@@ -32,7 +32,7 @@ pub(super) struct Device {
     pub(super) name: String,
     /// The name of the layout that it is a member of.
     pub(super) layout: Option<String>,
-    pub(super) of: Of,
+    pub(super) of: DeviceOrPlatform,
     /// The name of the platform that it stands on, or `hub`.
     pub(super) on: String,
     /// Where that is written.
@@ -51,7 +51,7 @@ impl Device {
     /// From what its joints say.
     pub(super) fn new(
         name: String,
-        of: Of,
+        of: DeviceOrPlatform,
         turns: Option<Vec<Turn>>,
         on: &str,
         joints: &[Joint],
@@ -73,15 +73,15 @@ impl Device {
     /// The device; none of a platform.
     pub(super) fn built_in(&self) -> Option<BuiltIn> {
         match &self.of {
-            Of::BuiltIn(device) => Some(**device),
-            Of::Platform(_) => None,
+            DeviceOrPlatform::BuiltIn(device) => Some(**device),
+            DeviceOrPlatform::Platform(_) => None,
         }
     }
 
     pub(super) fn joints(&self) -> &'static [JointInfo] {
         match &self.of {
-            Of::BuiltIn(device) => device.kind().joints(),
-            Of::Platform(_) => <Platform as Kind>::JOINTS,
+            DeviceOrPlatform::BuiltIn(device) => device.kind().joints(),
+            DeviceOrPlatform::Platform(_) => <Platform as Kind>::JOINTS,
         }
     }
 }
@@ -147,7 +147,7 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
         .map(|joint| {
             let key = body_key(joint);
             let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
-            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
+            let needs = BodyRequirements { joint, mass, inertia, origin: has_origin(kind, joint) };
             // Of a link without a body every key has a default.
             let table =
                 if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
@@ -166,7 +166,7 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     let Some(parameters) = parameters else { return Vec::new() };
     let places = match places {
         Some(places) => places.unwrap_or_default(),
-        None => single.into_iter().collect::<Vec<Place>>(),
+        None => single.into_iter().collect::<Vec<MountedPosition>>(),
     };
     let many = keys.has("layout");
     if let Some(nodes) = nodes.as_ref().filter(|on| on.len() > 1 && on.len() != places.len()) {
@@ -342,7 +342,7 @@ fn device(
     kind: BuiltInKind,
     parameters: &DeviceParameters,
     bodies: &[Body],
-    (position, mount): &Place,
+    (position, mount): &MountedPosition,
 ) -> Option<Device> {
     let mut parameters = *parameters;
     parameters.mount = mount.matrix;
@@ -366,5 +366,11 @@ fn device(
         }
     };
     let joints: Vec<_> = bodies.iter().map(|body| body.joint.clone()).collect();
-    Some(Device::new(name, Of::BuiltIn(Box::new(device)), mount.turns.clone(), "hub", &joints))
+    Some(Device::new(
+        name,
+        DeviceOrPlatform::BuiltIn(Box::new(device)),
+        mount.turns.clone(),
+        "hub",
+        &joints,
+    ))
 }

@@ -18,7 +18,7 @@ pub(super) struct Joints {
 }
 
 impl Joints {
-    pub(super) fn of(devices: &[Device]) -> Self {
+    pub(super) fn of_devices(devices: &[Device]) -> Self {
         let (names, bodies) = (Vec::new(), Vec::new());
         let mut joints = Self { names, bodies, drives: Vec::new(), stops: Vec::new() };
         for device in devices {

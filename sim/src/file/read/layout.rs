@@ -30,10 +30,10 @@ const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 const COUNT_MAX: u32 = 256;
 
 /// Where a device of a layout is: its position in B, and its mount.
-pub(super) type Place = (Vector3<f64>, Mount);
+pub(super) type MountedPosition = (Vector3<f64>, Mount);
 
 /// The places of a layout; none without one.
-pub(super) fn layout(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Vec<Place>> {
+pub(super) fn layout(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Vec<MountedPosition>> {
     let layout = keys.table("layout")?;
     for key in ["mount", "position"] {
         if keys.has(key) {
@@ -59,7 +59,7 @@ pub(super) fn layout(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Vec<Place>> {
     found
 }
 
-fn places(keys: &Keys<'_>, half_angle: f64, axes: DeviceAxes) -> Option<Vec<Place>> {
+fn places(keys: &Keys<'_>, half_angle: f64, axes: DeviceAxes) -> Option<Vec<MountedPosition>> {
     let count = keys.count("count", 1, COUNT_MAX);
     if !keys.has("count") {
         keys.missing("count", "count = 4");
@@ -102,7 +102,11 @@ fn places(keys: &Keys<'_>, half_angle: f64, axes: DeviceAxes) -> Option<Vec<Plac
 }
 
 /// The place of a copy: half a turn about an axis of the hub through B.
-pub(super) fn turned(keys: &Keys<'_>, key: &str, place: &Place) -> Option<Place> {
+pub(super) fn turned(
+    keys: &Keys<'_>,
+    key: &str,
+    place: &MountedPosition,
+) -> Option<MountedPosition> {
     let axis = match keys.text_or_list(key) {
         Some(word) => {
             let number = ["x", "y", "z"].iter().position(|name| *name == word);

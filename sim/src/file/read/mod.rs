@@ -160,13 +160,13 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let hub = hub::hub(&keys, structure.as_ref());
     let devices = device::devices(&keys, folder, structure.as_ref());
     let devices = platform::with_platforms(&keys, devices, folder, structure.as_ref());
-    let joints = joints::Joints::of(&devices);
+    let joints = joints::Joints::of_devices(&devices);
     let settings = settings::settings(&keys);
     let initial = initial::initial(&keys, &devices);
     let gravity = settings::gravity(&keys);
     let changes = over_time::changes(&keys, &joints, settings.as_ref(), folder);
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
-    let known = source::Known {
+    let known = source::SourceContext {
         devices: &devices,
         joints: &joints,
         structure: structure.as_ref(),

@@ -42,7 +42,7 @@ fn change(keys: &Keys<'_>, joints: &Joints, duration: f64, folder: &Path) -> Opt
     let brake = keys.boolean("brake").unwrap_or(false);
     let info = joints.info(joint?)?;
     let given = ["torque", "force", "acceleration", "locked"].into_iter().find(|key| keys.has(key));
-    let drive = drive(keys, info, &JointMeasures::of(info), folder);
+    let drive = drive(keys, info, &JointMeasures::of_joint(info), folder);
     keys.finish();
     let action = match (brake, given) {
         (true, None) => Action::Brake,

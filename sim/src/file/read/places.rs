@@ -13,7 +13,7 @@ use crate::scenario::{Member, Scenario, ScenarioError};
 pub(super) struct Tables(Vec<(String, bool)>);
 
 impl Tables {
-    pub(super) fn of(scenario: &Scenario) -> Self {
+    pub(super) fn from_scenario(scenario: &Scenario) -> Self {
         let path = |(name, member): (&str, Member<'_>)| {
             let is_platform = member.platform().is_some();
             let table = if is_platform { "platform" } else { "device" };

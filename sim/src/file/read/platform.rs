@@ -22,7 +22,7 @@ use precess_dynamics::{
 
 use super::super::keys::Keys;
 use super::body::{Joint, JointMeasures, inertia, joint, mass};
-use super::device::{Device, Of, nodes};
+use super::device::{Device, DeviceOrPlatform, nodes};
 use super::mount::rotation_of;
 use super::structure::Structure;
 use super::suspension::suspension;
@@ -117,7 +117,8 @@ fn read(
     let passive: Vec<_> = joints.iter().map(|(joint, _)| joint.passive).collect();
     of.platform.passive = platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?);
     let joints: Vec<Joint> = joints.into_iter().map(|(joint, _)| joint).collect();
-    let device = Device::new(name, Of::Platform(Box::new(of)), mount.turns, "", &joints);
+    let device =
+        Device::new(name, DeviceOrPlatform::Platform(Box::new(of)), mount.turns, "", &joints);
     Some(Device { node, ..device })
 }
 
@@ -145,7 +146,7 @@ fn of_joint(
     }
     let table = keys.table(&key)?;
     let corner = corner(&table);
-    let found = joint(&table, info, &JointMeasures::of(info), folder);
+    let found = joint(&table, info, &JointMeasures::of_joint(info), folder);
     table.finish();
     Some((found?, corner?))
 }
@@ -264,11 +265,11 @@ pub(super) fn set(arranged: &[Device]) -> Set {
     let mut set = Set::default();
     for device in arranged {
         match &device.of {
-            Of::BuiltIn(own) => match set.1.last_mut() {
+            DeviceOrPlatform::BuiltIn(own) => match set.1.last_mut() {
                 Some(platform) => platform.carried.push(**own),
                 None => set.0.push(**own),
             },
-            Of::Platform(platform) => set.1.push((**platform).clone()),
+            DeviceOrPlatform::Platform(platform) => set.1.push((**platform).clone()),
         }
     }
     set

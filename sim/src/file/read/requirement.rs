@@ -9,23 +9,23 @@ use crate::units::{Dimension, Measure, UnitError, parse_unit};
 const LEVEL: f64 = 0.9973;
 
 /// Words of `statistic`, and the keys that each of them needs.
-const STATISTICS: [(&str, Word); 12] = [
-    ("peak", Word::Peak),
-    ("rms", Word::Rms),
-    ("band_rms", Word::BandRms),
-    ("final", Word::Final),
-    ("drift", Word::Drift),
-    ("displacement", Word::Displacement),
-    ("smear", Word::Smear),
-    ("jitter", Word::Jitter),
-    ("ape", Word::Ape),
-    ("mpe", Word::Mpe),
-    ("rpe", Word::Rpe),
-    ("pde", Word::Pde),
+const STATISTICS: [(&str, StatisticName); 12] = [
+    ("peak", StatisticName::Peak),
+    ("rms", StatisticName::Rms),
+    ("band_rms", StatisticName::BandRms),
+    ("final", StatisticName::Final),
+    ("drift", StatisticName::Drift),
+    ("displacement", StatisticName::Displacement),
+    ("smear", StatisticName::Smear),
+    ("jitter", StatisticName::Jitter),
+    ("ape", StatisticName::Ape),
+    ("mpe", StatisticName::Mpe),
+    ("rpe", StatisticName::Rpe),
+    ("pde", StatisticName::Pde),
 ];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Word {
+enum StatisticName {
     Peak,
     Rms,
     BandRms,
@@ -49,7 +49,7 @@ const OWN: [(&str, &str); 5] = [
     ("level", "level = 0.9973"),
 ];
 
-impl Word {
+impl StatisticName {
     /// Whether it has one of the keys in [`OWN`].
     fn has(self, key: &str) -> bool {
         match key {
@@ -125,18 +125,18 @@ fn statistic(keys: &Keys<'_>) -> Option<Statistic> {
     }
     let index = |index: Index| Some(Statistic::Index { index, level: level? });
     match word {
-        Word::Peak => Some(Statistic::Peak),
-        Word::Rms => Some(Statistic::Rms),
-        Word::BandRms => Some(Statistic::BandRms(band?)),
-        Word::Final => Some(Statistic::Final),
-        Word::Drift => Some(Statistic::Drift),
-        Word::Displacement => Some(Statistic::Displacement(exposure?)),
-        Word::Smear => Some(Statistic::Smear(exposure?)),
-        Word::Jitter => Some(Statistic::Jitter(exposure?)),
-        Word::Ape => index(Index::Ape),
-        Word::Mpe => index(Index::Mpe { window: window? }),
-        Word::Rpe => index(Index::Rpe { window: window? }),
-        Word::Pde => index(Index::Pde { window: window?, stability: stability? }),
+        StatisticName::Peak => Some(Statistic::Peak),
+        StatisticName::Rms => Some(Statistic::Rms),
+        StatisticName::BandRms => Some(Statistic::BandRms(band?)),
+        StatisticName::Final => Some(Statistic::Final),
+        StatisticName::Drift => Some(Statistic::Drift),
+        StatisticName::Displacement => Some(Statistic::Displacement(exposure?)),
+        StatisticName::Smear => Some(Statistic::Smear(exposure?)),
+        StatisticName::Jitter => Some(Statistic::Jitter(exposure?)),
+        StatisticName::Ape => index(Index::Ape),
+        StatisticName::Mpe => index(Index::Mpe { window: window? }),
+        StatisticName::Rpe => index(Index::Rpe { window: window? }),
+        StatisticName::Pde => index(Index::Pde { window: window?, stability: stability? }),
     }
 }
 

@@ -1,4 +1,4 @@
-//! [`LeftOut`]: the static response of modes that a scenario leaves out and of those that its file
+//! [`OmittedModes`]: the static response of modes that a scenario leaves out and of those that its file
 //! never had, as residual coordinates.
 
 use nalgebra::{DMatrix, DVector};
@@ -14,7 +14,7 @@ use crate::structure::{COORDINATES, Mode, Structure};
 const DAMPING: f64 = 0.05;
 
 /// What residual coordinates stand for.
-pub(super) struct LeftOut {
+pub(super) struct OmittedModes {
     /// Residual flexibility of the file, for all its nodes.
     flexibility: Option<DMatrix<f64>>,
     /// Angular frequency, rad/s, and shapes of each mode left out, for all nodes.
@@ -42,7 +42,11 @@ pub(super) fn written(keys: &Keys<'_>) -> usize {
 }
 
 /// `residual_flexibility` and `residual_damping`: what the modes that are not kept leave.
-pub(super) fn wanted(keys: &Keys<'_>, structure: &Structure, kept: &[usize]) -> Option<LeftOut> {
+pub(super) fn wanted(
+    keys: &Keys<'_>,
+    structure: &Structure,
+    kept: &[usize],
+) -> Option<OmittedModes> {
     let wanted = keys.boolean("residual_flexibility").unwrap_or(false);
     let damping = keys.number("residual_damping");
     if !wanted {
@@ -68,10 +72,10 @@ pub(super) fn wanted(keys: &Keys<'_>, structure: &Structure, kept: &[usize]) -> 
         keys.error("residual_flexibility", message, help);
         return None;
     }
-    Some(LeftOut { flexibility, modes, damping })
+    Some(OmittedModes { flexibility, modes, damping })
 }
 
-impl LeftOut {
+impl OmittedModes {
     /// Adds the residual coordinates to a structure whose nodes have these numbers in the file: the
     /// static response at all nodes to forces on those that carry devices.
     pub(super) fn add(

@@ -6,7 +6,7 @@ use std::path::Path;
 use nalgebra::{Matrix3, Vector3};
 
 use super::super::keys::Keys;
-use super::device::{Device, Of};
+use super::device::{Device, DeviceOrPlatform};
 use super::joints::Joints;
 use super::mount::rotation_of;
 use super::source_models::{broadband, harmonics, record};
@@ -16,7 +16,7 @@ use crate::scenario::Settings;
 use crate::units::Measure;
 
 /// What a source may refer to.
-pub(super) struct Known<'a> {
+pub(super) struct SourceContext<'a> {
     pub(super) devices: &'a [Device],
     pub(super) joints: &'a Joints,
     pub(super) structure: Option<&'a Structure>,
@@ -25,19 +25,19 @@ pub(super) struct Known<'a> {
 }
 
 /// What a table names, or one of the members of the layout that it names.
-struct Named<'a> {
+struct SourceReference<'a> {
     name: Cow<'a, str>,
     on: Option<Cow<'a, str>>,
     wheel: Option<Cow<'a, str>>,
 }
 
 /// The sources of a file.
-pub(super) fn sources(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
+pub(super) fn sources(keys: &Keys<'_>, known: &SourceContext<'_>) -> Vec<Disturbance> {
     keys.tables("source").iter().flat_map(|keys| of_table(keys, known)).collect()
 }
 
 /// The sources of one table: one, or one for each member of a layout that its `on` names.
-fn of_table(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
+fn of_table(keys: &Keys<'_>, known: &SourceContext<'_>) -> Vec<Disturbance> {
     if !keys.has("name") {
         keys.missing("name", "name = \"bearing\"");
     }
@@ -49,7 +49,7 @@ fn of_table(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
     let members: Vec<&str> = members.map(|of| of.name.as_str()).collect();
     if members.is_empty() {
         let [on, wheel] = [on, wheel].map(|text| text.map(Cow::Borrowed));
-        return source(keys, known, &Named { name: Cow::Borrowed(name), on, wheel })
+        return source(keys, known, &SourceReference { name: Cow::Borrowed(name), on, wheel })
             .into_iter()
             .collect();
     }
@@ -59,12 +59,20 @@ fn of_table(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
             _ => text.to_owned(),
         };
         let [on, wheel] = [on, wheel].map(|text| text.map(|text| Cow::Owned(own(text))));
-        source(keys, known, &Named { name: Cow::Owned(format!("{name}{number}")), on, wheel })
+        source(
+            keys,
+            known,
+            &SourceReference { name: Cow::Owned(format!("{name}{number}")), on, wheel },
+        )
     };
     members.into_iter().zip(1..).filter_map(of_member).collect()
 }
 
-fn source(keys: &Keys<'_>, known: &Known<'_>, named: &Named<'_>) -> Option<Disturbance> {
+fn source(
+    keys: &Keys<'_>,
+    known: &SourceContext<'_>,
+    named: &SourceReference<'_>,
+) -> Option<Disturbance> {
     let name = named.name.as_ref();
     let on = target(keys, known, named.on.as_deref());
     let point = keys.vector("point", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
@@ -108,7 +116,11 @@ fn window(keys: &Keys<'_>) -> Option<[f64; 2]> {
 }
 
 /// What it exerts: of a name, a spin axis and a seed.
-fn model(keys: &Keys<'_>, of: (&str, usize, Option<u32>), known: &Known<'_>) -> Option<Model> {
+fn model(
+    keys: &Keys<'_>,
+    of: (&str, usize, Option<u32>),
+    known: &SourceContext<'_>,
+) -> Option<Model> {
     let kinds = ["harmonic", "broadband", "record"];
     let given: Vec<_> = kinds.into_iter().filter(|kind| keys.has(kind)).collect();
     let &[kind] = given.as_slice() else {
@@ -128,7 +140,7 @@ fn model(keys: &Keys<'_>, of: (&str, usize, Option<u32>), known: &Known<'_>) -> 
 /// What it acts on, and the wheel that this has.
 fn target(
     keys: &Keys<'_>,
-    known: &Known<'_>,
+    known: &SourceContext<'_>,
     on: Option<&str>,
 ) -> Option<(SourceTarget, Option<usize>)> {
     if !keys.has("on") {
@@ -149,7 +161,7 @@ fn target(
     if let Some(member) = of_device {
         own_axes(keys);
         no_mount(keys);
-        if matches!(known.devices.get(member)?.of, Of::Platform(_)) {
+        if matches!(known.devices.get(member)?.of, DeviceOrPlatform::Platform(_)) {
             let help = format!("write `on = \"{name}.platform\"`");
             keys.error("on", format!("`{name}` is a platform"), &help);
             return None;

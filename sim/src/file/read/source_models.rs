@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::super::keys::Keys;
-use super::components::{Given, beside, given};
+use super::components::{ComponentEntry, beside, given};
 use super::table_file::columns;
 use crate::disturbance::{
     Broadband, COMPONENTS, CoherentPair, Harmonic, Measured, MeasuredInterpolation, RecordFile,
@@ -59,7 +59,7 @@ fn harmonic(
         keys.missing("radial_force", "radial_force = \"0.1 g cm\"");
         return None;
     }
-    for Given { key, components, values } in &amplitudes {
+    for ComponentEntry { key, components, values } in &amplitudes {
         let [amplitude] = values.as_slice() else {
             keys.error(key, format!("`{key}` has {} numbers", values.len()), "write one");
             return None;
@@ -149,9 +149,9 @@ fn coherent(keys: &Keys<'_>) -> Option<CoherentPair> {
     Some(CoherentPair { components: [first, second], coherence: coherence?, phase: phase? })
 }
 
-fn by_component(given: Vec<Given>) -> Six<Vec<f64>> {
+fn by_component(given: Vec<ComponentEntry>) -> Six<Vec<f64>> {
     let mut found: Six<Vec<f64>> = Default::default();
-    for Given { components, values, .. } in given {
+    for ComponentEntry { components, values, .. } in given {
         for (component, _) in components {
             if let Some(to) = found.get_mut(component) {
                 to.clone_from(&values);

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Vector3};
 use super::super::diagnostic::Diagnostic;
 use super::super::document::Value;
 use super::super::keys::Keys;
-use super::residual::{self, LeftOut};
+use super::residual::{self, OmittedModes};
 use crate::file::{StructureReadError, structure_from_file};
 use crate::nearest::nearest;
 use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
@@ -25,7 +25,7 @@ pub(super) struct Structure {
     /// How many of the modes, at the end, are residual coordinates.
     written_residual: usize,
     /// What is wanted as residual coordinates.
-    left_out: Option<LeftOut>,
+    left_out: Option<OmittedModes>,
     used: RefCell<Vec<usize>>,
     contains_devices: bool,
     points: Vec<RecordedPoint>,
@@ -232,7 +232,7 @@ fn selected(
     keys: &Keys<'_>,
     mut structure: Modes,
     residual: usize,
-) -> Option<(Modes, Option<LeftOut>)> {
+) -> Option<(Modes, Option<OmittedModes>)> {
     let massive = structure.modes.len().saturating_sub(residual);
     let most = u32::try_from(massive).unwrap_or(u32::MAX);
     let count = if keys.has("modes") { Some(keys.count("modes", 1, most)?) } else { None };

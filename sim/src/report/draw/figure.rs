@@ -94,7 +94,7 @@ pub(in crate::report) struct Band {
 }
 
 /// Where a band is in the picture, tenths of a unit: time, greatest, least.
-type Placed = [i32; 3];
+type BandPosition = [i32; 3];
 
 pub(in crate::report) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -269,9 +269,10 @@ impl Band {
 }
 
 /// A curve without gaps: a line where it is thin throughout, otherwise a closed band.
-fn path(out: &mut String, run: &[Placed], index: usize) {
+fn path(out: &mut String, run: &[BandPosition], index: usize) {
     if run.iter().all(|[_, greatest, least]| least.saturating_sub(*greatest) <= THIN) {
-        let middle = |[time, greatest, least]: &Placed| [*time, i32::midpoint(*greatest, *least)];
+        let middle =
+            |[time, greatest, least]: &BandPosition| [*time, i32::midpoint(*greatest, *least)];
         let middles: Vec<_> = run.iter().map(middle).collect();
         let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&middles), stroke(index, 13));
         return;

@@ -32,18 +32,18 @@ pub(super) struct Drawing {
     pub(super) slug: String,
     /// Below it on a page.
     pub(super) caption: String,
-    pub(super) figure: Drawn,
+    pub(super) figure: FitDrawing,
 }
 
 /// What is drawn.
-pub(super) enum Drawn {
+pub(super) enum FitDrawing {
     Waterfall(Waterfall),
     Lines(FittedLines),
     Plane(Plane),
     Spectrum(SpectrumFigure),
 }
 
-impl Drawn {
+impl FitDrawing {
     /// As an SVG file of its own.
     pub(super) fn file(&self) -> Result<String, DrawError> {
         match self {
@@ -79,21 +79,25 @@ pub(super) fn drawings(title: &str, fitted: &Fitted) -> Vec<Drawing> {
         };
         let caption =
             format!("{group}: amplitudes over the speed, crosses as measured, curves as fitted.");
-        add("lines", caption, Drawn::Lines(lines(title, fitted, fit, &shown)));
+        add("lines", caption, FitDrawing::Lines(lines(title, fitted, fit, &shown)));
         if let Some((rpm, figure)) = spectrum(title, fitted, fit, index) {
             let caption = format!(
                 "{group}: spectrum at {rpm:.0} rpm with the fitted lines and noise; below, the RMS of all lower frequencies."
             );
-            add("spectrum", caption, Drawn::Spectrum(figure));
+            add("spectrum", caption, FitDrawing::Spectrum(figure));
         }
         let caption = format!(
             "{group}: residuals of powers by their standard deviation; 95 % are within 2 where the model holds."
         );
-        add("residuals", caption, Drawn::Plane(residuals(title, fitted, fit, &shown)));
+        add("residuals", caption, FitDrawing::Plane(residuals(title, fitted, fit, &shown)));
         let caption = format!(
             "{group}: density of each axis over speed and frequency, by its scale; where nothing is drawn it is below the scale. Curves: orders and modes."
         );
-        add("waterfall", caption, Drawn::Waterfall(waterfall(title, fitted, fit, index, &shown)));
+        add(
+            "waterfall",
+            caption,
+            FitDrawing::Waterfall(waterfall(title, fitted, fit, index, &shown)),
+        );
     }
     all
 }

@@ -1,4 +1,4 @@
-//! [`Chart`]: the columns of one picture; [`Drawn`]: their values in the unit of the picture.
+//! [`Chart`]: the columns of one picture; [`ScaledChart`]: their values in the unit of the picture.
 
 use crate::record::Bucket;
 use crate::report::draw::figure::{Band, Figure, Line};
@@ -52,7 +52,7 @@ pub(in crate::report) struct Curve {
 
 /// A chart with its values.
 #[derive(Clone, Debug)]
-pub(in crate::report) struct Drawn {
+pub(in crate::report) struct ScaledChart {
     /// As in [`Chart`].
     pub(in crate::report) part: Part,
     /// As in [`Chart`].
@@ -90,7 +90,7 @@ pub(in crate::report) fn drawn(
     buckets: &[Bucket],
     first: &[f64],
     last: &[f64],
-) -> Drawn {
+) -> ScaledChart {
     let of = |row: &[f64], index: usize| row.get(index).copied().unwrap_or(f64::NAN);
     let offset = |curve: &Curve| if curve.departure { of(first, curve.column) } else { 0.0 };
     let mut peak = 0.0_f64;
@@ -111,7 +111,7 @@ pub(in crate::report) fn drawn(
             curve: curve.clone(),
         }
     });
-    Drawn {
+    ScaledChart {
         part: chart.part,
         slug: chart.slug.clone(),
         title: chart.title.clone(),
@@ -123,7 +123,7 @@ pub(in crate::report) fn drawn(
     }
 }
 
-impl Drawn {
+impl ScaledChart {
     /// Whether every value is zero.
     pub(in crate::report) fn is_zero(&self) -> bool {
         self.curves.iter().all(|curve| curve.min.iter().chain(&curve.max).all(|v| *v == 0.0))

@@ -36,7 +36,8 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
             Quantity::Quaternion(_) if mrp => None,
             quantity => found(quantity, index, column, (&joints[..], &bodies[..])),
         };
-        let Some(Found { key, part, slug, title, axis, family, label, departure }) = found else {
+        let Some(ChartColumn { key, part, slug, title, axis, family, label, departure }) = found
+        else {
             continue;
         };
         let name = column.name.clone();
@@ -71,7 +72,7 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
 }
 
 /// Where a column belongs.
-struct Found {
+struct ChartColumn {
     /// Orders the charts.
     key: (usize, usize),
     part: Part,
@@ -92,7 +93,7 @@ fn found(
     index: usize,
     column: &Column,
     joints: (&Joints<'_>, &[&str]),
-) -> Option<Found> {
+) -> Option<ChartColumn> {
     Some(match quantity {
         Quantity::Time => return None,
         Quantity::Omega(axis) => {
@@ -218,8 +219,8 @@ fn of_hub(
     [slug, title, axis]: [&'static str; 3],
     family: &'static Family,
     [symbol, index]: [&str; 2],
-) -> Found {
-    Found {
+) -> ChartColumn {
+    ChartColumn {
         key: (rank, 0),
         part: if rank < 20 { Part::Histories } else { Part::Energy },
         slug: slug.to_owned(),
@@ -237,7 +238,7 @@ fn of_joint(
     [of_wheel, of_slide, of_turn]: &JointTexts,
     joint: usize,
     (joints, bodies): (&Joints<'_>, &[&str]),
-) -> Option<Found> {
+) -> Option<ChartColumn> {
     let (_, device, info) = joints.get(joint)?;
     let body = bodies.iter().position(|body| *body == info.body).unwrap_or_default();
     let (what, axis, family) = match info.body {
@@ -245,7 +246,7 @@ fn of_joint(
         _ if info.slides => *of_slide,
         _ => *of_turn,
     };
-    Some(Found {
+    Some(ChartColumn {
         key: (rank, body),
         part: Part::Histories,
         slug: hyphenated(&format!("{} {what}", info.body)),
@@ -264,8 +265,8 @@ fn of_point(
     family: &'static Family,
     [symbol, index]: [&str; 2],
     column: &Column,
-) -> Found {
-    Found {
+) -> ChartColumn {
+    ChartColumn {
         key,
         part: Part::Histories,
         slug: hyphenated(column.vector.as_deref().unwrap_or_default()),
@@ -284,8 +285,8 @@ fn of_modes(
     family: &'static Family,
     symbol: &'static str,
     mode: usize,
-) -> Found {
-    Found {
+) -> ChartColumn {
+    ChartColumn {
         key: (rank, 0),
         part: Part::Histories,
         slug: hyphenated(what),
@@ -298,9 +299,9 @@ fn of_modes(
 }
 
 /// A chart for the force and one for the moment of each source.
-fn of_disturbance(source: usize, component: usize, column: &Column) -> Found {
+fn of_disturbance(source: usize, component: usize, column: &Column) -> ChartColumn {
     let (axis, family, symbol) = if component < 3 { FORCE } else { MOMENT };
-    Found {
+    ChartColumn {
         key: (17, 2 * source + component / 3),
         part: Part::Histories,
         slug: hyphenated(column.vector.as_deref().unwrap_or(&column.name)),
@@ -312,13 +313,18 @@ fn of_disturbance(source: usize, component: usize, column: &Column) -> Found {
     }
 }
 
-fn of_load((name, family, symbol): LoadTexts, axis: usize, index: usize, column: &Column) -> Found {
+fn of_load(
+    (name, family, symbol): LoadTexts,
+    axis: usize,
+    index: usize,
+    column: &Column,
+) -> ChartColumn {
     // The meaning ends in the component: "…, x".
     let meaning = column.meaning.rsplit_once(',').map_or(column.meaning.as_str(), |(what, _)| what);
     let device = column.group.split('.').next().unwrap_or_default();
     let title = capitalised(meaning.strip_suffix(", component").unwrap_or(meaning));
     let title = if title.contains(device) { title } else { format!("{}: {title}", plain(device)) };
-    Found {
+    ChartColumn {
         // The components of a vector follow each other; the first one's index stands for all.
         key: (30, index - axis.min(index)),
         part: Part::Loads,

@@ -12,9 +12,11 @@ use crate::scenario::{Scenario, joint_key};
 /// The tables; empty for a scenario that the solver rejects.
 pub(in crate::report) fn blocks(scenario: &Scenario) -> Vec<Block> {
     let Ok(spacecraft) = scenario.spacecraft() else { return Vec::new() };
-    let Ok(properties) = MassProperties::of(scenario, &spacecraft) else { return Vec::new() };
+    let Ok(properties) = MassProperties::from_spacecraft(scenario, &spacecraft) else {
+        return Vec::new();
+    };
     let mut blocks = vec![whole(scenario, &properties), devices(scenario)];
-    if let Ok(matrix) = MassMatrix::of(scenario, &spacecraft) {
+    if let Ok(matrix) = MassMatrix::from_spacecraft(scenario, &spacecraft) {
         blocks.push(motors(scenario, &matrix));
     }
     blocks

@@ -77,7 +77,7 @@ struct Window {
 impl Collector {
     /// The collector of a run; none where a column that a frame needs is not recorded.
     pub(in crate::report) fn new(header: &Header, scenario: &Scenario) -> Option<Self> {
-        let sources = Sources::of(header, scenario)?;
+        let sources = Sources::new(header, scenario)?;
         let joints = joints(scenario);
         // Of a frame: ten doubles and six singles, and a double and a single for each joint.
         let bytes = (64 + 12 * joints.len()) * 4 / 3;
@@ -126,9 +126,9 @@ impl Collector {
         if frames.len() < 2 || !frames.iter().flatten().all(|number| number.is_finite()) {
             return None;
         }
-        let mut windows = vec![Window::of("whole run".to_owned(), &frames, 1.0)];
+        let mut windows = vec![Window::from_frames("whole run".to_owned(), &frames, 1.0)];
         if let Some((label, frames, magnify)) = self.turns.window() {
-            windows.push(Window::of(label, &frames, magnify));
+            windows.push(Window::from_frames(label, &frames, magnify));
         }
         let step = frames.windows(2).map(|pair| {
             let size = |frame: &Frame| frame[5..8].iter().map(|w| w * w).sum::<f64>().sqrt();
@@ -144,7 +144,7 @@ impl Collector {
 }
 
 impl Sources {
-    fn of(header: &Header, scenario: &Scenario) -> Option<Self> {
+    fn new(header: &Header, scenario: &Scenario) -> Option<Self> {
         let index = |quantity: Quantity| {
             header.columns.iter().position(|column| column.quantity == quantity)
         };
@@ -179,7 +179,7 @@ impl Sources {
 }
 
 impl Window {
-    fn of(label: String, frames: &[Frame], magnify: f64) -> Self {
+    fn from_frames(label: String, frames: &[Frame], magnify: f64) -> Self {
         let joints = frames.first().map_or(0, |frame| (frame.len() - COORDINATES) / 2);
         let part = |from: usize, count: usize| -> Vec<f64> {
             frames.iter().flat_map(|frame| frame[from..from + count].iter().copied()).collect()

@@ -29,7 +29,7 @@ use zip::ZipArchive;
 use zip::write::SimpleFileOptions;
 
 use super::modes::of_columns;
-use super::{COORDINATES, Fault, Node, Place, RigidMass, Structure, StructureError};
+use super::{COORDINATES, Fault, FileLocation, Node, RigidMass, Structure, StructureError};
 use npy::{Array, array};
 pub(crate) use npy::{numbers, texts};
 
@@ -47,7 +47,7 @@ pub(crate) struct Members {
 /// # Errors
 /// The member, what is wrong with it, and what is needed.
 pub fn read(bytes: &[u8]) -> Result<Structure, StructureError> {
-    let members = Members::of(bytes)?;
+    let members = Members::from_bytes(bytes)?;
     let format = members.needed("format")?.text().map_err(|f| f.at(member("format")))?;
     if format != FORMAT {
         let fault = Fault::Type { found: format, wanted: FORMAT };
@@ -157,7 +157,7 @@ pub(crate) fn named_columns(
     bytes: &[u8],
     names: &[(&str, bool)],
 ) -> Result<Vec<Vec<f64>>, StructureError> {
-    let members = Members::of(bytes)?;
+    let members = Members::from_bytes(bytes)?;
     let column = |(name, needed): &(&str, bool)| {
         if !needed && members.get(name).is_none() {
             return Ok(Vec::new());
@@ -180,13 +180,13 @@ pub(crate) fn archived(members: &[(&str, Vec<u8>)]) -> std::io::Result<Vec<u8>> 
     Ok(archive.finish()?.into_inner())
 }
 
-fn member(name: &str) -> Place {
-    Place::Member(name.to_owned())
+fn member(name: &str) -> FileLocation {
+    FileLocation::Member(name.to_owned())
 }
 
 impl Members {
     /// All arrays of an archive.
-    pub(crate) fn of(bytes: &[u8]) -> Result<Self, StructureError> {
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, StructureError> {
         let failure = |error: zip::result::ZipError| {
             StructureError::from(Fault::Io(std::io::Error::other(error.to_string())))
         };

@@ -8,7 +8,7 @@
 //!
 //! A column behind the last one ends the matrix; one number follows it.
 
-use super::super::{Fault, Place, StructureError};
+use super::super::{Fault, FileLocation, StructureError};
 use super::{Header, Layout, Matrix, Run, unpacked};
 
 /// Numbers in a line, and letters of a number, at most.
@@ -40,7 +40,7 @@ impl<'a> Lines<'a> {
     }
 
     fn fault(&self, fault: Fault) -> StructureError {
-        fault.at(Place::Line(self.number))
+        fault.at(FileLocation::Line(self.number))
     }
 
     /// The integer of some letters of a line.

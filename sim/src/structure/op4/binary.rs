@@ -4,7 +4,7 @@
 //! 64 bits. Each column is a record of three integers (column, first row, count of words) and its numbers,
 //! in runs where the first row is 0. A word has 4 bytes, or 8 with integers of 64 bits.
 
-use super::super::{Fault, Place, StructureError};
+use super::super::{Fault, FileLocation, StructureError};
 use super::{Header, Layout, Matrix, Run, unpacked};
 
 /// Lengths of a header, bytes.
@@ -51,7 +51,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Matrix>, StructureError> {
 
 impl<'a> Bytes<'a> {
     fn fault(&self, fault: Fault) -> StructureError {
-        fault.at(Place::Byte(self.at))
+        fault.at(FileLocation::Byte(self.at))
     }
 
     fn take(&mut self, count: usize, wanted: &str) -> Result<&'a [u8], StructureError> {

@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 
 use nalgebra::DMatrix;
 
-use super::{Fault, Place, StructureError};
+use super::{Fault, FileLocation, StructureError};
 
 pub use of_structure::of_structure;
 pub use write::write;
@@ -177,7 +177,7 @@ impl Matrix {
     /// # Errors
     /// [`Fault::Complex`]; [`Fault::Number`] for a row beyond the matrix or too many elements.
     pub fn rows(&self, rows: &[Option<usize>]) -> Result<DMatrix<f64>, StructureError> {
-        let member = || Place::Member(self.name.clone());
+        let member = || FileLocation::Member(self.name.clone());
         if self.complex {
             return Err(Fault::Complex.at(member()));
         }
@@ -209,7 +209,7 @@ impl Matrix {
     /// As [`rows`](Self::rows).
     pub fn dense(&self) -> Result<DMatrix<f64>, StructureError> {
         if self.complex {
-            return Err(Fault::Complex.at(Place::Member(self.name.clone())));
+            return Err(Fault::Complex.at(FileLocation::Member(self.name.clone())));
         }
         self.bounded(self.rows)?;
         let mut dense = DMatrix::zeros(self.rows, self.columns);
@@ -236,7 +236,7 @@ impl Matrix {
         }
         let what = String::from("elements of a dense matrix");
         let fault = Fault::Number { what, found, range: [0, MOST_ELEMENTS] };
-        Err(fault.at(Place::Member(self.name.clone())))
+        Err(fault.at(FileLocation::Member(self.name.clone())))
     }
 
     /// The elements of a vector, or of the diagonal of a square matrix.
@@ -256,7 +256,7 @@ impl Matrix {
             found: vec![self.rows, self.columns],
             wanted: vec![self.rows, 1],
         };
-        Err(fault.at(Place::Member(self.name.clone())))
+        Err(fault.at(FileLocation::Member(self.name.clone())))
     }
 
     /// The line of this matrix in a list.

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::super::{Fault, Place, StructureError};
+use super::super::{Fault, FileLocation, StructureError};
 use super::{Matrix, Run};
 
 /// Words of 32 bits of a number.
@@ -53,7 +53,8 @@ impl Matrix {
 pub fn write(matrices: &[Matrix]) -> Result<Vec<u8>, StructureError> {
     let mut file = Vec::new();
     for matrix in matrices {
-        one(matrix, &mut file).map_err(|fault| fault.at(Place::Member(matrix.name.clone())))?;
+        one(matrix, &mut file)
+            .map_err(|fault| fault.at(FileLocation::Member(matrix.name.clone())))?;
     }
     Ok(file)
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::commands::cases;
-use crate::{Ended, precess};
+use crate::{CommandResult, precess};
 
 /// A result of 401 samples, and its text.
 fn result(folder: &str) -> (PathBuf, String) {
@@ -20,7 +20,7 @@ fn put(folder: &Path, name: &str, text: &str) -> String {
     path.to_str().expect("text").to_owned()
 }
 
-fn spectrum(folder: &Path, file: &str) -> Ended {
+fn spectrum(folder: &Path, file: &str) -> CommandResult {
     let out = folder.join("spectra");
     precess(&["spectrum", file, "--force", "--out", out.to_str().expect("text")])
 }

@@ -1,14 +1,14 @@
-//! [`Between`]: only the samples of an interval.
+//! [`IntervalRecorder`]: only the samples of an interval.
 
 use super::{Header, Outcome, RecordError, Recorder};
 
 /// Passes the samples from one time to another, both included, to a recorder.
-pub struct Between<'a> {
+pub struct IntervalRecorder<'a> {
     interval: [f64; 2],
     recorder: &'a mut dyn Recorder,
 }
 
-impl<'a> Between<'a> {
+impl<'a> IntervalRecorder<'a> {
     /// The samples of an interval, s.
     #[must_use]
     pub fn new(interval: [f64; 2], recorder: &'a mut dyn Recorder) -> Self {
@@ -16,7 +16,7 @@ impl<'a> Between<'a> {
     }
 }
 
-impl Recorder for Between<'_> {
+impl Recorder for IntervalRecorder<'_> {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
         self.recorder.begin(header)
     }

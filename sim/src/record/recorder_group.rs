@@ -1,14 +1,14 @@
-//! [`Many`]: several recorders of one run.
+//! [`RecorderGroup`]: several recorders of one run.
 
 use super::{Header, Outcome, RecordError, Recorder};
 
 /// Passes everything to each recorder in order; the first error ends it.
 #[derive(Default)]
-pub struct Many<'a> {
+pub struct RecorderGroup<'a> {
     recorders: Vec<&'a mut dyn Recorder>,
 }
 
-impl<'a> Many<'a> {
+impl<'a> RecorderGroup<'a> {
     /// Recorders in order.
     #[must_use]
     pub fn new(recorders: Vec<&'a mut dyn Recorder>) -> Self {
@@ -21,7 +21,7 @@ impl<'a> Many<'a> {
     }
 }
 
-impl Recorder for Many<'_> {
+impl Recorder for RecorderGroup<'_> {
     fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
         self.recorders.iter_mut().try_for_each(|recorder| recorder.begin(header))
     }

@@ -6,16 +6,18 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::partial::{Partial, partial_name};
-use super::{Csv, Decimate, End, Header, Many, Npz, Outcome, Recorder, Samples, Statistics, Steps};
-use crate::engine::checks::turning_panel;
+use super::{
+    Csv, Decimate, End, Header, Npz, Outcome, Recorder, RecorderGroup, Samples, Statistics, Steps,
+};
 use crate::engine::run;
+use crate::engine::tests::turning_panel;
 use crate::pointing::{ExposureWeights, Index};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// A run into recorders; all its samples.
 fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Samples) {
     let mut samples = Samples::default();
-    let mut both = Many::new(vec![&mut samples, recorder]);
+    let mut both = RecorderGroup::new(vec![&mut samples, recorder]);
     let outcome = run(scenario, &mut both, &mut |_| ControlFlow::Continue(())).expect("it runs");
     (outcome, samples)
 }

@@ -1,4 +1,4 @@
-//! [`Row`]: the numbers of a sample. Only what the columns need is computed: no accelerations, no
+//! [`SampleValues`]: the numbers of a sample. Only what the columns need is computed: no accelerations, no
 //! loads, no momenta where no column shows them.
 
 use std::f64::consts::TAU;
@@ -21,7 +21,7 @@ use precess_craft::{CraftAccelerations, CraftInputs};
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
-pub(crate) struct Row {
+pub(crate) struct SampleValues {
     quantities: Vec<Quantity>,
     numbers: Vec<f64>,
     accelerations: bool,
@@ -55,7 +55,7 @@ struct Computed<'a> {
     momentum: Option<Momentum>,
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
-    accelerations: Option<Found>,
+    accelerations: Option<SampleAccelerations>,
     /// Motor and mode of each joint.
     motors: Option<Vec<(f64, Mode)>>,
     loads: Option<MemberLoads>,
@@ -65,13 +65,13 @@ struct Computed<'a> {
 }
 
 /// Accelerations: inertial of B and angular of the hub, both expressed in B, and of each joint.
-struct Found {
+struct SampleAccelerations {
     b: Vector3<f64>,
     omega_dot: Vector3<f64>,
     joints: Vec<f64>,
 }
 
-impl Row {
+impl SampleValues {
     pub(crate) fn new(scenario: &Scenario, columns: Columns) -> Self {
         let quantities: Vec<_> = columns.into_iter().map(|column| column.quantity).collect();
         let any = |source| quantities.iter().any(|quantity| quantity.source() == source);
@@ -166,7 +166,7 @@ impl Row {
             mrp: Mrp::from(state.rigid.attitude),
             momentum,
             joints: state.rigid.devices.states().collect(),
-            accelerations: found.map(|found| Found {
+            accelerations: found.map(|found| SampleAccelerations {
                 b: found.rigid.r_b_n_ddot,
                 omega_dot: found.rigid.omega_dot,
                 joints: found.rigid.devices.values().collect(),

@@ -8,7 +8,7 @@ use precess_dynamics::{
     SolveError, Spacecraft, State,
 };
 
-use crate::{Acting, Ends, Lanes, Made, PART, SEGMENT, Steps, Watch};
+use crate::{Acting, BatchSupport, Lanes, PART, RunObserver, SEGMENT, StateResults, Steps};
 
 /// Numbers of the hub in a flat state.
 const HUB: usize = 13;
@@ -17,20 +17,22 @@ const HUB: usize = 13;
 pub(crate) type Set<K> = Vec<K>;
 
 /// Accelerations of a state.
-type Found<K> = Result<Accelerations<Set<K>>, SolveError<f64>>;
+type KindAccelerations<K> = Result<Accelerations<Set<K>>, SolveError<f64>>;
 
 /// A batch of one spacecraft for every state, or of one for each, part by part.
-struct Crafts<K: Kind<Scalar = f64>> {
+struct KindBatch<K: Kind<Scalar = f64>> {
     each: bool,
     parts: Vec<Batch<Set<K>>>,
 }
 
 /// The batch, and what is wrong with each spacecraft: in its place stands the first sound one.
-pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: bool) -> Made {
+pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: bool) -> BatchSupport {
     if !each {
-        let Some((hub, devices)) = crafts.first() else { return Made::Unsupported };
+        let Some((hub, devices)) = crafts.first() else { return BatchSupport::Unsupported };
         return match Batch::new(hub, devices) {
-            Ok(batch) => Made::Lanes(Box::new(Crafts { each, parts: vec![batch] }), vec![None]),
+            Ok(batch) => {
+                BatchSupport::Lanes(Box::new(KindBatch { each, parts: vec![batch] }), vec![None])
+            }
             Err(error) => failed(vec![Some(error)]),
         };
     }
@@ -41,28 +43,35 @@ pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: boo
     };
     let sound: Vec<_> = made.into_iter().map(|of| of.unwrap_or_else(|_| sound.clone())).collect();
     let parts = sound.chunks(PART).map(|part| Batch::from_spacecraft(part.to_vec())).collect();
-    Made::Lanes(Box::new(Crafts { each, parts }), errors)
+    BatchSupport::Lanes(Box::new(KindBatch { each, parts }), errors)
 }
 
 /// No spacecraft is sound.
-fn failed(errors: Vec<Option<ParameterError<f64>>>) -> Made {
-    Made::Lanes(Box::new(Nothing), errors)
+fn failed(errors: Vec<Option<ParameterError<f64>>>) -> BatchSupport {
+    BatchSupport::Lanes(Box::new(EmptyBatch), errors)
 }
 
 /// A batch of no sound spacecraft: nothing is asked of it.
-struct Nothing;
+struct EmptyBatch;
 
-impl Lanes for Nothing {
-    fn accelerations(&self, _: usize, _: &[f64], _: &[Acting], _: &mut [f64]) -> Ends {
+impl Lanes for EmptyBatch {
+    fn accelerations(&self, _: usize, _: &[f64], _: &[Acting], _: &mut [f64]) -> StateResults {
         Vec::new()
     }
 
-    fn run(&self, _: usize, _: &mut [f64], _: &[Acting], _: Steps, _: Watch<'_>) -> Ends {
+    fn run(
+        &self,
+        _: usize,
+        _: &mut [f64],
+        _: &[Acting],
+        _: Steps,
+        _: RunObserver<'_>,
+    ) -> StateResults {
         Vec::new()
     }
 }
 
-impl<K: Kind<Scalar = f64>> Crafts<K> {
+impl<K: Kind<Scalar = f64>> KindBatch<K> {
     /// A spacecraft of the shape of all.
     fn shape(&self) -> Option<&Spacecraft<Set<K>>> {
         self.parts.first()?.spacecraft().first()
@@ -74,8 +83,14 @@ impl<K: Kind<Scalar = f64>> Crafts<K> {
     }
 }
 
-impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
-    fn accelerations(&self, part: usize, y: &[f64], inputs: &[Acting], out: &mut [f64]) -> Ends {
+impl<K: Kind<Scalar = f64>> Lanes for KindBatch<K> {
+    fn accelerations(
+        &self,
+        part: usize,
+        y: &[f64],
+        inputs: &[Acting],
+        out: &mut [f64],
+    ) -> StateResults {
         let Some(shape) = self.shape() else { return Vec::new() };
         let states = states(shape, y);
         let inputs = inputs_of(shape, inputs);
@@ -87,7 +102,7 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         }
         let width = out.len() / states.len().max(1);
         let rows = out.chunks_exact_mut(width.max(1));
-        let one = |(row, found): (&mut [f64], Found<K>)| {
+        let one = |(row, found): (&mut [f64], KindAccelerations<K>)| {
             let found = found?;
             let hub = found.r_b_n_ddot.iter().chain(found.omega_dot.iter()).copied();
             let numbers = hub.chain(found.devices.values());
@@ -103,8 +118,8 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         y: &mut [f64],
         inputs: &[Acting],
         steps: Steps,
-        watch: Watch<'_>,
-    ) -> Ends {
+        watch: RunObserver<'_>,
+    ) -> StateResults {
         let (Some(shape), Some(batch)) = (self.shape(), self.part(part)) else {
             return Vec::new();
         };

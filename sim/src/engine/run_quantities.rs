@@ -1,8 +1,8 @@
-//! [`Keep`]: what a run computes beside its motion.
+//! [`RunQuantities`]: what a run computes beside its motion.
 
 /// What a run computes beside the motion and its samples. Motion and samples are the same, to the bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Keep {
+pub enum RunQuantities {
     /// Work of all sources, drift of what is conserved, the largest rate of each joint.
     #[default]
     All,

@@ -1,4 +1,4 @@
-//! [`Places`]: where the devices and joints of a set, in its order, are in the caller's arrays, which have
+//! [`EntryMap`]: where the devices and joints of a set, in its order, are in the caller's arrays, which have
 //! the order of the entries.
 
 use precess_dynamics::MAX_JOINTS;
@@ -9,14 +9,14 @@ const JOINTS: usize = MAX_DEVICES * MAX_JOINTS;
 
 /// Entry of each device, entry and number of each joint, in the order of the set.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Places {
+pub(crate) struct EntryMap {
     entries: [u8; MAX_DEVICES],
     devices: u8,
     joints: [[u8; 2]; JOINTS],
     count: u8,
 }
 
-impl Places {
+impl EntryMap {
     /// Of no devices.
     pub(crate) const fn none() -> Self {
         Self { entries: [0; MAX_DEVICES], devices: 0, joints: [[0; 2]; JOINTS], count: 0 }
