@@ -2,7 +2,7 @@
 
 use precess_dynamics::{Quantity, SolveError};
 
-use super::system::System;
+use super::equations::system::System;
 use crate::record::RunError;
 
 /// A cosine of the y turn below it is a right angle: the inertia of the x turn has fallen by its square.

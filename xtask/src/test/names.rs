@@ -40,6 +40,8 @@ const MOVED: &[(&str, &str)] = &[
         "sim/src/command/options.rs an_override_needs_no_quotation_marks_of_its_own",
     ),
     ("sim/src/engine/checks/", "sim/src/engine/tests/"),
+    ("sim/src/engine/clipping.rs ", "sim/src/engine/events/clipping.rs "),
+    ("sim/src/engine/roots.rs ", "sim/src/engine/events/roots.rs "),
     ("sim/src/record/checks.rs ", "sim/src/record/tests.rs "),
     (
         "dynamics/src/numbers/sincos_checks.rs fused_sine_is_odd_and_cosine_even_to_the_bit",

@@ -10,7 +10,7 @@ use precess_dynamics::{
 
 use super::{DOP853, column, last, recorded, scenario};
 use crate::engine::Run;
-use crate::engine::kinematics::{Chain, momenta};
+use crate::engine::equations::kinematics::{Chain, momenta};
 use crate::scenario::{IntegratorChoice, Scenario};
 
 /// Sums over some bodies in another order; a few hundred roundings of 2e-16.

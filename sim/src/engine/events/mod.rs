@@ -5,17 +5,21 @@
 //! and leaves it at the end. The passage is bracketed by steps of their own from the start of the
 //! step, so its time is that of the numerical solution, to 1e-12 s or four roundings of the time.
 
+mod clipping;
+mod roots;
+pub(super) mod segments;
+
 use precess_dynamics::Attitude;
 
-use super::inputs::Acting;
-use super::integrator::{Moment, Stepper};
-use super::packing::Layout;
-use super::roots::bracket;
-use super::system::System;
+use crate::engine::equations::inputs::Acting;
+use crate::engine::equations::packing::Layout;
+use crate::engine::equations::system::System;
+use crate::engine::integration::{Moment, Stepper};
 use crate::nearest::nearest;
 use crate::record::RunError;
 use crate::record::columns::Quantity;
 use crate::scenario::{Drive, EndStop, Scenario, StopAction};
+use roots::bracket;
 
 /// Width of the bracket of a passage, s.
 const WIDTH: f64 = 1e-12;

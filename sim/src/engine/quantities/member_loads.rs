@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{DeviceLoads, Loads, Wrench};
 
-use super::kinematics::Chain;
+use crate::engine::equations::kinematics::Chain;
 use crate::record::columns::Quantity;
 use crate::scenario::Set;
 

@@ -6,10 +6,10 @@
 
 use std::ops::ControlFlow;
 
-use super::RunQuantities;
 #[cfg(feature = "lanes")]
 use super::lanes::Lanes;
 use super::recorded::Recorded;
+use crate::engine::equations::run_quantities::RunQuantities;
 use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 

@@ -7,10 +7,10 @@
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode, SolveError};
 
+use super::Moment;
 use super::dop853::same;
-use super::integrator::Moment;
-use super::run_quantities::RunQuantities;
-use super::system::{System, work_of};
+use crate::engine::equations::run_quantities::RunQuantities;
+use crate::engine::equations::system::{System, work_of};
 use crate::record::RunError;
 use precess_craft::CraftState;
 

@@ -10,7 +10,7 @@ use differential_equations::status::Status;
 use precess_dynamics::SolveError;
 
 use super::dense::Dense;
-use super::system::System;
+use crate::engine::equations::system::System;
 use crate::record::{Fault, RunError};
 use crate::scenario::steps_max;
 

@@ -11,10 +11,10 @@ use precess_dynamics::{
 };
 
 use super::drift::energies;
-use super::integrator::Moment;
 use super::member_loads::MemberLoads;
-use super::system::System;
 use crate::disturbance::Six;
+use crate::engine::equations::system::System;
+use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftInputs};

@@ -3,12 +3,16 @@
 //! Joint angles are those of the integrator: DOP853's are reduced by whole turns, which [`Stepper`]
 //! counts, RK4's are not.
 
-use super::dop853::Dop853;
-use super::rk4::Rk4;
-use super::system::System;
+mod dense;
+pub(super) mod dop853;
+mod rk4;
+
+use crate::engine::equations::system::System;
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
+use dop853::Dop853;
 use precess_craft::CraftState;
+use rk4::Rk4;
 
 /// A state and both integrals.
 #[derive(Clone, Debug)]

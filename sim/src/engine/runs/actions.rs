@@ -4,9 +4,9 @@ use precess_dynamics::Mode;
 use precess_dynamics::kind::Each;
 
 use super::Run;
-use super::dop853::same;
-use super::inputs::LOCKED;
-use super::packing::Layout;
+use crate::engine::equations::inputs::LOCKED;
+use crate::engine::equations::packing::Layout;
+use crate::engine::integration::dop853::same;
 use crate::record::{End, RunError};
 use crate::scenario::{Action, Drive, Profile};
 

@@ -11,9 +11,9 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
-use super::integrator::Moment;
-use super::kinematics::{Sizes, magnitude, momenta};
-use super::system::{System, lumped};
+use crate::engine::equations::kinematics::{Sizes, magnitude, momenta};
+use crate::engine::equations::system::{System, lumped};
+use crate::engine::integration::Moment;
 use crate::record::Drift;
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftInputs, CraftState};

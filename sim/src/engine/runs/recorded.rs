@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::sampling::Sampling;
-use super::{Advance, Run, RunQuantities};
+use super::{Advance, Run};
+use crate::engine::equations::run_quantities::RunQuantities;
 use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
 

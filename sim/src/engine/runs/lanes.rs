@@ -7,8 +7,10 @@ use precess_dynamics::JointStates as _;
 use precess_dynamics::kind::Each as _;
 use precess_lanes::{Acting, Motion, SideBySide, side_by_side};
 
+use super::Run;
 use super::recorded::Recorded;
-use super::{Craft, CraftState, Run, RunQuantities};
+use crate::engine::equations::run_quantities::RunQuantities;
+use crate::engine::{Craft, CraftState};
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 

@@ -4,9 +4,9 @@
 //! jumps it is the value after the jump, at the end of the run the one before.
 
 use super::Run;
-use super::dop853::same;
-use super::integrator::Moment;
-use super::sample_values::SampleValues;
+use crate::engine::integration::Moment;
+use crate::engine::integration::dop853::same;
+use crate::engine::quantities::sample_values::SampleValues;
 use crate::record::columns::Columns;
 use crate::record::{Header, Recorder, RunError};
 use crate::scenario::Scenario;

@@ -1,0 +1,5 @@
+//! What is computed of a state: the numbers of a sample, the loads of members, and the drift of conserved quantities.
+
+pub(super) mod drift;
+pub(super) mod member_loads;
+pub(super) mod sample_values;
