@@ -11,7 +11,7 @@ use nalgebra::{Matrix2x3, Unit, Vector3};
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
 use super::load::{Override, Overrides};
-use super::read::mount::direction;
+use super::read::values::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
-use super::read::mount::direction;
+use super::read::values::mount::direction;
 use super::read_file::{folder_of, read_file};
 use super::waterfall::waterfall;
 use crate::fit::device::Rotor;

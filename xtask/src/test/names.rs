@@ -42,6 +42,11 @@ const MOVED: &[(&str, &str)] = &[
     ("sim/src/engine/checks/", "sim/src/engine/tests/"),
     ("sim/src/engine/clipping.rs ", "sim/src/engine/events/clipping.rs "),
     ("sim/src/engine/roots.rs ", "sim/src/engine/events/roots.rs "),
+    ("sim/src/file/read/check.rs ", "sim/src/file/read/check/mod.rs "),
+    ("sim/src/file/read/columns.rs ", "sim/src/file/read/output/columns.rs "),
+    ("sim/src/file/read/places.rs ", "sim/src/file/read/check/spans.rs "),
+    ("sim/src/file/read/requirement.rs ", "sim/src/file/read/output/requirement.rs "),
+    ("sim/src/file/read/turns.rs ", "sim/src/file/read/values/turns.rs "),
     ("sim/src/record/checks.rs ", "sim/src/record/tests.rs "),
     (
         "dynamics/src/numbers/sincos_checks.rs fused_sine_is_odd_and_cosine_even_to_the_bit",

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::{Hub, HubMode};
 
 use super::super::keys::Keys;
-use super::body;
+use super::devices::body;
 use super::structure::Structure;
 use crate::structure::RigidMass;
 use crate::units::Measure;

@@ -1,30 +1,14 @@
 //! The tree of a scenario file into a [`Scenario`].
 
-pub(super) mod body;
+mod changes_and_wrenches;
 mod check;
-mod columns;
-mod components;
-mod copies;
-mod device;
-mod drive;
+pub(super) mod devices;
 mod hub;
-mod initial;
-mod joints;
-mod layout;
-pub(super) mod mount;
 mod output;
-mod over_time;
-mod places;
-mod platform;
-mod requirement;
-mod residual;
 mod settings;
-mod source;
-mod source_models;
+mod sources;
 mod structure;
-mod suspension;
-mod table_file;
-mod turns;
+pub(super) mod values;
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -34,7 +18,7 @@ use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
-pub(crate) use device::{has_inertia, has_mass, has_origin};
+pub(crate) use devices::device::{has_inertia, has_mass, has_origin};
 
 use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};
@@ -125,7 +109,7 @@ pub(super) fn scenario(
     let cell = RefCell::new(reports);
     let scenario = read(&node, path, stem, folder, &cell);
     if let Some(scenario) = scenario.as_ref().filter(|_| !cell.borrow().has_errors()) {
-        columns::check(&node, scenario, &cell);
+        output::columns::check(&node, scenario, &cell);
     }
     let mut reports = cell.into_inner();
     match scenario {
@@ -158,25 +142,25 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let structure = structure::structure(&keys, folder);
     let structure_file = structure::file(&keys, folder);
     let hub = hub::hub(&keys, structure.as_ref());
-    let devices = device::devices(&keys, folder, structure.as_ref());
-    let devices = platform::with_platforms(&keys, devices, folder, structure.as_ref());
-    let joints = joints::Joints::of_devices(&devices);
+    let devices = devices::device::devices(&keys, folder, structure.as_ref());
+    let devices = devices::platform::with_platforms(&keys, devices, folder, structure.as_ref());
+    let joints = devices::joints::Joints::of_devices(&devices);
     let settings = settings::settings(&keys);
-    let initial = initial::initial(&keys, &devices);
+    let initial = devices::initial::initial(&keys, &devices);
     let gravity = settings::gravity(&keys);
-    let changes = over_time::changes(&keys, &joints, settings.as_ref(), folder);
-    let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
-    let known = source::SourceContext {
+    let changes = changes_and_wrenches::changes(&keys, &joints, settings.as_ref(), folder);
+    let wrenches = changes_and_wrenches::wrenches(&keys, &joints, structure.as_ref(), folder);
+    let known = sources::SourceContext {
         devices: &devices,
         joints: &joints,
         structure: structure.as_ref(),
         settings: settings.as_ref(),
         folder,
     };
-    let disturbances = source::sources(&keys, &known);
+    let disturbances = sources::sources(&keys, &known);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
-    let requirements = requirement::requirements(&keys, settings.as_ref());
+    let requirements = output::requirement::requirements(&keys, settings.as_ref());
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops) = joints.drives_and_stops();
@@ -192,7 +176,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         hub,
         hub_size,
         names: devices.iter().map(|device| device.name.clone()).collect(),
-        devices: platform::set(&devices),
+        devices: devices::platform::set(&devices),
         structure,
         mounts: devices.into_iter().map(|device| device.turns).collect(),
         initial,

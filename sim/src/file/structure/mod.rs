@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::diagnostic::Diagnostics;
 use super::document::Value;
 use super::keys::Keys;
-use super::read::body;
+use super::read::devices::body;
 use super::read_file::{folder_of, read_file};
 use crate::structure::{
     COORDINATES, Fault, MOST, Node, RigidMass, Structure, StructureError, bytes_of, flex42, op4,

@@ -1,24 +1,25 @@
 //! [`check`]: what only the whole scenario tells, at its places in the text.
 
+mod spans;
+
 use nalgebra::Vector2;
 use precess_dynamics::{ParameterError, Part};
 
-use super::super::diagnostic::{Diagnostic, Diagnostics, Severity, Span};
-use super::super::document::Node;
-use super::places;
+use crate::file::diagnostic::{Diagnostic, Diagnostics, Severity, Span};
+use crate::file::document::Node;
 use crate::record::no_data::no_data;
 use crate::scenario::{Scenario, ScenarioError};
 
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
 pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
     let names = &scenario.names;
-    let tables = places::Tables::from_scenario(scenario);
+    let tables = spans::Tables::from_scenario(scenario);
     for error in scenario.check() {
         if let ScenarioError::Parameters(ParameterError::NegativeInertia {
             part: Part::Body { device, .. },
             ..
         }) = error
-            && let Some(span) = places::of_dynamic_imbalance(root, device, &tables)
+            && let Some(span) = spans::of_dynamic_imbalance(root, device, &tables)
             && let Some(message) = above_bound(scenario, device)
         {
             let help = "that of a balanced wheel is some g cm^2; is the unit right?";
@@ -32,19 +33,19 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
                 format!("structure: {}", named(&error.to_string(), names))
             }
         };
-        match places::of_error(root, &error, &tables) {
+        match spans::of_error(root, &error, &tables) {
             Some(span) => reports.error(&span, message, "", ""),
             None => reports.error_anywhere(message, ""),
         }
     }
     without_data(root, scenario, reports);
     for (source, message) in scenario.fundamental_warnings() {
-        let span = places::of_harmonic(root, source);
+        let span = spans::of_harmonic(root, source);
         reports.all.push(warning(span, format!("source.{source}: {message}"), ""));
     }
     if let Ok(spacecraft) = scenario.spacecraft() {
         for found in spacecraft.warnings() {
-            let span = places::of_warning(root, &found, &tables);
+            let span = spans::of_warning(root, &found, &tables);
             let help = "check moments and products of inertia and their units; it is run as given";
             reports.all.push(warning(span, named(&found.to_string(), names), help));
         }
@@ -61,7 +62,7 @@ fn without_data(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
     for of in &scenario.requirements {
         let found = no_data(of, scenario.output.rate, scenario.settings.duration);
         let Some(reason) = found else { continue };
-        let span = places::of_requirement(root, &of.name, of.statistic.key());
+        let span = spans::of_requirement(root, &of.name, of.statistic.key());
         let message = format!("requirement `{}` cannot be evaluated: {reason}", of.name);
         let help =
             "a requirement without data is neither met nor violated: the exit code of its run is 3";
@@ -114,8 +115,8 @@ fn named(message: &str, names: &[String]) -> String {
 mod tests {
     use std::path::Path;
 
-    use super::super::from_toml;
     use super::*;
+    use crate::file::read::from_toml;
 
     /// A wheel with the moments 2 and 1 g m^2 can have a dynamic imbalance up to their geometric mean, 1.414 g m^2.
     #[test]

@@ -1,11 +1,11 @@
 //! Copies: `copy_of`, the name of a device whose keys another one has where it has none of its own.
 
-use super::super::document::{Node, Value};
-use super::super::keys::Keys;
-use super::super::load::merged;
+use crate::file::document::{Node, Value};
+use crate::file::keys::Keys;
+use crate::file::load::merged;
 
 /// The name of the original of a copy.
-pub(super) fn original(node: &Node) -> Option<&str> {
+pub(in crate::file::read) fn original(node: &Node) -> Option<&str> {
     match &node.value {
         Value::Table(table) => table.text("copy_of"),
         _ => None,
@@ -13,12 +13,12 @@ pub(super) fn original(node: &Node) -> Option<&str> {
 }
 
 /// What an error of a copy adds to its remedy: the cause may be a key of the original.
-pub(super) fn help_of_copy(original: &str) -> String {
+pub(in crate::file::read) fn help_of_copy(original: &str) -> String {
     format!("by `copy_of` it has the keys of `{original}`, too, where it does not write its own")
 }
 
 /// A copy with the keys of its original under its own.
-pub(super) fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
+pub(in crate::file::read) fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
     let Value::Table(table) = &node.value else { return node.clone() };
     let Some(original) = original(node) else { return node.clone() };
     let found = list.iter().find(|other| other.name() == Some(original));

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::keys::Keys;
 use super::components::{ComponentEntry, beside, given};
-use super::table_file::columns;
 use crate::disturbance::{
     Broadband, COMPONENTS, CoherentPair, Harmonic, Measured, MeasuredInterpolation, RecordFile,
     Six, phases,
 };
+use crate::file::keys::Keys;
+use crate::file::read::values::table_file::columns;
 use crate::scenario::Settings;
 use crate::units::{Dimension, Measure, parse_unit};
 

@@ -3,21 +3,23 @@
 //! Nodes that the scenario does not use are left out of it: those that carry no device, are not
 //! recorded and take no wrench.
 
+mod residual;
+
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 use std::path::Path;
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::super::diagnostic::Diagnostic;
-use super::super::document::Value;
-use super::super::keys::Keys;
-use super::residual::{self, OmittedModes};
+use crate::file::diagnostic::Diagnostic;
+use crate::file::document::Value;
+use crate::file::keys::Keys;
 use crate::file::{StructureReadError, structure_from_file};
 use crate::nearest::nearest;
 use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
 use crate::structure::{COORDINATES, MOST, Mode, Node, RigidMass, Structure as Modes};
 use crate::units::{Measure, Plain};
+use residual::OmittedModes;
 
 /// A structure as a file gives it, and which of its nodes are used.
 pub(super) struct Structure {

@@ -1,19 +1,22 @@
 //! `[[source]]`: empirical sources of force and torque, by harmonics, spectral densities or records.
 
+mod components;
+mod models;
+
 use std::borrow::Cow;
 use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::super::keys::Keys;
-use super::device::{Device, DeviceOrPlatform};
-use super::joints::Joints;
-use super::mount::rotation_of;
-use super::source_models::{broadband, harmonics, record};
-use super::structure::Structure;
 use crate::disturbance::{ALWAYS, Disturbance, JointAxes, Model, SourceTarget};
+use crate::file::keys::Keys;
+use crate::file::read::devices::device::{Device, DeviceOrPlatform};
+use crate::file::read::devices::joints::Joints;
+use crate::file::read::structure::Structure;
+use crate::file::read::values::mount::rotation_of;
 use crate::scenario::Settings;
 use crate::units::Measure;
+use models::{broadband, harmonics, record};
 
 /// What a source may refer to.
 pub(super) struct SourceContext<'a> {

@@ -10,46 +10,46 @@ use precess_dynamics::{
     Platform,
 };
 
-use super::super::diagnostic::Span;
-use super::super::document::Value;
-use super::super::keys::{Keys, shown_name};
 use super::body::{Body, BodyRequirements, Joint, body};
 use super::copies::{help_of_copy, original, with_original};
 use super::layout::{MountedPosition, layout, turned};
-use super::mount::{DeviceAxes, mount};
-use super::structure::Structure;
+use crate::file::diagnostic::Span;
+use crate::file::document::Value;
+use crate::file::keys::{Keys, shown_name};
+use crate::file::read::structure::Structure;
+use crate::file::read::values::mount::{DeviceAxes, mount};
 use crate::scenario::{Drive, StopAction, body_key};
 use crate::units::Measure;
 
 /// A device of a kind, or a platform without the devices on it.
-pub(super) enum DeviceOrPlatform {
+pub(in crate::file::read) enum DeviceOrPlatform {
     BuiltIn(Box<BuiltIn>),
     Platform(Box<Isolated<Vec<BuiltIn>>>),
 }
 
 /// A device or a platform as a file gives it.
-pub(super) struct Device {
-    pub(super) name: String,
+pub(in crate::file::read) struct Device {
+    pub(in crate::file::read) name: String,
     /// The name of the layout that it is a member of.
-    pub(super) layout: Option<String>,
-    pub(super) of: DeviceOrPlatform,
+    pub(in crate::file::read) layout: Option<String>,
+    pub(in crate::file::read) of: DeviceOrPlatform,
     /// The name of the platform that it stands on, or `hub`.
-    pub(super) on: String,
+    pub(in crate::file::read) on: String,
     /// Where that is written.
-    pub(super) place: Option<Span>,
+    pub(in crate::file::read) place: Option<Span>,
     /// Those of its mount, where it is written as turns.
-    pub(super) turns: Option<Vec<Turn>>,
+    pub(in crate::file::read) turns: Option<Vec<Turn>>,
     /// The node of the structure that carries it.
-    pub(super) node: Option<usize>,
+    pub(in crate::file::read) node: Option<usize>,
     /// Coordinate and rate of each joint at the start.
-    pub(super) state: Vec<[f64; 2]>,
-    pub(super) drives: Vec<Drive>,
-    pub(super) stops: Vec<Option<([f64; 2], StopAction)>>,
+    pub(in crate::file::read) state: Vec<[f64; 2]>,
+    pub(in crate::file::read) drives: Vec<Drive>,
+    pub(in crate::file::read) stops: Vec<Option<([f64; 2], StopAction)>>,
 }
 
 impl Device {
     /// From what its joints say.
-    pub(super) fn new(
+    pub(in crate::file::read) fn new(
         name: String,
         of: DeviceOrPlatform,
         turns: Option<Vec<Turn>>,
@@ -71,14 +71,14 @@ impl Device {
     }
 
     /// The device; none of a platform.
-    pub(super) fn built_in(&self) -> Option<BuiltIn> {
+    pub(in crate::file::read) fn built_in(&self) -> Option<BuiltIn> {
         match &self.of {
             DeviceOrPlatform::BuiltIn(device) => Some(**device),
             DeviceOrPlatform::Platform(_) => None,
         }
     }
 
-    pub(super) fn joints(&self) -> &'static [JointInfo] {
+    pub(in crate::file::read) fn joints(&self) -> &'static [JointInfo] {
         match &self.of {
             DeviceOrPlatform::BuiltIn(device) => device.kind().joints(),
             DeviceOrPlatform::Platform(_) => <Platform as Kind>::JOINTS,
@@ -87,7 +87,7 @@ impl Device {
 }
 
 /// `[[device]]`, in order.
-pub(super) fn devices(
+pub(in crate::file::read) fn devices(
     keys: &Keys<'_>,
     folder: &Path,
     structure: Option<&Structure>,
@@ -198,7 +198,10 @@ fn none_of_its_own(keys: &Keys<'_>, platform: &str) -> Option<Vec<usize>> {
 }
 
 /// `node`: the node of the structure that carries the device, or one for each of a layout.
-pub(super) fn nodes(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<Vec<usize>> {
+pub(in crate::file::read) fn nodes(
+    keys: &Keys<'_>,
+    structure: Option<&Structure>,
+) -> Option<Vec<usize>> {
     let Some(structure) = structure else {
         if keys.has("node") {
             let help = "add `[structure]`, or remove `node`";

@@ -20,13 +20,13 @@ use precess_dynamics::{
     About, BuiltIn, Hub, Isolated, JointStates, Passive, Platform, Spacecraft, State, platform,
 };
 
-use super::super::keys::Keys;
 use super::body::{Joint, JointMeasures, inertia, joint, mass};
 use super::device::{Device, DeviceOrPlatform, nodes};
-use super::mount::rotation_of;
-use super::structure::Structure;
 use super::suspension::suspension;
-use super::turns::Mount;
+use crate::file::keys::Keys;
+use crate::file::read::structure::Structure;
+use crate::file::read::values::mount::rotation_of;
+use crate::file::read::values::turns::Mount;
 use crate::scenario::{Set, joint_key};
 use crate::units::{Measure, Plain};
 
@@ -38,7 +38,7 @@ struct Corner {
 }
 
 /// The devices, and the platforms of `[[platform]]`, in the order of the set.
-pub(super) fn with_platforms(
+pub(in crate::file::read) fn with_platforms(
     keys: &Keys<'_>,
     devices: Vec<Device>,
     folder: &Path,
@@ -261,7 +261,7 @@ fn arranged(
 }
 
 /// The set of arranged devices and platforms.
-pub(super) fn set(arranged: &[Device]) -> Set {
+pub(in crate::file::read) fn set(arranged: &[Device]) -> Set {
     let mut set = Set::default();
     for device in arranged {
         match &device.of {

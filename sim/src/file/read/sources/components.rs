@@ -3,8 +3,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::super::keys::Keys;
 use crate::disturbance::{COMPONENTS, Six, by_spin_axis};
+use crate::file::keys::Keys;
 use crate::units::Measure;
 
 /// The keys across the spin axis and along it; in each, of force and of moment.

@@ -4,31 +4,31 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::Passive;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 
-use super::super::keys::Keys;
-use super::drive::profile;
+use crate::file::keys::Keys;
+use crate::file::read::values::drive::profile;
 use crate::scenario::{Drive, Profile, StopAction};
 use crate::units::{Measure, Plain};
 
 /// What the table of a body says.
-pub(super) struct Body {
-    pub(super) parameters: BodyParameters<f64>,
-    pub(super) joint: Joint,
+pub(in crate::file::read) struct Body {
+    pub(in crate::file::read) parameters: BodyParameters<f64>,
+    pub(in crate::file::read) joint: Joint,
 }
 
 /// What the keys of a joint say.
 #[derive(Clone)]
-pub(super) struct Joint {
-    pub(super) passive: Passive,
+pub(in crate::file::read) struct Joint {
+    pub(in crate::file::read) passive: Passive,
     /// Initial coordinate and rate.
-    pub(super) state: [f64; 2],
-    pub(super) drive: Drive,
+    pub(in crate::file::read) state: [f64; 2],
+    pub(in crate::file::read) drive: Drive,
     /// Lowest and highest coordinate, and what happens there.
-    pub(super) stop: Option<([f64; 2], StopAction)>,
+    pub(in crate::file::read) stop: Option<([f64; 2], StopAction)>,
 }
 
 impl Joint {
     /// At rest at zero, without anything that acts on it.
-    pub(super) fn free() -> Self {
+    pub(in crate::file::read) fn free() -> Self {
         let drive = Drive::Torque { profile: Profile::ZERO, limit: None };
         Self { passive: Passive::none(), state: [0.0; 2], drive, stop: None }
     }
@@ -36,29 +36,29 @@ impl Joint {
 
 /// What a kind requires of a body.
 #[derive(Clone, Copy)]
-pub(super) struct BodyRequirements {
-    pub(super) joint: &'static JointInfo,
+pub(in crate::file::read) struct BodyRequirements {
+    pub(in crate::file::read) joint: &'static JointInfo,
     /// Whether the link has a body; those of flexible bearings have only a joint.
-    pub(super) mass: bool,
+    pub(in crate::file::read) mass: bool,
     /// Whether the body has an inertia; a point mass has none.
-    pub(super) inertia: bool,
+    pub(in crate::file::read) inertia: bool,
     /// Whether its table has the origin of its joint.
-    pub(super) origin: bool,
+    pub(in crate::file::read) origin: bool,
 }
 
 /// The measures of a joint.
 #[derive(Clone, Copy)]
-pub(super) struct JointMeasures {
-    pub(super) coordinate: Measure,
-    pub(super) rate: Measure,
-    pub(super) acceleration: Measure,
-    pub(super) torque: Measure,
+pub(in crate::file::read) struct JointMeasures {
+    pub(in crate::file::read) coordinate: Measure,
+    pub(in crate::file::read) rate: Measure,
+    pub(in crate::file::read) acceleration: Measure,
+    pub(in crate::file::read) torque: Measure,
     stiffness: Measure,
     damping: Measure,
 }
 
 impl JointMeasures {
-    pub(super) fn of_joint(joint: &JointInfo) -> Self {
+    pub(in crate::file::read) fn of_joint(joint: &JointInfo) -> Self {
         if joint.slides {
             Self {
                 coordinate: Measure::LENGTH,
@@ -82,7 +82,7 @@ impl JointMeasures {
 }
 
 /// The table of a body; what is missing or wrong has been reported.
-pub(super) fn body(
+pub(in crate::file::read) fn body(
     keys: &Keys<'_>,
     needs: BodyRequirements,
     folder: &std::path::Path,
@@ -107,7 +107,7 @@ pub(super) fn body(
 }
 
 /// The keys of a joint; what is wrong has been reported.
-pub(super) fn joint(
+pub(in crate::file::read) fn joint(
     keys: &Keys<'_>,
     joint: &JointInfo,
     measures: &JointMeasures,
@@ -178,7 +178,7 @@ fn passive(keys: &Keys<'_>, measures: &JointMeasures) -> Passive {
 }
 
 /// The drive of a joint from the start: a torque, an acceleration, or locked.
-pub(super) fn drive(
+pub(in crate::file::read) fn drive(
     keys: &Keys<'_>,
     joint: &JointInfo,
     measures: &JointMeasures,

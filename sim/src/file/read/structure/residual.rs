@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use precess_dynamics::{ListedModes, ModalMount, ModalPoint, Modes as ListModes, ModesError};
 
-use super::super::document::Value;
-use super::super::keys::Keys;
+use crate::file::document::Value;
+use crate::file::keys::Keys;
 use crate::scenario::{ModalStructure, StructureNode};
 use crate::structure::{COORDINATES, Mode, Structure};
 

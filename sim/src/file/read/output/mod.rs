@@ -1,9 +1,12 @@
 //! What is recorded, and what is noted: `[output]`, `[[crossing]]`.
 
+pub(super) mod columns;
+pub(super) mod requirement;
+
 use std::collections::HashSet;
 
-use super::super::document::Value;
-use super::super::keys::Keys;
+use crate::file::document::Value;
+use crate::file::keys::Keys;
 use crate::names::numbered;
 use crate::scenario::{Crossing, Format, Output, Settings};
 use crate::units::Measure;

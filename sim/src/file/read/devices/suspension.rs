@@ -9,8 +9,8 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use precess_dynamics::{Coupled, Strut, Suspension};
 
-use super::super::keys::Keys;
-use super::mount::direction;
+use crate::file::keys::Keys;
+use crate::file::read::values::mount::direction;
 use crate::units::{Measure, Plain};
 
 /// Most struts of a platform.
@@ -19,7 +19,7 @@ const STRUTS_MAX: usize = 6;
 const NORM_EXACT: f64 = 1e-14;
 
 /// The suspension; nothing where it is wrong, which has been reported.
-pub(super) fn suspension(keys: &Keys<'_>) -> Option<Suspension> {
+pub(in crate::file::read) fn suspension(keys: &Keys<'_>) -> Option<Suspension> {
     let mut suspension = Suspension::none();
     if keys.has("coupled") {
         suspension.coupled = Some(coupled(&keys.table("coupled")?)?);

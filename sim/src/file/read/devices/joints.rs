@@ -3,12 +3,12 @@
 
 use precess_dynamics::kind::JointInfo;
 
-use super::super::keys::Keys;
 use super::device::Device;
+use crate::file::keys::Keys;
 use crate::scenario::{Drive, EndStop, body_key, joint_key};
 
 /// All joints in order, by name.
-pub(super) struct Joints {
+pub(in crate::file::read) struct Joints {
     /// `cmg1.inner_gimbal`, and the joint.
     names: Vec<(String, &'static JointInfo)>,
     /// `isolator.platform`, the body of the joint `isolator.z_turn`.
@@ -18,7 +18,7 @@ pub(super) struct Joints {
 }
 
 impl Joints {
-    pub(super) fn of_devices(devices: &[Device]) -> Self {
+    pub(in crate::file::read) fn of_devices(devices: &[Device]) -> Self {
         let (names, bodies) = (Vec::new(), Vec::new());
         let mut joints = Self { names, bodies, drives: Vec::new(), stops: Vec::new() };
         for device in devices {
@@ -40,7 +40,12 @@ impl Joints {
     }
 
     /// The number of a joint by the name of its body; reports where there is none.
-    pub(super) fn find(&self, keys: &Keys<'_>, key: &str, name: &str) -> Option<usize> {
+    pub(in crate::file::read) fn find(
+        &self,
+        keys: &Keys<'_>,
+        key: &str,
+        name: &str,
+    ) -> Option<usize> {
         let body = || self.bodies.iter().find(|(known, _)| known == name).map(|(_, joint)| *joint);
         let found = self.names.iter().position(|(known, _)| known == name).or_else(body);
         if found.is_none() {
@@ -54,11 +59,11 @@ impl Joints {
         found
     }
 
-    pub(super) fn info(&self, joint: usize) -> Option<&'static JointInfo> {
+    pub(in crate::file::read) fn info(&self, joint: usize) -> Option<&'static JointInfo> {
         self.names.get(joint).map(|(_, info)| *info)
     }
 
-    pub(super) fn drives_and_stops(self) -> (Vec<Drive>, Vec<EndStop>) {
+    pub(in crate::file::read) fn drives_and_stops(self) -> (Vec<Drive>, Vec<EndStop>) {
         (self.drives, self.stops)
     }
 }

@@ -1,6 +1,6 @@
 //! Limits on what is recorded: `[[requirement]]`.
 
-use super::super::keys::Keys;
+use crate::file::keys::Keys;
 use crate::pointing::Index;
 use crate::scenario::{Requirement, Settings, Statistic};
 use crate::units::{Dimension, Measure, UnitError, parse_unit};
@@ -62,7 +62,10 @@ impl StatisticName {
     }
 }
 
-pub(super) fn requirements(keys: &Keys<'_>, settings: Option<&Settings>) -> Vec<Requirement> {
+pub(in crate::file::read) fn requirements(
+    keys: &Keys<'_>,
+    settings: Option<&Settings>,
+) -> Vec<Requirement> {
     let duration = settings.map_or(f64::INFINITY, |settings| settings.duration);
     let tables = keys.tables("requirement");
     tables.iter().filter_map(|keys| requirement(keys, duration)).collect()

@@ -5,8 +5,8 @@
 
 use precess_dynamics::{ModesError, ParameterError, Part, Warning};
 
-use super::super::diagnostic::Span;
-use super::super::document::{Node, Value};
+use crate::file::diagnostic::Span;
+use crate::file::document::{Node, Value};
 use crate::scenario::{Member, Scenario, ScenarioError};
 
 /// The path of each device and platform in the order of the set, and whether it is a platform.
@@ -160,7 +160,7 @@ fn entry<'a, 'p>(list: &'a [Node], path: &'p str) -> (Option<&'a Node>, &'p str)
 mod tests {
     use std::path::Path;
 
-    use super::super::from_toml;
+    use crate::file::read::from_toml;
 
     const HUB: &str = "format = 1\n[hub]\nmass = \"100 kg\"\ninertia = \"9, 8, 7 kg m^2\"\n[run]\nduration = \"1 s\"\n";
     const WHEEL: &str = "[[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\n\

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
-use super::super::keys::Keys;
 use super::turns::{self, Mount, are_at_right_angles, of_columns, turn};
+use crate::file::keys::Keys;
 use crate::units::Measure;
 
 /// Columns and rows of a matrix may miss a rotation by this; it is then made one. Six digits do.
@@ -14,17 +14,17 @@ const WAYS: [&str; 5] = ["matrix", "dcm", "axis", "euler", "spin_axis"];
 
 /// The axes by which a device is mounted.
 #[derive(Clone, Copy)]
-pub(super) struct DeviceAxes {
+pub(in crate::file::read) struct DeviceAxes {
     /// That of its first joint.
-    pub(super) first: usize,
+    pub(in crate::file::read) first: usize,
     /// That of its last joint.
-    pub(super) last: usize,
+    pub(in crate::file::read) last: usize,
     /// Whether they are the same: it is mounted by one axis.
-    pub(super) single: bool,
+    pub(in crate::file::read) single: bool,
 }
 
 /// `mount`, whose columns are the device's axes at zero angles, expressed in B.
-pub(super) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Mount> {
+pub(in crate::file::read) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Mount> {
     if !keys.has("mount") {
         return Some(Mount { matrix: Matrix3::identity(), turns: Some(Vec::new()) });
     }
@@ -33,7 +33,7 @@ pub(super) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Mount> {
 }
 
 /// The mount of a platform, which has no axis of its own.
-pub(super) fn rotation_of(mount: &Keys<'_>) -> Option<Mount> {
+pub(in crate::file::read) fn rotation_of(mount: &Keys<'_>) -> Option<Mount> {
     way(mount, None)
 }
 
@@ -126,7 +126,7 @@ fn rotation(matrix: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 fn rows(keys: &Keys<'_>, key: &str) -> Option<[[f64; 3]; 3]> {
-    use super::super::document::Value;
+    use crate::file::document::Value;
     let wrong = || {
         keys.error(key, format!("`{key}` is no list of three rows of three numbers"), "");
         None
@@ -151,7 +151,7 @@ fn rows(keys: &Keys<'_>, key: &str) -> Option<[[f64; 3]; 3]> {
 }
 
 /// The old axes turned about an axis.
-pub(super) fn axis_and_angle(keys: &Keys<'_>) -> Option<Mount> {
+pub(in crate::file::read) fn axis_and_angle(keys: &Keys<'_>) -> Option<Mount> {
     let axis = direction(keys, "axis");
     let angle = keys.required("angle", Measure::ANGLE);
     let (axis, angle) = (axis?, angle?);
@@ -161,7 +161,7 @@ pub(super) fn axis_and_angle(keys: &Keys<'_>) -> Option<Mount> {
 
 /// Three turns about axes that turn along: `sequence = "ZYX"`, and which axes are turned into
 /// which. The first direction is that of the turns as written; the second is its inverse.
-pub(super) fn euler(keys: &Keys<'_>, directions: [&str; 2]) -> Option<Mount> {
+pub(in crate::file::read) fn euler(keys: &Keys<'_>, directions: [&str; 2]) -> Option<Mount> {
     let angles = keys.quantities::<3>("euler", Measure::ANGLE);
     if !keys.has("sequence") {
         keys.missing("sequence", "sequence = \"ZYX\"");
@@ -262,7 +262,7 @@ fn with_axis(number: usize, axis: &Vector3<f64>) -> Mount {
 }
 
 /// Axes of which those of the first and of the last joint are given, at right angles.
-pub(super) fn with_axes(
+pub(in crate::file::read) fn with_axes(
     axes: DeviceAxes,
     first: &Vector3<f64>,
     last: &Vector3<f64>,
@@ -276,7 +276,7 @@ pub(super) fn with_axes(
 }
 
 /// Axes of which one is given, and the one after it.
-pub(super) fn with_axis_and_next(
+pub(in crate::file::read) fn with_axis_and_next(
     number: usize,
     axis: &Vector3<f64>,
     next: &Vector3<f64>,

@@ -1,8 +1,8 @@
 //! Names of columns in `[output]`, `[[requirement]]` and `[[crossing]]`, and the units of their
 //! values: what is only known with the devices.
 
-use super::super::document::Node;
-use super::super::keys::{Keys, Reports};
+use crate::file::document::Node;
+use crate::file::keys::{Keys, Reports};
 use crate::nearest::did_you_mean;
 use crate::record::columns::{Columns, quantity, state_quantities};
 use crate::scenario::Scenario;
@@ -10,7 +10,7 @@ use crate::units::{Dimension, measure_of, parse_unit};
 
 /// Reports columns that are unknown, and limits and values in a unit of something else; for a tree
 /// that has been read without error.
-pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
+pub(in crate::file::read) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
     let Some(keys) = Keys::new(node, "", reports) else { return };
     let all = Columns::all(scenario);
     let all = all.as_slice();
@@ -73,7 +73,7 @@ fn compare(keys: &Keys<'_>, key: &str, name: &str, [wanted, written]: [&str; 2])
 mod tests {
     use std::path::Path;
 
-    use super::super::from_toml;
+    use crate::file::read::from_toml;
 
     const WHEEL: &str = "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\
         [[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\n\

@@ -13,9 +13,9 @@
 
 use std::path::Path;
 
-use super::super::document::{Node, Value};
-use super::super::keys::Keys;
 use super::table_file::columns;
+use crate::file::document::{Node, Value};
+use crate::file::keys::Keys;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{Profile, Table};
 use crate::units::{Measure, parse_unit};
@@ -24,7 +24,7 @@ use crate::units::{Measure, parse_unit};
 const KINDS: [&str; 7] = ["constant", "step", "ramp", "sine", "chirp", "table", "times"];
 
 /// A profile; nothing where one is wrong, which has been reported.
-pub(super) fn profile(
+pub(in crate::file::read) fn profile(
     keys: &Keys<'_>,
     key: &str,
     node: &Node,

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::super::document::Value;
-use super::super::keys::Keys;
-use super::body::{JointMeasures, drive};
-use super::drive::profile;
-use super::joints::Joints;
 use super::structure::Structure;
+use crate::file::document::Value;
+use crate::file::keys::Keys;
+use crate::file::read::devices::body::{JointMeasures, drive};
+use crate::file::read::devices::joints::Joints;
+use crate::file::read::values::drive::profile;
 use crate::scenario::{Action, AppliedWrench, Change, Profile, Settings, Target, WrenchAxes};
 use crate::units::{Measure, Plain};
 

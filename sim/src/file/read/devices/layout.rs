@@ -18,9 +18,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_description::{Axis, Turn};
 
-use super::super::keys::Keys;
-use super::mount::{DeviceAxes, direction, with_axes, with_axis_and_next};
-use super::turns::{Mount, by_quarters, coordinate, exchange, turn};
+use crate::file::keys::Keys;
+use crate::file::read::values::mount::{DeviceAxes, direction, with_axes, with_axis_and_next};
+use crate::file::read::values::turns::{Mount, by_quarters, coordinate, exchange, turn};
 use crate::units::Measure;
 
 /// The coordinate axes.
@@ -30,10 +30,13 @@ const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 const COUNT_MAX: u32 = 256;
 
 /// Where a device of a layout is: its position in B, and its mount.
-pub(super) type MountedPosition = (Vector3<f64>, Mount);
+pub(in crate::file::read) type MountedPosition = (Vector3<f64>, Mount);
 
 /// The places of a layout; none without one.
-pub(super) fn layout(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Vec<MountedPosition>> {
+pub(in crate::file::read) fn layout(
+    keys: &Keys<'_>,
+    axes: DeviceAxes,
+) -> Option<Vec<MountedPosition>> {
     let layout = keys.table("layout")?;
     for key in ["mount", "position"] {
         if keys.has(key) {
@@ -102,7 +105,7 @@ fn places(keys: &Keys<'_>, half_angle: f64, axes: DeviceAxes) -> Option<Vec<Moun
 }
 
 /// The place of a copy: half a turn about an axis of the hub through B.
-pub(super) fn turned(
+pub(in crate::file::read) fn turned(
     keys: &Keys<'_>,
     key: &str,
     place: &MountedPosition,

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use precess_dynamics::{Attitude, JointStates, Mrp, Quaternion, State};
 
-use super::super::keys::Keys;
 use super::device::Device;
-use super::mount::{axis_and_angle, euler};
+use crate::file::keys::Keys;
+use crate::file::read::values::mount::{axis_and_angle, euler};
 use crate::scenario::Set;
 use crate::units::{Measure, Plain};
 
@@ -17,7 +17,7 @@ const NORM_EXACT: f64 = 1e-14;
 /// How an attitude is written.
 const WAYS: [&str; 4] = ["quaternion", "mrp", "euler", "axis"];
 
-pub(super) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
+pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
     let mut state = at_rest(devices);
     if let Some(initial) = keys.table("initial") {
         let vector = |key, measure| initial.vector(key, measure).unwrap_or_else(Vector3::zeros);

@@ -8,17 +8,17 @@ use precess_description::{Axis, Turn};
 
 /// A mount, whose columns are the device's axes at zero angles, expressed in B.
 #[derive(Clone, Debug)]
-pub(super) struct Mount {
-    pub(super) matrix: Matrix3<f64>,
+pub(in crate::file::read) struct Mount {
+    pub(in crate::file::read) matrix: Matrix3<f64>,
     /// First from the hub; none where it is written as numbers, or about another axis.
-    pub(super) turns: Option<Vec<Turn>>,
+    pub(in crate::file::read) turns: Option<Vec<Turn>>,
 }
 
 /// A product of at most this many epsilons is rounding of zero.
 const RIGHT_ANGLE: f64 = 4.0 * f64::EPSILON;
 
 /// A turn by an angle about a coordinate axis; nothing where it is none.
-pub(super) fn turn(axis: usize, angle: f64) -> Option<Turn> {
+pub(in crate::file::read) fn turn(axis: usize, angle: f64) -> Option<Turn> {
     match quarters(angle) {
         Some(0) => None,
         quarters => Some(Turn { about: named(axis), quarters }),
@@ -26,7 +26,7 @@ pub(super) fn turn(axis: usize, angle: f64) -> Option<Turn> {
 }
 
 /// Whole quarter turns; nothing where it is zero turns.
-pub(super) fn by_quarters(axis: usize, quarters: u8) -> Option<Turn> {
+pub(in crate::file::read) fn by_quarters(axis: usize, quarters: u8) -> Option<Turn> {
     let quarters = quarters % 4;
     (quarters > 0).then(|| Turn { about: named(axis), quarters: Some(quarters) })
 }
@@ -50,7 +50,7 @@ fn named(axis: usize) -> Axis {
 }
 
 /// The coordinate axis that a vector is along, and whether it is against it.
-pub(super) fn coordinate(v: &Vector3<f64>) -> Option<(usize, bool)> {
+pub(in crate::file::read) fn coordinate(v: &Vector3<f64>) -> Option<(usize, bool)> {
     let mut others = (0..3).filter(|k| v[*k] != 0.0);
     match (others.next(), others.next()) {
         (Some(axis), None) => Some((axis, v[axis] < 0.0)),
@@ -59,14 +59,17 @@ pub(super) fn coordinate(v: &Vector3<f64>) -> Option<(usize, bool)> {
 }
 
 /// The turn about an axis, where that is a coordinate axis.
-pub(super) fn about(axis: &Vector3<f64>, angle: f64) -> Option<Vec<Turn>> {
+pub(in crate::file::read) fn about(axis: &Vector3<f64>, angle: f64) -> Option<Vec<Turn>> {
     let (axis, against) = coordinate(axis)?;
     Some(turn(axis, if against { -angle } else { angle }).into_iter().collect())
 }
 
 /// The turns of a mount two of whose columns, by their numbers, are along these vectors. Of a
 /// component that is zero as written it is known that it is; none where there is no such.
-pub(super) fn of_columns(columns: [usize; 2], vectors: [&Vector3<f64>; 2]) -> Option<Vec<Turn>> {
+pub(in crate::file::read) fn of_columns(
+    columns: [usize; 2],
+    vectors: [&Vector3<f64>; 2],
+) -> Option<Vec<Turn>> {
     let [v, w] = vectors.map(|v| *v);
     if let (Some(first), Some(second)) = (coordinate(&v), coordinate(&w)) {
         return Some(exchange(columns, [first, second]));
@@ -97,12 +100,12 @@ pub(super) fn of_columns(columns: [usize; 2], vectors: [&Vector3<f64>; 2]) -> Op
 }
 
 /// Of two directions at right angles within rounding, whether their zeros are as written.
-pub(super) fn are_at_right_angles(product: f64) -> bool {
+pub(in crate::file::read) fn are_at_right_angles(product: f64) -> bool {
     product.abs() <= RIGHT_ANGLE
 }
 
 /// Quarter turns that put columns along coordinate axes, or against them.
-pub(super) fn exchange(columns: [usize; 2], along: [(usize, bool); 2]) -> Vec<Turn> {
+pub(in crate::file::read) fn exchange(columns: [usize; 2], along: [(usize, bool); 2]) -> Vec<Turn> {
     let is_so = |m: &Matrix3<i8>| {
         let pairs = columns.iter().zip(along);
         pairs.into_iter().all(|(column, (row, against))| {
