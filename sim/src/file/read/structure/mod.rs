@@ -1,7 +1,6 @@
 //! `[structure]`: modes from a file, or written out as `[[structure.node]]` and `[[structure.mode]]`.
 //!
-//! Nodes that the scenario does not use are left out of it: those that carry no device, are not
-//! recorded and take no wrench.
+//! Nodes that carry no device, are not recorded and take no wrench are left out of the scenario.
 
 mod residual;
 
@@ -13,8 +12,7 @@ use nalgebra::{DMatrix, Vector3};
 
 use crate::file::diagnostic::Diagnostic;
 use crate::file::document::Value;
-use crate::file::keys::Keys;
-use crate::file::{StructureReadError, structure_from_file};
+use crate::file::{StructureReadError, keys::Keys, structure_from_file};
 use crate::nearest::nearest;
 use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
 use crate::structure::{COORDINATES, MOST, Mode, Node, RigidMass, Structure as Modes};
