@@ -364,10 +364,8 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
     let of_state = state("state", case, &none.state, &case.state);
     let of_inputs = inputs("inputs", case, &none.inputs, &case.inputs);
     let mutable = |text: &str| if text.is_empty() { "" } else { "mut " };
-    add(
-        &mut text,
-        &format!("let {}state: State<_> = State::at_rest_for(&craft);", mutable(&of_state)),
-    );
+    let line = format!("let {}state: State<_> = State::at_rest_for(&craft);", mutable(&of_state));
+    add(&mut text, &line);
     text += &of_state;
     add(&mut text, &format!("let {}inputs = Inputs::none_for(&craft);", mutable(&of_inputs)));
     text += &of_inputs;
@@ -375,13 +373,10 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
     let list = list.collect::<Vec<_>>().join(", ");
     add(&mut text, &format!("let list: Vec<BuiltIn> = vec![{list}];"));
     let dt = number(case.dt);
-    let several = case.steps != 1 || !case.more.is_empty();
-    let mutable = if several { "mut " } else { "" };
+    let mutable = if case.steps != 1 || !case.more.is_empty() { "mut " } else { "" };
     let last = if case.more.is_empty() { "list" } else { "list.clone()" };
-    add(
-        &mut text,
-        &format!("let {mutable}case = Case::from_set(&hub, {last}, &state, &inputs, {dt});"),
-    );
+    let line = format!("let {mutable}case = Case::from_set(&hub, {last}, &state, &inputs, {dt});");
+    add(&mut text, &line);
     if case.steps != 1 {
         add(&mut text, &format!("case.steps = {};", case.steps));
     }
@@ -394,10 +389,8 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
         let changed = inputs(&i, case, &case.inputs, of_inputs);
         add(&mut text, &format!("let {}{i} = inputs;", mutable(&changed)));
         text += &changed;
-        add(
-            &mut text,
-            &format!("let other = Case::from_set(&hub, list.clone(), &{s}, &{i}, {dt});"),
-        );
+        let line = format!("let other = Case::from_set(&hub, list.clone(), &{s}, &{i}, {dt});");
+        add(&mut text, &line);
         add(&mut text, "case.more.push((other.state, other.inputs));");
     }
     add(&mut text, "println!(\"{:?}\", craft.accelerations(&state, &inputs));");

@@ -24,7 +24,8 @@ const WHEEL_MB: f64 = 6.0;
 /// Options of `python`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Build as for development: less optimised and not compressed, so without the wheel's size
+    /// Build as for development: less optimised, without AVX-512 and not compressed, so without the wheel's
+    /// size
     #[arg(long)]
     quick: bool,
 }
@@ -43,7 +44,7 @@ pub(crate) fn python(options: &Options) -> Result<(), String> {
     build.args(["build", "--locked", "--manifest-path", "python/Cargo.toml"]);
     build.args(wheel::STORED).arg("--out").arg(&wheels);
     if options.quick {
-        build.env("CARGO_INCREMENTAL", "0");
+        build.arg("--no-default-features").env("CARGO_INCREMENTAL", "0");
     } else {
         build.arg("--release");
     }
