@@ -3,7 +3,7 @@
 //! [`Attitude`](parameterisation::Attitude) is what a step needs of either.
 
 #[cfg(test)]
-mod attitude_checks;
+mod attitude_tests;
 pub(crate) mod mrp;
 pub(crate) mod parameterisation;
 pub(crate) mod quaternion;

@@ -120,7 +120,7 @@ impl<T: Scalar> From<Quaternion<T>> for Mrp<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attitude::attitude_checks as checks;
+    use crate::attitude::attitude_tests as checks;
 
     #[test]
     fn dcm_is_the_formula_of_the_conventions() {

@@ -164,7 +164,7 @@ impl<T: Scalar> From<Mrp<T>> for Quaternion<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attitude::attitude_checks as checks;
+    use crate::attitude::attitude_tests as checks;
 
     const BETA: Quaternion = Quaternion { q0: 0.5, q1: -0.7, q2: 0.1, q3: 0.5 };
 

@@ -15,7 +15,7 @@ pub(crate) mod dispatched;
 pub(crate) mod eliminate;
 pub(crate) mod error;
 #[cfg(test)]
-mod error_checks;
+mod error_tests;
 pub(crate) mod gravity;
 pub(crate) mod hub;
 pub(crate) mod joint_inputs;

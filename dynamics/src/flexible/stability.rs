@@ -33,7 +33,7 @@ use crate::numbers::real::{Real, Scalar, one, zero};
 use crate::numbers::vec3::zeros;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
-use crate::solve::accelerations::overflow;
+use crate::solve::diagnosis::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};

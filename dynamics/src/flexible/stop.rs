@@ -17,7 +17,7 @@ use crate::numbers::real::zero;
 use crate::numbers::vec3::{columns, components, neg, rotate, vector, zeros};
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
-use crate::solve::accelerations::overflow;
+use crate::solve::diagnosis::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;

@@ -15,7 +15,7 @@ use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
-use crate::solve::accelerations::overflow;
+use crate::solve::diagnosis::overflow;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};

@@ -42,7 +42,7 @@ mod crafts;
 mod evaluate;
 mod fallback;
 #[cfg(test)]
-mod fallback_checks;
+mod fallback_tests;
 mod group;
 mod laned_set;
 mod loads;

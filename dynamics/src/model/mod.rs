@@ -9,7 +9,7 @@ pub mod kind;
 pub(crate) mod mode;
 pub(crate) mod parameter_info;
 #[cfg(test)]
-mod parameter_info_checks;
+mod parameter_info_tests;
 pub(crate) mod parameters;
 pub(crate) mod passive;
 pub mod units;

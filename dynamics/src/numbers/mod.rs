@@ -11,6 +11,6 @@ pub(crate) mod laned;
 pub(crate) mod real;
 pub(crate) mod sincos;
 #[cfg(test)]
-mod sincos_checks;
+mod sincos_tests;
 pub(crate) mod symmetric;
 pub(crate) mod vec3;

@@ -6,9 +6,9 @@
 
 pub(crate) mod array;
 pub(crate) mod built_in;
-#[cfg(test)]
-mod built_in_checks;
 mod built_in_names;
+#[cfg(test)]
+mod built_in_tests;
 pub(crate) mod bundle;
 pub(crate) mod counts;
 pub(crate) mod device_parameters;

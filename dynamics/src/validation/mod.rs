@@ -4,9 +4,9 @@
 
 pub(crate) mod check;
 #[cfg(test)]
-mod check_checks;
+mod check_tests;
 pub(crate) mod imbalance;
-#[cfg(test)]
-mod imbalance_checks;
 pub(crate) mod imbalance_error;
+#[cfg(test)]
+mod imbalance_tests;
 pub(crate) mod parameter_error;

@@ -50,12 +50,22 @@ const MOVED: &[(&str, &str)] = &[
     ("sim/src/record/checks.rs ", "sim/src/record/tests.rs "),
     (
         "dynamics/src/numbers/sincos_checks.rs fused_sine_is_odd_and_cosine_even_to_the_bit",
-        "dynamics/src/numbers/sincos_checks.rs sine_is_odd_and_cosine_even_to_the_bit",
+        "dynamics/src/numbers/sincos_tests.rs sine_is_odd_and_cosine_even_to_the_bit",
     ),
     (
         "tests/tests/dynamics/lane_loads.rs devices_side_by_side_agree_to_rounding_with_loads",
         "tests/tests/dynamics/lane_loads.rs devices_side_by_side_have_the_bits_of_one_state_with_loads",
     ),
+    ("dynamics/src/attitude/attitude_checks.rs ", "dynamics/src/attitude/attitude_tests.rs "),
+    ("dynamics/src/equations/error_checks.rs ", "dynamics/src/equations/error_tests.rs "),
+    ("dynamics/src/lanes/fallback_checks.rs ", "dynamics/src/lanes/fallback_tests.rs "),
+    ("dynamics/src/model/parameter_info_checks.rs ", "dynamics/src/model/parameter_info_tests.rs "),
+    ("dynamics/src/numbers/sincos_checks.rs ", "dynamics/src/numbers/sincos_tests.rs "),
+    ("dynamics/src/sets/built_in_checks.rs ", "dynamics/src/sets/built_in_tests.rs "),
+    ("dynamics/src/solve/overflow_checks.rs ", "dynamics/src/solve/overflow_tests.rs "),
+    ("dynamics/src/solve/spacecraft_checks.rs ", "dynamics/src/solve/spacecraft_tests.rs "),
+    ("dynamics/src/validation/check_checks.rs ", "dynamics/src/validation/check_tests.rs "),
+    ("dynamics/src/validation/imbalance_checks.rs ", "dynamics/src/validation/imbalance_tests.rs "),
 ];
 
 /// Tests that went with what they tested: why, and their lines in the list.
