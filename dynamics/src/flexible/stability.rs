@@ -26,7 +26,7 @@ use crate::flexible::devices::MountStage;
 use crate::flexible::spacecraft::{negative, nothing};
 use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::integrate::longest_step::{StepLimit, irregular, is_stable, step_limit};
-use crate::integrate::stability::{ITERATIONS, SlowestRates, largest};
+use crate::integrate::stability::{ITERATIONS, largest};
 use crate::model::mode::HubMode;
 use crate::numbers::each::Each;
 use crate::numbers::real::{Real, Scalar, one, zero};
@@ -110,34 +110,28 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         zero()
     }
 
-    /// Rejects a step that is too long for the fastest vibration, at the slowest rates of the
-    /// joints during it.
-    pub(crate) fn check_stability_flexible<A: Attitude<D::Scalar>>(
+    /// Whether a step is stable without devices and no joint has a spring or friction.
+    pub(crate) fn is_within_own_limit(
         &self,
-        start: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
-        slowest: &SlowestRates<D>,
-    ) -> Result<(), SolveError<D::Scalar>> {
+    ) -> bool {
         let own = match inputs.hub {
             HubMode::Free => self.structure.own_limit.free,
             HubMode::Fixed | HubMode::Prescribed { .. } => self.structure.own_limit.held,
         };
-        if !self.passive && dt.abs() <= D::Scalar::from_f64(UNDEFORMED) * own {
-            return Ok(());
-        }
-        self.check_vibrations(start, inputs, dt, slowest)
+        !self.passive && dt.abs() <= D::Scalar::from_f64(UNDEFORMED) * own
     }
 
+    /// Rejects a step that is too long for the fastest vibration, in this pose.
     #[cold]
-    fn check_vibrations<A: Attitude<D::Scalar>>(
+    pub(crate) fn check_vibrations<A: Attitude<D::Scalar>>(
         &self,
-        start: &State<D, A, Flexible<M>>,
+        posed: &State<D, A, Flexible<M>>,
         inputs: &Inputs<D, Flexible<M>>,
         dt: D::Scalar,
-        slowest: &SlowestRates<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let mut posed = slowest.at_slowest(start);
+        let mut posed = posed.clone();
         posed.modal.eta_dot.as_mut().fill(zero());
         let unforced = self.without_forces(inputs);
         let vibrations = Vibrations { craft: self, posed, unforced };

@@ -12,7 +12,6 @@ use crate::flexible::spacecraft::FlexibleConstants;
 use crate::flexible::state::{ModalAccelerations, ModalState};
 use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::integrate::energy_lost::Jump;
-use crate::integrate::stability::SlowestRates;
 use crate::integrate::structure::{Stage, Structure, StructureSteps};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
@@ -196,17 +195,25 @@ impl<M: ModalStorage> StructureSteps for Flexible<M> {
         craft.passive || !Self::is_rigid(craft)
     }
 
-    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+    fn accepts<D: Devices>(
         craft: &Spacecraft<D, Self>,
-        start: &State<D, A, Self>,
         inputs: &Inputs<D, Self>,
         dt: D::Scalar,
-        slowest: &SlowestRates<D>,
+        resolved: bool,
+    ) -> bool {
+        if Self::is_rigid(craft) { resolved } else { craft.is_within_own_limit(inputs, dt) }
+    }
+
+    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        posed: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        dt: D::Scalar,
     ) -> Solved<(), D> {
         if Self::is_rigid(craft) {
-            return craft.check_stability_rigid(&slowest.at_slowest(start), inputs, dt);
+            return craft.check_stability_rigid(posed, inputs, dt);
         }
-        craft.check_stability_flexible(start, inputs, dt, slowest)
+        craft.check_vibrations(posed, inputs, dt)
     }
 
     fn follow<T: Scalar>(

@@ -9,7 +9,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::follow::{Follow, Followed, Reach, Reached};
-use crate::integrate::stability::{PassiveStep, SlowestRates};
+use crate::integrate::stability::PassiveStep;
 use crate::integrate::structure::StructureSteps;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
@@ -126,10 +126,7 @@ impl<D: Devices, S: StructureSteps> Spacecraft<D, S> {
                 if S::vibrates(self) =>
             {
                 let begins = self.solve(start, inputs, &mut self.no_accelerations(), None).is_ok();
-                let stable = begins.then(|| {
-                    let slowest = SlowestRates::new(self, start);
-                    S::check_stability(self, start, inputs, dt, &slowest)
-                });
+                let stable = begins.then(|| S::check_stability(self, start, inputs, dt));
                 match stable {
                     Some(Err(
                         unstable @ (SolveError::Unstable { .. } | SolveError::UnstableModes { .. }),

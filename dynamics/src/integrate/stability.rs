@@ -125,10 +125,11 @@ impl<D: Devices> PassiveStep<D> {
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
         self.stage(next);
-        if S::is_rigid(craft) && self.largest.accepts(dt) && !self.slowest.rests(craft) {
+        let resolved = self.largest.accepts(dt) && !self.slowest.rests(craft);
+        if S::accepts(craft, inputs, dt, resolved) {
             return Ok(());
         }
-        S::check_stability(craft, start, inputs, dt, &self.slowest)
+        S::check_stability(craft, &self.slowest.at_slowest(start), inputs, dt)
     }
 }
 

@@ -4,7 +4,6 @@
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
 use crate::integrate::energy_lost::Jump;
-use crate::integrate::stability::SlowestRates;
 use crate::numbers::real::Scalar;
 use crate::results::structure::StructureResults;
 use crate::sets::devices::{DeviceSet, Devices};
@@ -34,14 +33,22 @@ pub(crate) trait StructureSteps: StructureResults {
     /// Whether something vibrates that a step has to resolve.
     fn vibrates<D: Devices>(craft: &Spacecraft<D, Self>) -> bool;
 
-    /// Rejects a step that is too long for the fastest vibration, at the slowest rates of the joints
-    /// during it.
-    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+    /// Whether a step needs no further check; `resolved` is whether it is far below the limits that an
+    /// evaluation estimates for springs and friction.
+    fn accepts<D: Devices>(
         craft: &Spacecraft<D, Self>,
-        start: &State<D, A, Self>,
         inputs: &Inputs<D, Self>,
         dt: D::Scalar,
-        slowest: &SlowestRates<D>,
+        resolved: bool,
+    ) -> bool;
+
+    /// Rejects a step that is too long for the fastest vibration in this pose; the rates are those at
+    /// which friction is evaluated.
+    fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
+        craft: &Spacecraft<D, Self>,
+        posed: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        dt: D::Scalar,
     ) -> Solved<(), D>;
 
     /// Adds `weight` times the slope of the structure's state to the sum, and sets that of the next

@@ -4,7 +4,6 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::energy_lost::Jump;
-use crate::integrate::stability::SlowestRates;
 use crate::integrate::structure::{Stage, Structure, StructureSteps};
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
@@ -131,14 +130,19 @@ impl StructureSteps for Rigid {
         craft.passive
     }
 
+    #[inline]
+    fn accepts<D: Devices>(_: &Spacecraft<D>, _: &Inputs<D>, _: D::Scalar, resolved: bool) -> bool {
+        resolved
+    }
+
+    #[inline]
     fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
         craft: &Spacecraft<D>,
-        start: &State<D, A>,
+        posed: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        slowest: &SlowestRates<D>,
     ) -> Solved<(), D> {
-        craft.check_stability_rigid(&slowest.at_slowest(start), inputs, dt)
+        craft.check_stability_rigid(posed, inputs, dt)
     }
 
     #[inline]
