@@ -178,6 +178,11 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         self.structure.mounts.as_ref().len()
     }
 
+    /// Whether nothing deforms: there are no modes and no mounts.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.modes() == 0 && self.mounts() == 0
+    }
+
     /// The structure as a rigid hub, undeformed, with the devices on it.
     #[must_use]
     pub fn undeformed(&self) -> Spacecraft<D> {

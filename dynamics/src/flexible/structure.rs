@@ -20,15 +20,12 @@ use crate::results::ledger::Ledger;
 use crate::results::loads::{LoadAxes, Loads};
 use crate::results::momentum::MotionSums;
 use crate::results::structure::StructureResults;
-use crate::sets::devices::{DeviceSet, Devices};
+use crate::sets::devices::Devices;
 use crate::solve::elimination::Eliminate;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::{StructureData, StructureEquations};
-
-/// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
+use crate::solve::structure::{Solved, StructureData, StructureEquations};
 
 impl<M: ModalStorage> Structure for Flexible<M> {}
 
@@ -110,10 +107,6 @@ impl<M: ModalStorage> StructureEquations for Flexible<M> {
         reject(craft.modes(), numbers, |_| Quantity::ModalAcceleration)
     }
 
-    fn is_rigid<D: Devices>(craft: &Spacecraft<D, Self>) -> bool {
-        craft.modes() == 0 && craft.mounts() == 0
-    }
-
     fn solve<D: Devices, A: Attitude<D::Scalar>>(
         craft: &Spacecraft<D, Self>,
         by: impl Eliminate<D::Scalar>,
@@ -122,7 +115,7 @@ impl<M: ModalStorage> StructureEquations for Flexible<M> {
         found: &mut Accelerations<D, Self>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Solved<(), D> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             return craft.solve_rigid(by, state, inputs, found, stiffness);
         }
         craft.solve_flexible(by, state, inputs, found)
@@ -134,7 +127,7 @@ impl<M: ModalStorage> StructureResults for Flexible<M> {
         craft: &Spacecraft<D, Self>,
         state: &State<D, A, Self>,
     ) -> MotionSums<D::Scalar> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             return craft.sums_rigid(state);
         }
         craft.sums_flexible(state).motion
@@ -144,7 +137,7 @@ impl<M: ModalStorage> StructureResults for Flexible<M> {
         craft: &Spacecraft<D, Self>,
         state: &State<D, A, Self>,
     ) -> [Vec3<D::Scalar>; 2] {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             return craft.first_moment_rigid(state);
         }
         craft.sums_flexible(state).first_moment
@@ -156,7 +149,7 @@ impl<M: ModalStorage> StructureResults for Flexible<M> {
         inputs: &Inputs<D, Self>,
         accelerations: &Accelerations<D, Self>,
     ) -> Solved<Ledger<D::Scalar, Self>, D> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             let modal = ModalLedger { strain: zero(), stiffness: zero(), damping: zero() };
             return craft.ledger_rigid(state, inputs, accelerations, modal);
         }
@@ -170,7 +163,7 @@ impl<M: ModalStorage> StructureResults for Flexible<M> {
         accelerations: &Accelerations<D, Self>,
         axes: LoadAxes,
     ) -> Solved<Loads<D, Self>, D> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             let none = (M::modes(0, &zero()), M::mounts(0, &Wrench::none()));
             let modal = ModalLoads { forces: none.0, mounts: none.1 };
             return craft.loads_rigid(state, inputs, accelerations, axes, modal);
@@ -185,14 +178,14 @@ impl<M: ModalStorage> StructureSteps for Flexible<M> {
         state: &State<D, A, Self>,
         inputs: &Inputs<D, Self>,
     ) -> Jump<State<D, A, Self>, D::Scalar> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             return craft.jump_rigid(state, inputs);
         }
         craft.jump_flexible(state, inputs)
     }
 
     fn vibrates<D: Devices>(craft: &Spacecraft<D, Self>) -> bool {
-        craft.passive || !Self::is_rigid(craft)
+        craft.passive || !craft.is_rigid()
     }
 
     fn accepts<D: Devices>(
@@ -201,7 +194,7 @@ impl<M: ModalStorage> StructureSteps for Flexible<M> {
         dt: D::Scalar,
         resolved: bool,
     ) -> bool {
-        if Self::is_rigid(craft) { resolved } else { craft.is_within_own_limit(inputs, dt) }
+        if craft.is_rigid() { resolved } else { craft.is_within_own_limit(inputs, dt) }
     }
 
     fn check_stability<D: Devices, A: Attitude<D::Scalar>>(
@@ -210,7 +203,7 @@ impl<M: ModalStorage> StructureSteps for Flexible<M> {
         inputs: &Inputs<D, Self>,
         dt: D::Scalar,
     ) -> Solved<(), D> {
-        if Self::is_rigid(craft) {
+        if craft.is_rigid() {
             return craft.check_stability_rigid(posed, inputs, dt);
         }
         craft.check_vibrations(posed, inputs, dt)

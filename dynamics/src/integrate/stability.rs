@@ -45,7 +45,7 @@ fn rests<T: Scalar>([first, smallest]: Slowest<T>, passive: &Passive<T>) -> bool
 }
 
 /// Rates of the joints during a step.
-pub(crate) struct SlowestRates<D: Devices>(D::Per<data::PerJoint<Slowest<D::Scalar>>>);
+struct SlowestRates<D: Devices>(D::Per<data::PerJoint<Slowest<D::Scalar>>>);
 
 impl<D: Devices> SlowestRates<D> {
     /// At the start.

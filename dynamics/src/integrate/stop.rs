@@ -109,7 +109,7 @@ impl<D: Devices, S: StructureSteps> Spacecraft<D, S> {
 
     /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors;
     /// with shares of damping and stiffness subtracted from the mass matrix, if any.
-    pub(crate) fn eliminate_for_impulses<A>(
+    pub(super) fn eliminate_for_impulses<A>(
         &self,
         state: &State<D, A, S>,
         motors: &D::Per<data::Motors>,

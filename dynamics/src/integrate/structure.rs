@@ -2,21 +2,18 @@
 //! stop.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::error::SolveError;
 use crate::integrate::energy_lost::Jump;
 use crate::numbers::real::Scalar;
 use crate::results::structure::StructureResults;
-use crate::sets::devices::{DeviceSet, Devices};
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
+use crate::solve::structure::Solved;
 
 /// What carries the devices of a [`Spacecraft`]: [`Rigid`](crate::Rigid) or [`Flexible`](crate::Flexible). A function
 /// for spacecraft of any structure has this for a bound.
 pub trait Structure: StructureSteps {}
-
-/// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
 
 /// The state at a stage, at the start of the step, and the sum of the slopes.
 pub(crate) type Stage<'a, V> = (&'a mut V, &'a V, &'a mut V);

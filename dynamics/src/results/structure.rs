@@ -1,19 +1,15 @@
 //! [`StructureResults`]: what differs between structures in momentum, ledger and loads.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::error::SolveError;
 use crate::numbers::vec3::Vec3;
 use crate::results::ledger::Ledger;
 use crate::results::loads::{LoadAxes, Loads};
 use crate::results::momentum::MotionSums;
-use crate::sets::devices::{DeviceSet, Devices};
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::StructureEquations;
-
-/// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
+use crate::solve::structure::{Solved, StructureEquations};
 
 /// What momentum, ledger and loads need of a structure.
 pub(crate) trait StructureResults: StructureEquations {

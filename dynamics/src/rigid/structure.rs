@@ -1,7 +1,6 @@
 //! [`Rigid`] as a [`Structure`]: no modal coordinates, so none that could be rejected.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::error::SolveError;
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::energy_lost::Jump;
 use crate::integrate::structure::{Stage, Structure, StructureSteps};
@@ -11,12 +10,12 @@ use crate::results::ledger::Ledger;
 use crate::results::loads::{LoadAxes, Loads};
 use crate::results::momentum::MotionSums;
 use crate::results::structure::StructureResults;
-use crate::sets::devices::{DeviceSet, Devices};
+use crate::sets::devices::Devices;
 use crate::solve::elimination::Eliminate;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::structure::{Rigid, StructureData, StructureEquations};
+use crate::solve::structure::{Rigid, Solved, StructureData, StructureEquations};
 
 impl Structure for Rigid {}
 
@@ -28,9 +27,6 @@ impl StructureData for Rigid {
     type Ledger<T: Scalar> = ();
     type Constants<D: Devices> = ();
 }
-
-/// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
 
 impl StructureEquations for Rigid {
     fn mass<D: Devices>(craft: &Spacecraft<D>) -> D::Scalar {
@@ -61,11 +57,6 @@ impl StructureEquations for Rigid {
     #[inline]
     fn reject_accelerations<D: Devices>(_: &Spacecraft<D>, (): &()) -> Solved<(), D> {
         Ok(())
-    }
-
-    #[inline]
-    fn is_rigid<D: Devices>(_: &Spacecraft<D>) -> bool {
-        true
     }
 
     #[inline]

@@ -293,7 +293,7 @@ fn rates_are_finite<D: Devices, A, S: StructureEquations>(state: &State<D, A, S>
 
 /// Whether what the accelerations may not depend on is finite: the position, forces and rates on a
 /// hub that is held, motors of joints that are. All else shows in the result.
-pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>, S: StructureEquations>(
+fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>, S: StructureEquations>(
     state: &State<D, A, S>,
     inputs: &Inputs<D, S>,
 ) -> bool {

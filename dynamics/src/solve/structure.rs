@@ -35,7 +35,7 @@ pub trait StructureData: Copy + Debug + PartialEq + Send + Sync + 'static {
 pub struct Rigid;
 
 /// A result, or why there is none.
-type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
+pub(crate) type Solved<R, D> = Result<R, SolveError<<D as DeviceSet>::Scalar>>;
 
 /// What the equations of a spacecraft need of its structure.
 pub(crate) trait StructureEquations: StructureData + Sized {
@@ -75,9 +75,6 @@ pub(crate) trait StructureEquations: StructureData + Sized {
         craft: &Spacecraft<D, Self>,
         accelerations: &Self::Accelerations<D::Scalar>,
     ) -> Solved<(), D>;
-
-    /// Whether nothing deforms.
-    fn is_rigid<D: Devices>(craft: &Spacecraft<D, Self>) -> bool;
 
     /// Writes the accelerations, each device eliminated `by` this; and the stiffness of springs and
     /// friction on a hub that does not deform, if requested.
