@@ -13,23 +13,30 @@ pub(crate) enum Members {
     InLanes,
 }
 
-/// Those that are tested in lanes, too, where everything is tested.
-const SOLVER: [&str; 4] =
-    ["precess-double-double", "precess-dynamics", "precess-point-masses", "precess-tests"];
+/// Those whose unit tests and examples are compiled in lanes where everything is tested.
+const SOLVER: [&str; 2] = ["precess-dynamics", "precess-tests"];
+
+/// The suite that compares lanes with single evaluations: whatever else is tested is tested by itself.
+const SUITE: (&str, &str) = ("precess-tests", "lanes");
 
 /// Those that are nothing without lanes, and what only the Python package is made of: minutes to compile.
 const LANES: [&str; 4] = ["precess-attack", "precess-counts", "precess-lanes", "precess-measure"];
 
 impl Members {
-    /// The group of a package: that of the solver's suites depends on whether everything is tested.
-    pub(crate) fn of_package(package: &str, everything: bool) -> Self {
-        let in_lanes = LANES.contains(&package) || (everything && SOLVER.contains(&package));
+    /// The group of a target of a package, `lib`, `bin` or the name of an integration test: that of the solver's
+    /// library depends on whether everything is tested.
+    pub(crate) fn of_target(package: &str, target: &str, everything: bool) -> Self {
+        let in_lanes = LANES.contains(&package)
+            || (package, target) == SUITE
+            || (everything && target == "lib" && SOLVER.contains(&package));
         if in_lanes { Self::InLanes } else { Self::Plain }
     }
 
-    /// Arguments of cargo that choose the features.
-    pub(crate) fn features(self) -> &'static [&'static str] {
+    /// Arguments of cargo that choose the features. Where everything is tested, spacecraft have every number of devices
+    /// to eight.
+    pub(crate) fn features(self, everything: bool) -> &'static [&'static str] {
         match self {
+            Self::Plain if everything => &["--features", "precess-tests/shapes"],
             Self::Plain => &[],
             Self::InLanes => &["--features", "precess-tests/lanes"],
         }

@@ -12,16 +12,9 @@ mod input_states;
 mod invariants;
 mod kinds_and_modes;
 mod known_cases;
-#[cfg(feature = "lanes")]
-mod lane_loads;
-#[cfg(feature = "lanes")]
-mod lane_runs;
-#[cfg(feature = "lanes")]
-mod lanes;
 mod locked;
+mod locked_gyros;
 mod operations;
-#[cfg(feature = "lanes")]
-mod parameter_batch;
 mod parameterisations;
 mod power_balance;
 mod promises;

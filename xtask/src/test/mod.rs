@@ -187,7 +187,7 @@ fn built_for(chosen: &[&'static Suite], notes: &Path) -> Result<(), String> {
 
 /// The suites whose programs are built by the command of a group.
 fn of_group(chosen: &[&'static Suite], members: Members, all: bool) -> Vec<&'static Suite> {
-    let is_of = |suite: &&Suite| matches!(suite.how, How::Target { package, .. } if Members::of_package(package, all) == members);
+    let is_of = |suite: &&Suite| matches!(suite.how, How::Target { package, target } if Members::of_target(package, target, all) == members);
     chosen.iter().copied().filter(is_of).collect()
 }
 

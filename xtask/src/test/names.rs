@@ -54,8 +54,17 @@ const MOVED: &[(&str, &str)] = &[
     ),
     (
         "tests/tests/dynamics/lane_loads.rs devices_side_by_side_agree_to_rounding_with_loads",
-        "tests/tests/dynamics/lane_loads.rs devices_side_by_side_have_the_bits_of_one_state_with_loads",
+        "tests/tests/lanes/loads.rs devices_side_by_side_have_the_bits_of_one_state_with_loads",
     ),
+    ("tests/tests/dynamics/lane_loads.rs ", "tests/tests/lanes/loads.rs "),
+    ("tests/tests/dynamics/lane_runs.rs ", "tests/tests/lanes/runs.rs "),
+    ("tests/tests/dynamics/lanes.rs ", "tests/tests/lanes/batch.rs "),
+    (
+        "tests/tests/dynamics/locked.rs lanes_keep_locked_coordinates_and_have_the_bits_of_steps",
+        "tests/tests/lanes/locked.rs lanes_keep_locked_coordinates_and_have_the_bits_of_steps",
+    ),
+    ("tests/tests/dynamics/locked.rs STEPS", "tests/tests/dynamics/locked_gyros.rs STEPS"),
+    ("tests/tests/dynamics/parameter_batch.rs ", "tests/tests/lanes/one_spacecraft_each.rs "),
     ("dynamics/src/attitude/attitude_checks.rs ", "dynamics/src/attitude/attitude_tests.rs "),
     ("dynamics/src/equations/error_checks.rs ", "dynamics/src/equations/error_tests.rs "),
     ("dynamics/src/lanes/fallback_checks.rs ", "dynamics/src/lanes/fallback_tests.rs "),

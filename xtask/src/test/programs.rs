@@ -34,7 +34,7 @@ pub(crate) fn build(
 ) -> Result<Vec<Program>, String> {
     let mut cargo = Command::new(program());
     cargo.args(["test", "--no-run", "--message-format=json-render-diagnostics"]);
-    cargo.args(members.features());
+    cargo.args(members.features(all));
     cargo.args(optimisation(all));
     let (mut packages, mut kinds) = (BTreeSet::new(), BTreeSet::new());
     for suite in suites {

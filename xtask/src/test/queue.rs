@@ -58,13 +58,14 @@ impl Job {
     fn documentation_of(members: Members, all: bool) -> Self {
         let name = format!("{DOCUMENTATION}{}", members.says());
         let mut arguments: Vec<_> = ["test", "--doc", "--no-fail-fast"].map(str::to_owned).to_vec();
-        let libraries = libraries().filter(|package| Members::of_package(package, all) == members);
+        let libraries =
+            libraries().filter(|package| Members::of_target(package, "lib", all) == members);
         arguments.extend(libraries.flat_map(|package| ["--package", package]).map(str::to_owned));
         if all && members == Members::Plain {
             // Its features of `zip` are those that the desktop tool was compiled with for the tests.
             arguments.extend(["--package", DISTRIBUTE.package].map(str::to_owned));
         }
-        arguments.extend(members.features().iter().map(|word| (*word).to_owned()));
+        arguments.extend(members.features(all).iter().map(|word| (*word).to_owned()));
         arguments.extend(optimisation(all).map(str::to_owned));
         Self { name, program: PathBuf::from(program()), arguments, folder: root(), is_test: false }
     }

@@ -152,18 +152,24 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-dynamics", "lib", &[SOLVER, LANES]),
     always("precess-double-double", "lib", &[SOLVER, REFERENCES]),
     always("precess-tests", "lib", &[SOLVER, REFERENCES]),
-    always("precess-tests", "dynamics", &[SOLVER, LANES, REFERENCES, &["tests/tests/dynamics"]]),
+    always("precess-tests", "dynamics", &[SOLVER, REFERENCES, &["tests/tests/dynamics"]]),
     always("precess-tests", "flexible", &[SOLVER, REFERENCES, &["tests/tests/flexible"]]),
     always(
         "precess-tests",
         "isolated",
-        &[SOLVER, LANES, REFERENCES, &["tests/tests/isolated", "tests/fixtures"]],
+        &[SOLVER, REFERENCES, &["tests/tests/isolated", "tests/fixtures"]],
     ),
-    always(
+    all(
         "precess-tests",
-        "engines",
-        &[SOLVER, LANES, REFERENCES, ENGINES, &["tests/tests/engines"]],
+        "lanes",
+        &[
+            SOLVER,
+            LANES,
+            REFERENCES,
+            &["tests/tests/dynamics", "tests/tests/isolated", "tests/tests/lanes"],
+        ],
     ),
+    always("precess-tests", "engines", &[SOLVER, REFERENCES, ENGINES, &["tests/tests/engines"]]),
     always("precess-tests", "links", &[PAGES, &["tests/tests/links.rs", "sim/fuzz", "sim/report"]]),
     always(
         "precess-tests",

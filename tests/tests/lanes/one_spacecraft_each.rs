@@ -7,7 +7,7 @@ use precess_dynamics::{
     Each as _, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, SolveError, Spacecraft, State,
 };
 
-use super::lanes::{self, Mixed, hub, mixed, states};
+use super::batch::{self, Mixed, hub, mixed, states};
 
 /// A spacecraft that differs from the others in everything: mass, inertia, imbalance, places,
 /// mounts, springs.
@@ -42,7 +42,7 @@ fn craft(k: u32) -> Spacecraft<Mixed> {
 
 /// Inputs with a gimbal that is driven in every second one, against a spring in some.
 fn inputs(k: u32) -> Inputs<Mixed> {
-    let mut inputs = lanes::inputs(k);
+    let mut inputs = batch::inputs(k);
     if !k.is_multiple_of(2) {
         inputs.modes.1.gimbal = Mode::Driven;
         inputs.motors.1.u_g = 0.01 * f64::from(k);
@@ -160,7 +160,7 @@ fn groups_with_loads_of_their_own_between_others_have_the_bits_of_each_by_itself
     let of_groups: [[u32; 8]; 4] = [plain, [5; 8], plain, [1, 6, 2, 6, 5, 4, 6, 7]];
     let crafts: Vec<_> = of_groups.as_flattened().iter().map(|k| craft(*k)).collect();
     let states = states(32);
-    let mut given = lanes::inputs(0);
+    let mut given = batch::inputs(0);
     given.modes.1.gimbal = Mode::Driven;
     given.motors.1.u_g = 0.02;
     assert!(given.modes.values().all(|mode| mode != Mode::Locked), "else nothing is kept");

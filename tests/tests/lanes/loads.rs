@@ -10,9 +10,9 @@ use precess_dynamics::{
 };
 use precess_tests::random::Random;
 
-use super::lanes::one_after_another;
-use super::lanes::{Mixed, hub, mixed, states};
-use super::parameter_batch::printed;
+use super::batch::one_after_another;
+use super::batch::{Mixed, hub, mixed, states};
+use super::one_spacecraft_each::printed;
 
 /// Which loads spacecraft and inputs have.
 #[derive(Clone, Copy, Debug)]

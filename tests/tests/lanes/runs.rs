@@ -4,8 +4,8 @@
 use precess_dynamics::lanes::{Batch, BatchInputs, Observers};
 use precess_dynamics::{Gravity, HubMode, Inputs, Passive, SolveError, Spacecraft, State};
 
-use super::lanes::{Mixed, hub, inputs, mixed, states};
-use super::parameter_batch::{crafts, printed};
+use super::batch::{Mixed, hub, inputs, mixed, states};
+use super::one_spacecraft_each::{crafts, printed};
 
 /// Length of a step, s.
 const DT: f64 = 1e-3;
@@ -157,7 +157,7 @@ fn any_number_of_threads_has_the_bits_of_one() {
         let evaluated = |batch: &Batch<Mixed>, each: &Batch<Mixed>| {
             let mut found = [Vec::new(), Vec::new(), Vec::new()];
             batch.accelerations(&states, &inputs, &mut found[0]).unwrap();
-            batch.accelerations(&states, &super::lanes::inputs(1), &mut found[1]).unwrap();
+            batch.accelerations(&states, &super::batch::inputs(1), &mut found[1]).unwrap();
             each.accelerations(&states, &inputs, &mut found[2]).unwrap();
             printed(&found)
         };
