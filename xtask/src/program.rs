@@ -35,13 +35,17 @@ impl Program {
         Self::of_command(command) == Some(self) || (self == DERIVE && command == "demo")
     }
 
-    /// Builds it; what rustc takes is noted in a file, if there is one.
-    pub(crate) fn build(self, notes: Option<&Path>) -> Result<(), String> {
+    /// Builds it with options of cargo; what rustc takes is noted in a file, if there is one.
+    pub(crate) fn build<'a>(
+        self,
+        options: impl Iterator<Item = &'a str>,
+        notes: Option<&Path>,
+    ) -> Result<(), String> {
         let mut cargo = Command::new(program());
         if let Some(notes) = notes {
             measured::wrap(&mut cargo, notes);
         }
-        run(cargo.args(["build", "--package", self.package]))
+        run(cargo.args(["build", "--package", self.package]).args(options))
     }
 
     /// Where it is once it is built: started without cargo, it waits for no other build.
@@ -51,7 +55,7 @@ impl Program {
 
     /// Builds it and runs a command of it.
     pub(crate) fn run(self, arguments: &[&str]) -> Result<(), String> {
-        self.build(None)?;
+        self.build(std::iter::empty(), None)?;
         self.start(arguments)
     }
 

@@ -132,7 +132,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
         let some = some.filter(|(_, words)| FIRST.contains(&words[0]) == first);
         some.map(|(suite, words)| Job::command(suite.name(), words)).collect::<Vec<_>>()
     };
-    built_for(chosen, notes)?;
+    built_for(chosen, all, notes)?;
     if !commands(true).into_iter().all(|job| queue.run(job)) {
         return Ok(queue.outcomes());
     }
@@ -176,12 +176,13 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
 }
 
 /// Builds the programs of the commands, so that whoever waits sees cargo's progress.
-fn built_for(chosen: &[&'static Suite], notes: &Path) -> Result<(), String> {
+fn built_for(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<(), String> {
     [DERIVE, DISTRIBUTE].into_iter().try_for_each(|program| {
         let needs = |suite: &&Suite| {
             matches!(suite.how, How::Command(words) if program.is_needed_by(words[0]))
         };
-        if chosen.iter().any(needs) { program.build(Some(notes)) } else { Ok(()) }
+        let options = programs::optimisation(all);
+        if chosen.iter().any(needs) { program.build(options, Some(notes)) } else { Ok(()) }
     })
 }
 
