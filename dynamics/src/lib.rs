@@ -91,6 +91,7 @@ pub use derivatives::linearization::{Linearization, Output};
 pub use derivatives::parameters::{Component, ParameterVariable};
 #[cfg(feature = "alloc")]
 pub use derivatives::step::StepLinearization;
+pub use derivatives::structure::Structure;
 pub use derivatives::variable::{Axis, Variable, VariableName};
 pub use equations::device_loads::{DeviceLoads, JointPower};
 pub use equations::error::{Quantity, SolveError};
@@ -108,7 +109,6 @@ pub use flexible::storage::{FixedModes, Flexible, ModalStorage};
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
-pub use integrate::structure::Structure;
 pub use isolation::parameters::Platform;
 pub use isolation::suspension::{Coupled, Strut, Suspension};
 pub use model::joint_array::{JointArray, MAX_JOINTS};

@@ -16,6 +16,8 @@
 //! - [`wheels`]: a run of three reaction wheels beside Basilisk's.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.
+//! - [`differences`]: derivatives by differences in double-double; [`derivative_blocks`]: errors of
+//!   derivatives.
 //! - [`bounds`]: what the project promises, as the suites assert it.
 
 pub use precess_double_double as double_double;
@@ -29,6 +31,8 @@ pub mod bounds;
 pub mod case;
 pub mod chains;
 pub mod counted;
+pub mod derivative_blocks;
+pub mod differences;
 pub mod measured;
 pub mod newton_euler;
 pub mod random;

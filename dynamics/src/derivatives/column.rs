@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::derivatives::elimination::ConstantsPlain;
 use crate::derivatives::point::{DualSet, Number, Point};
+use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
@@ -20,6 +21,7 @@ use crate::sets::per_device as data;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::Accelerations;
+use crate::solve::structure::{Rigid, StructureData};
 use crate::{Attitude, Loads};
 
 /// What is differentiated beside the accelerations. Each costs about as much again as they do.
@@ -46,9 +48,9 @@ pub(super) type JointLoads<D> =
 
 /// Derivatives by one variable, each in the unit of the quantity over that of the variable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column<D: Devices> {
+pub struct Column<D: Devices, S: StructureData = Rigid> {
     /// Of the accelerations, expressed as [`Accelerations`] are.
-    pub accelerations: Accelerations<D>,
+    pub accelerations: Accelerations<D, S>,
     /// Of the acceleration of B expressed in N, the derivative of
     /// [`State::r_b_n_dot`](crate::State::r_b_n_dot): it also changes with the attitude.
     pub r_b_n_ddot_n: Vector3<D::Scalar>,
@@ -63,7 +65,7 @@ pub struct Column<D: Devices> {
     pub hub_load: Option<Wrench<D::Scalar>>,
 }
 
-impl<D: Devices> Column<D> {
+impl<D: Devices, S: StructureDerivatives> Column<D, S> {
     /// The element of the matrix of the linearised system: the derivative by `variable`, of which
     /// this is the column, of the time derivative of a state. None where `state` is no state.
     ///
@@ -89,6 +91,10 @@ impl<D: Devices> Column<D> {
             Variable::Omega(axis) => axis.of(components(&self.accelerations.omega_dot)),
             Variable::Coordinate(joint) => unit(variable == Variable::Rate(joint)),
             Variable::Rate(joint) => self.accelerations.devices.values().nth(joint)?,
+            Variable::ModalCoordinate(mode) => unit(variable == Variable::ModalRate(mode)),
+            Variable::ModalRate(mode) => {
+                *S::modal_accelerations(&self.accelerations.modal).get(mode)?
+            }
             _ => return None,
         })
     }
@@ -96,19 +102,19 @@ impl<D: Devices> Column<D> {
 
 /// Everything that is differentiated, in dual numbers.
 #[derive(Debug)]
-pub(super) struct Results<D: Devices> {
-    accelerations: Accelerations<D>,
+pub(super) struct Results<D: Devices, S: StructureData> {
+    accelerations: Accelerations<D, S>,
     r_b_n_ddot_n: Vector3<D::Scalar>,
     momentum: Option<EnergyAndMomentum<D::Scalar>>,
     /// On the joints, and on the hub.
     loads: Option<(JointLoads<D>, Wrench<D::Scalar>)>,
 }
 
-impl<T: Scalar, D: Devices<Scalar = Number<T>>> Results<D> {
+impl<T: Scalar, D: Devices<Scalar = Number<T>>, S: StructureDerivatives> Results<D, S> {
     /// Evaluates them.
     pub(super) fn of(
-        spacecraft: &Spacecraft<D>,
-        at: &Point<D>,
+        spacecraft: &Spacecraft<D, S>,
+        at: &Point<D, S>,
         outputs: &Outputs<T>,
     ) -> Result<Self, SolveError<Number<T>>> {
         let Point { state, inputs } = at;
@@ -156,7 +162,10 @@ impl<T: Scalar> Visit<T, (Shared<data::Loads>, Unique<data::PerJoint<Wrench<T>>>
     }
 }
 
-fn joint_loads<D: Devices>(spacecraft: &Spacecraft<D>, loads: &Loads<D>) -> JointLoads<D> {
+fn joint_loads<D: Devices, S: StructureDerivatives>(
+    spacecraft: &Spacecraft<D, S>,
+    loads: &Loads<D, S>,
+) -> JointLoads<D> {
     let mut joints = D::new_data(&spacecraft.devices, &data::PerJoint(Wrench::none()));
     let data = (&loads.devices, &mut joints);
     let Ok(()) = D::visit::<(Shared<data::Loads>, Unique<data::PerJoint<Wrench<D::Scalar>>>), _>(
@@ -167,9 +176,9 @@ fn joint_loads<D: Devices>(spacecraft: &Spacecraft<D>, loads: &Loads<D>) -> Join
     joints
 }
 
-impl<D: WithNumbers> Spacecraft<D> {
+impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The derivatives by the variable of a number.
-    pub(super) fn column(&self, of: &Results<DualSet<D>>, number: usize) -> Column<D> {
+    pub(super) fn column(&self, of: &Results<DualSet<D>, S>, number: usize) -> Column<D, S> {
         let along =
             |v: &Vector3<Number<D::Scalar>>| v.map(|component| component.derivative(number));
         let wrench = |of: Wrench<_>| Wrench { force: along(&of.force), moment: along(&of.moment) };
@@ -181,7 +190,9 @@ impl<D: WithNumbers> Spacecraft<D> {
                 r_b_n_ddot: along(&accelerations.r_b_n_ddot),
                 omega_dot: along(&accelerations.omega_dot),
                 devices: filled(D::new_data(&self.devices, &data::Accelerations), joints),
-                modal: (),
+                modal: S::accelerations(&accelerations.modal, |of: Number<D::Scalar>| {
+                    of.derivative(number)
+                }),
             },
             r_b_n_ddot_n: along(r_b_n_ddot_n),
             momentum: momentum.as_ref().map(|of| EnergyAndMomentum {

@@ -31,6 +31,20 @@ pub enum DerivativeError<T = f64> {
         /// How many joints there are.
         joints: usize,
     },
+    /// There is no mode of that number: a rigid hub has none.
+    NoSuchMode {
+        /// The number.
+        mode: usize,
+        /// How many modes there are.
+        modes: usize,
+    },
+    /// There is no mount of that number: a rigid hub has none.
+    NoSuchMount {
+        /// The number.
+        mount: usize,
+        /// How many mounts there are.
+        mounts: usize,
+    },
     /// There is no device of that number.
     NoSuchDevice {
         /// The number.
@@ -87,6 +101,12 @@ impl<T: Scalar> Display for DerivativeError<T> {
             ),
             Self::NoSuchJoint { joint, joints } => {
                 write!(f, "no joint {joint}; joints count from 0, and there are {joints}")
+            }
+            Self::NoSuchMode { mode, modes } => {
+                write!(f, "no mode {mode}; modes count from 0, and there are {modes}")
+            }
+            Self::NoSuchMount { mount, mounts } => {
+                write!(f, "no mount {mount}; mounts count from 0, and there are {mounts}")
             }
             Self::NoSuchDevice { device, devices } => {
                 write!(f, "no device {device}; devices count from 0, and there are {devices}")

@@ -4,6 +4,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::column::{Column, Outputs, Results};
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::point::{Number, Point, WIDTH};
+use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::Variable;
 use crate::equations::error::SolveError;
 use crate::sets::with_numbers::WithNumbers;
@@ -11,7 +12,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-impl<D: WithNumbers> Spacecraft<D> {
+impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// Derivatives of the accelerations, and of what `outputs` names, by some variables: `column` is
     /// called with each variable and its derivatives, in the order of `variables`. Returns the
     /// accelerations.
@@ -48,18 +49,19 @@ impl<D: WithNumbers> Spacecraft<D> {
     /// # Errors
     ///
     /// [`DerivativeError::Solve`] as [`Self::accelerations`] (and [`Self::momentum`],
-    /// [`Self::loads`]) rejects the state, [`DerivativeError::NoSuchJoint`] and
+    /// [`Self::loads`]) rejects the state, [`DerivativeError::NoSuchJoint`],
+    /// [`DerivativeError::NoSuchMode`], [`DerivativeError::NoSuchMount`] and
     /// [`DerivativeError::NotAnInput`] for a variable that does not exist,
     /// [`DerivativeError::NotFinite`] for a derivative that is not finite. Columns before the error
     /// have been given.
     pub fn derivatives<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
         variables: impl IntoIterator<Item = Variable>,
-        mut column: impl FnMut(Variable, &Column<D>),
-    ) -> Result<Accelerations<D>, DerivativeError<D::Scalar>> {
+        mut column: impl FnMut(Variable, &Column<D, S>),
+    ) -> Result<Accelerations<D, S>, DerivativeError<D::Scalar>> {
         let accelerations = self.checked(state, inputs, outputs)?;
         let dual = self.with_numbers(Number::constant);
         let mut variables = variables.into_iter().fuse();
@@ -99,10 +101,10 @@ impl<D: WithNumbers> Spacecraft<D> {
     /// The accelerations, once everything that is differentiated has a value.
     pub(super) fn checked<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
-    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+    ) -> Result<Accelerations<D, S>, SolveError<D::Scalar>> {
         let accelerations = self.accelerations(state, inputs)?;
         if let Some(about) = outputs.momentum {
             self.energy_and_momentum(state, about)?;

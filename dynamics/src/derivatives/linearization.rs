@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::column::{Column, Outputs};
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
@@ -16,6 +17,7 @@ use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, StructureData};
 
 /// An output of the linearised system, a row of `c` and `d`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +28,8 @@ pub enum Output {
     AngularAcceleration(Axis),
     /// The acceleration of a joint, rad/s² or m/s².
     JointAcceleration(usize),
+    /// The second derivative of a modal coordinate, m sqrt(kg)/s².
+    ModalAcceleration(usize),
     /// Kinetic energy, J.
     Energy,
     /// Of the linear momentum, N axes, kg m/s.
@@ -53,9 +57,9 @@ pub enum Output {
 /// The attitude in `x - x0` is a small rotation about the axes of B. The state `x0` need not be an
 /// equilibrium.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Linearization<D: Devices> {
+pub struct Linearization<D: Devices, S: StructureData = Rigid> {
     /// The accelerations at the state.
-    pub accelerations: Accelerations<D>,
+    pub accelerations: Accelerations<D, S>,
     /// The states: rows and columns of `a`, columns of `c`; in the order of
     /// [`Spacecraft::state_variables`].
     pub states: Vec<Variable>,
@@ -73,7 +77,7 @@ pub struct Linearization<D: Devices> {
     pub d: DMatrix<D::Scalar>,
 }
 
-impl<D: WithNumbers> Spacecraft<D> {
+impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The spacecraft linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: [`Self::derivatives`] computes their columns, and can do
@@ -84,10 +88,10 @@ impl<D: WithNumbers> Spacecraft<D> {
     /// As [`Self::derivatives`].
     pub fn linearize<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
-    ) -> Result<Linearization<D>, DerivativeError<D::Scalar>> {
+    ) -> Result<Linearization<D, S>, DerivativeError<D::Scalar>> {
         let states: Vec<_> = self.state_variables(inputs).collect();
         let by_inputs: Vec<_> = self.input_variables(inputs).collect();
         let rows = self.outputs(outputs);
@@ -126,6 +130,7 @@ impl<D: WithNumbers> Spacecraft<D> {
         rows.extend(Axis::ALL.map(Output::Acceleration));
         rows.extend(Axis::ALL.map(Output::AngularAcceleration));
         rows.extend((0..joints).map(Output::JointAcceleration));
+        rows.extend((0..S::modes(self)).map(Output::ModalAcceleration));
         if outputs.momentum.is_some() {
             rows.push(Output::Energy);
             rows.extend(Axis::ALL.map(Output::LinearMomentum));
@@ -143,7 +148,7 @@ impl<D: WithNumbers> Spacecraft<D> {
     }
 }
 
-impl<T: Scalar, D: Devices<Scalar = T>> Column<D> {
+impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
     /// The column's elements in the rows of [`Linearization::outputs`], in order.
     pub fn outputs(&self) -> impl Iterator<Item = T> {
         let Self { accelerations, momentum, loads, hub_load, .. } = self;
@@ -156,6 +161,8 @@ impl<T: Scalar, D: Devices<Scalar = T>> Column<D> {
         let loads = loads.iter().flat_map(Each::values).chain(*hub_load).flat_map(|wrench| {
             components(&wrench.force).into_iter().chain(components(&wrench.moment))
         });
-        hub.chain(accelerations.devices.values()).chain(momentum).chain(loads)
+        let modes = S::modal_accelerations(&accelerations.modal).iter().copied();
+        let joints = accelerations.devices.values();
+        hub.chain(joints).chain(modes).chain(momentum).chain(loads)
     }
 }

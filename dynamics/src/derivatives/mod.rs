@@ -15,5 +15,7 @@ pub(crate) mod parameters;
 mod point;
 #[cfg(feature = "alloc")]
 pub(crate) mod step;
+pub(crate) mod structure;
 mod turned;
 pub(crate) mod variable;
+mod with_numbers;

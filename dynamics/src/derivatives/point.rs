@@ -2,6 +2,7 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::turned::Turned;
 use crate::derivatives::variable::Variable;
 use crate::equations::gravity::Gravity;
@@ -16,6 +17,7 @@ use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
+use crate::solve::structure::StructureData;
 
 /// How many derivatives one evaluation computes: the hub's state and its inputs fill whole ones.
 pub(super) const WIDTH: usize = 6;
@@ -28,18 +30,18 @@ pub(super) type DualSet<D> = <D as WithNumbers>::With<Number<<D as DeviceSet>::S
 
 /// State and inputs.
 #[derive(Clone, Debug)]
-pub(super) struct Point<D: Devices> {
-    pub(super) state: State<D, Turned<D::Scalar>>,
-    pub(super) inputs: Inputs<D>,
+pub(super) struct Point<D: Devices, S: StructureData> {
+    pub(super) state: State<D, Turned<D::Scalar>, S>,
+    pub(super) inputs: Inputs<D, S>,
 }
 
-impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
+impl<T: Scalar, D: Devices<Scalar = Number<T>>, S: StructureDerivatives> Point<D, S> {
     /// Constant state and inputs, of as many devices as the spacecraft has. `wrenches` is whether
     /// those on bodies are variables.
     pub(super) fn new<E: Devices<Scalar = T>, A: Attitude<T>>(
-        spacecraft: &Spacecraft<D>,
-        state: &State<E, A>,
-        inputs: &Inputs<E>,
+        spacecraft: &Spacecraft<D, S>,
+        state: &State<E, A, S>,
+        inputs: &Inputs<E, S>,
         wrenches: bool,
     ) -> Self {
         let number = Number::constant;
@@ -70,7 +72,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
                 attitude: Turned::of(&state.attitude),
                 omega: state.omega.map(number),
                 devices: joints,
-                modal: (),
+                modal: S::state(&state.modal, number),
             },
             inputs: Inputs {
                 force: inputs.force.map(number),
@@ -91,7 +93,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
                     Gravity::Central { mu } => Gravity::Central { mu: number(*mu) },
                 },
                 bodies,
-                modal: (),
+                modal: S::inputs(&inputs.modal, number),
             },
         }
     }
@@ -147,12 +149,49 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Point<D> {
                 Gravity::Central { mu } => Some(mu),
                 _ => return Err(DerivativeError::NotAnInput { variable }),
             },
+            Variable::ModalCoordinate(mode) => {
+                let [eta, _] = S::coordinates(&mut state.modal);
+                eta.get_mut(mode)
+            }
+            Variable::ModalRate(mode) => {
+                let [_, eta_dot] = S::coordinates(&mut state.modal);
+                eta_dot.get_mut(mode)
+            }
+            Variable::ModalForce(mode) => S::forces(&mut inputs.modal).get_mut(mode),
+            Variable::MountForce(mount, axis) => {
+                let wrench = S::wrenches(&mut inputs.modal).get_mut(mount);
+                wrench.map(|wrench| axis.of_mut(&mut wrench.force))
+            }
+            Variable::MountMoment(mount, axis) => {
+                let wrench = S::wrenches(&mut inputs.modal).get_mut(mount);
+                wrench.map(|wrench| axis.of_mut(&mut wrench.moment))
+            }
         };
         if let Some(found) = found {
             found.add_derivative(number, one());
             return Ok(());
         }
-        let joints = state.devices.states().count();
-        Err(DerivativeError::NoSuchJoint { joint: variable.joint().unwrap_or_default(), joints })
+        Err(self.missing(variable))
+    }
+
+    /// The error for a variable of a joint, mode or mount that there is not.
+    fn missing(&mut self, variable: Variable) -> DerivativeError<T> {
+        match variable {
+            Variable::ModalCoordinate(mode)
+            | Variable::ModalRate(mode)
+            | Variable::ModalForce(mode) => {
+                let modes = S::forces(&mut self.inputs.modal).len();
+                DerivativeError::NoSuchMode { mode, modes }
+            }
+            Variable::MountForce(mount, _) | Variable::MountMoment(mount, _) => {
+                let mounts = S::wrenches(&mut self.inputs.modal).len();
+                DerivativeError::NoSuchMount { mount, mounts }
+            }
+            _ => {
+                let joints = self.state.devices.states().count();
+                let joint = variable.joint().unwrap_or_default();
+                DerivativeError::NoSuchJoint { joint, joints }
+            }
+        }
     }
 }

@@ -11,6 +11,7 @@ use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
 use crate::derivatives::column::Outputs;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::parameters::ParameterVariable;
+use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::model::parameters::Hub;
 use crate::numbers::vec3::{Vec3, components};
@@ -18,6 +19,7 @@ use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
+use crate::solve::structure::{Rigid, StructureData};
 
 /// A step of RK4 linearised about a state and inputs:
 ///
@@ -34,9 +36,9 @@ use crate::solve::state::State;
 /// of a column by the angle of a balanced wheel, all rows but its own. The rest is filled: through its
 /// stages a step has elements where [`Linearization::a`](crate::Linearization::a) has zeros.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StepLinearization<D: WithNumbers<Scalar = f64>> {
+pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Rigid> {
     /// The state after the step, that of [`Spacecraft::step`] to the bit.
-    pub state: State<D, Quaternion>,
+    pub state: State<D, Quaternion, S>,
     /// The states: rows and columns of `a`, in the order of [`Spacecraft::state_variables`].
     pub states: Vec<Variable>,
     /// The inputs: columns of `b`, in the order of [`Spacecraft::input_variables`].
@@ -54,9 +56,9 @@ struct Slopes {
 }
 
 /// The state after a step, and a change of it for each column.
-type Stepped<D> = (State<D, Quaternion>, DMatrix<f64>);
+type Stepped<D, S> = (State<D, Quaternion, S>, DMatrix<f64>);
 
-impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
+impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
     /// The step of [`Self::step`] linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: the derivatives of the step, not those of the motion that
@@ -67,16 +69,16 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
     /// As [`Self::step`] and [`Self::derivatives`].
     pub fn linearize_step(
         &self,
-        state: &State<D, Quaternion>,
-        inputs: &Inputs<D>,
+        state: &State<D, Quaternion, S>,
+        inputs: &Inputs<D, S>,
         dt: f64,
-    ) -> Result<StepLinearization<D>, DerivativeError<f64>> {
+    ) -> Result<StepLinearization<D, S>, DerivativeError<f64>> {
         let states: Vec<_> = self.state_variables(inputs).collect();
         let by_inputs: Vec<_> = self.input_variables(inputs).collect();
         let (rows, held) = (states.len(), by_inputs.len());
         let start = DMatrix::identity(rows, rows.saturating_add(held));
         let none = Outputs::accelerations();
-        let slopes = |stage: &State<D, Quaternion>| {
+        let slopes = |stage: &State<D, Quaternion, S>| {
             let found = self.linearize(stage, inputs, &none)?;
             let mut by_held = DMatrix::zeros(rows, rows.saturating_add(held));
             by_held.columns_mut(rows, held).copy_from(&found.b);
@@ -87,52 +89,17 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         Ok(StepLinearization { state, states, inputs: by_inputs, a, b })
     }
 
-    /// Derivatives of the state after a step by parameters of the spacecraft of this hub and these
-    /// devices: rows as [`StepLinearization::states`], a column for each variable.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::step`] and [`Self::parameter_derivatives`].
-    pub fn step_parameter_derivatives(
-        hub: &Hub,
-        devices: &D,
-        (state, inputs): (&State<D, Quaternion>, &Inputs<D>),
-        dt: f64,
-        variables: &[ParameterVariable<'_>],
-    ) -> Result<DMatrix<f64>, DerivativeError<f64>> {
-        let craft = Self::new(hub, devices)?;
-        let states: Vec<_> = craft.state_variables(inputs).collect();
-        let start = DMatrix::zeros(states.len(), variables.len());
-        let none = Outputs::accelerations();
-        let slopes = |stage: &State<D, Quaternion>| {
-            let by_states = craft.linearize(stage, inputs, &none)?.a;
-            let mut by_held = DMatrix::zeros(states.len(), variables.len());
-            let by = variables.iter().copied();
-            let at = (stage, inputs);
-            let mut columns = by_held.column_iter_mut();
-            Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
-                let Some(mut slopes) = columns.next() else { return };
-                for (to, of) in slopes.iter_mut().zip(&states) {
-                    // By what is no state.
-                    *to = column.element(*of, Variable::Mu, &stage.omega).unwrap_or_default();
-                }
-            })?;
-            Ok(Slopes { by_states, by_held })
-        };
-        craft.chained(state, inputs, dt, &states, start, slopes).map(|(_, found)| found)
-    }
-
     /// The state after a step, and how a change of the state before it and of what is held is carried
     /// through: `start` has the change of each column, `slopes` its slope at a stage.
     fn chained(
         &self,
-        state: &State<D, Quaternion>,
-        inputs: &Inputs<D>,
+        state: &State<D, Quaternion, S>,
+        inputs: &Inputs<D, S>,
         dt: f64,
         states: &[Variable],
         start: DMatrix<f64>,
-        slopes: impl Fn(&State<D, Quaternion>) -> Result<Slopes, DerivativeError<f64>>,
-    ) -> Result<Stepped<D>, DerivativeError<f64>> {
+        slopes: impl Fn(&State<D, Quaternion, S>) -> Result<Slopes, DerivativeError<f64>>,
+    ) -> Result<Stepped<D, S>, DerivativeError<f64>> {
         let mut stages = Vec::with_capacity(4);
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             stages.push((weight, stage.clone()));
@@ -176,6 +143,43 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             attitude.put(sum.as_mut_slice(), rotation(last, turn));
         }
         Ok((next, sum))
+    }
+}
+
+impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
+    /// Derivatives of the state after a step by parameters of the spacecraft of this hub and these
+    /// devices: rows as [`StepLinearization::states`], a column for each variable.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::step`] and [`Self::parameter_derivatives`].
+    pub fn step_parameter_derivatives(
+        hub: &Hub,
+        devices: &D,
+        (state, inputs): (&State<D, Quaternion>, &Inputs<D>),
+        dt: f64,
+        variables: &[ParameterVariable<'_>],
+    ) -> Result<DMatrix<f64>, DerivativeError<f64>> {
+        let craft = Self::new(hub, devices)?;
+        let states: Vec<_> = craft.state_variables(inputs).collect();
+        let start = DMatrix::zeros(states.len(), variables.len());
+        let none = Outputs::accelerations();
+        let slopes = |stage: &State<D, Quaternion>| {
+            let by_states = craft.linearize(stage, inputs, &none)?.a;
+            let mut by_held = DMatrix::zeros(states.len(), variables.len());
+            let by = variables.iter().copied();
+            let at = (stage, inputs);
+            let mut columns = by_held.column_iter_mut();
+            Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
+                let Some(mut slopes) = columns.next() else { return };
+                for (to, of) in slopes.iter_mut().zip(&states) {
+                    // By what is no state.
+                    *to = column.element(*of, Variable::Mu, &stage.omega).unwrap_or_default();
+                }
+            })?;
+            Ok(Slopes { by_states, by_held })
+        };
+        craft.chained(state, inputs, dt, &states, start, slopes).map(|(_, found)| found)
     }
 }
 

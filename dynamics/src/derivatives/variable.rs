@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Display, Formatter};
 
+use crate::derivatives::structure::StructureDerivatives;
 use crate::model::kind::JointInfo;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
@@ -59,6 +60,16 @@ pub enum Variable {
     Gravity(Axis),
     /// The gravitational parameter of a central field, m³/s².
     Mu,
+    /// A modal coordinate of a flexible structure, m sqrt(kg).
+    ModalCoordinate(usize),
+    /// Its rate, m sqrt(kg)/s.
+    ModalRate(usize),
+    /// The force on a mode, N/sqrt(kg).
+    ModalForce(usize),
+    /// Of the external force on the structure at a mount, the axes of the mount, N.
+    MountForce(usize, Axis),
+    /// Of the external moment on the structure at a mount about the mount, the axes of the mount, N m.
+    MountMoment(usize, Axis),
 }
 
 /// The name of a [`Variable`]: `omega.x`, `devices[1].spin`, `motors[1].u_w`.
@@ -118,13 +129,14 @@ impl Variable {
     }
 }
 
-impl<D: Devices> Spacecraft<D> {
+impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
     /// The states of the linearised system, in this order: position, attitude, velocity and angular
-    /// velocity of the hub, coordinates of the joints, rates of the joints.
+    /// velocity of the hub, coordinates of the joints, rates of the joints; modal coordinates of a
+    /// flexible structure, their rates.
     ///
     /// What does not move is no state: those of a [fixed](HubMode::Fixed) hub and of
     /// [locked](Mode::Locked) joints are left out. [`Self::derivatives`] takes them nevertheless.
-    pub fn state_variables(&self, inputs: &Inputs<D>) -> impl Iterator<Item = Variable> {
+    pub fn state_variables(&self, inputs: &Inputs<D, S>) -> impl Iterator<Item = Variable> {
         let hub = !matches!(inputs.hub, HubMode::Fixed);
         let of_hub = [Variable::Position, Variable::Attitude, Variable::Velocity, Variable::Omega];
         let moving = || inputs.modes.values().enumerate().filter(|(_, mode)| *mode != Mode::Locked);
@@ -132,13 +144,16 @@ impl<D: Devices> Spacecraft<D> {
         of_hub
             .chain(moving().map(|(joint, _)| Variable::Coordinate(joint)))
             .chain(moving().map(|(joint, _)| Variable::Rate(joint)))
+            .chain((0..S::modes(self)).map(Variable::ModalCoordinate))
+            .chain((0..S::modes(self)).map(Variable::ModalRate))
     }
 
     /// The inputs of the linearised system, in this order: of a free hub its force and torque, of a
     /// prescribed one its accelerations; of each joint its motor torque if it is driven, its
     /// acceleration if that is prescribed; if there are wrenches on bodies, force and moment on the
-    /// child body of each joint.
-    pub fn input_variables(&self, inputs: &Inputs<D>) -> impl Iterator<Item = Variable> {
+    /// child body of each joint; of a flexible structure the force on each mode, force and moment on
+    /// each mount.
+    pub fn input_variables(&self, inputs: &Inputs<D, S>) -> impl Iterator<Item = Variable> {
         let of_hub: [fn(Axis) -> Variable; 2] = match inputs.hub {
             HubMode::Free => [Variable::Force, Variable::TorqueB],
             _ => [Variable::HubAcceleration, Variable::HubAngularAcceleration],
@@ -156,7 +171,12 @@ impl<D: Devices> Spacecraft<D> {
             force.into_iter().chain(Axis::ALL.map(|axis| Variable::BodyMoment(joint, axis)))
         });
         let of_hub = of_hub.into_iter().filter(move |_| !held).flat_map(|of| Axis::ALL.map(of));
-        of_hub.chain(of_joints).chain(on_bodies)
+        let on_mounts = (0..S::mounts(self)).flat_map(|mount| {
+            let force = Axis::ALL.map(|axis| Variable::MountForce(mount, axis));
+            force.into_iter().chain(Axis::ALL.map(|axis| Variable::MountMoment(mount, axis)))
+        });
+        let on_modes = (0..S::modes(self)).map(Variable::ModalForce);
+        of_hub.chain(of_joints).chain(on_bodies).chain(on_modes).chain(on_mounts)
     }
 
     /// The name of a variable, by the fields of [`State`](crate::State) and [`Inputs`].
@@ -202,6 +222,15 @@ impl Display for Variable {
             Self::HubAngularAcceleration(axis) => ("hub.omega_dot", axis),
             Self::Gravity(axis) => ("gravity", axis),
             Self::Mu => return f.write_str("gravity.mu"),
+            Self::ModalCoordinate(mode) => return write!(f, "modal.eta[{mode}]"),
+            Self::ModalRate(mode) => return write!(f, "modal.eta_dot[{mode}]"),
+            Self::ModalForce(mode) => return write!(f, "modal.forces[{mode}]"),
+            Self::MountForce(mount, axis) => {
+                return write!(f, "modal.mounts[{mount}].force.{}", axis.letter());
+            }
+            Self::MountMoment(mount, axis) => {
+                return write!(f, "modal.mounts[{mount}].moment.{}", axis.letter());
+            }
             Self::Coordinate(joint) => return write!(f, "coordinate of joint {joint}"),
             Self::Rate(joint) => return write!(f, "rate of joint {joint}"),
             Self::Motor(joint) => return write!(f, "motor of joint {joint}"),

@@ -68,6 +68,20 @@ impl<M: ModalStorage, T: Scalar> Basis<M, T> {
         basis
     }
 
+    /// The same with each number converted.
+    pub(crate) fn map<U: Scalar>(&self, number: impl Fn(T) -> U + Copy) -> Basis<M, U> {
+        let columns = |of: &M::Modes<Six<T>>| M::per_mode(of, |column| column.map(number));
+        Basis {
+            count: self.count,
+            residual: self.residual,
+            directions: self.directions.as_ref().map(|directions| {
+                M::per_mode(directions, |row| M::per_mode(row, |of| number(*of)))
+            }),
+            mounts: M::per_mount(&self.mounts, columns),
+            momenta: columns(&self.momenta),
+        }
+    }
+
     /// Every mode as a direction.
     pub(crate) fn of_modes(
         mounts: &M::Mounts<M::Modes<Six<T>>>,

@@ -10,6 +10,7 @@ pub(crate) mod basis;
 pub(crate) mod block;
 pub(crate) mod check;
 pub(crate) mod condense;
+pub(crate) mod derivatives;
 pub(crate) mod devices;
 pub(crate) mod factor;
 pub(crate) mod gravity;

@@ -39,7 +39,7 @@ pub struct FlexibleConstants<D: Devices, M: ModalStorage> {
     /// Of structure and devices, contained bodies subtracted.
     pub(crate) mass: D::Scalar,
     /// How many of the modes, at the end, are residual coordinates.
-    residual: usize,
+    pub(crate) residual: usize,
     /// Steps that the structure allows without devices.
     pub(crate) own_limit: OwnLimit<D::Scalar>,
 }
@@ -187,6 +187,27 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
     #[must_use]
     pub fn undeformed(&self) -> Spacecraft<D> {
         self.clone().with_structure(())
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<D: Devices> Spacecraft<D, Flexible<crate::ListedModes>> {
+    /// A rigid hub as a structure without modes and mounts: results have the bits of the rigid hub,
+    /// and state, inputs and accelerations empty lists of modes.
+    #[must_use]
+    pub fn from_rigid(rigid: Spacecraft<D>) -> Self {
+        let (mounts, momenta) = (alloc::vec::Vec::new(), alloc::vec::Vec::new());
+        let structure = FlexibleConstants {
+            on_mount: D::new_data(&rigid.devices, &OnMount),
+            passive: alloc::vec::Vec::new(),
+            basis: Basis::of_modes(&mounts, &momenta, 0),
+            momenta,
+            mounts: alloc::vec::Vec::new(),
+            mass: rigid.mass(),
+            residual: 0,
+            own_limit: OwnLimit { free: zero(), held: zero() },
+        };
+        rigid.with_structure(structure)
     }
 }
 

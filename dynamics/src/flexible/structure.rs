@@ -2,6 +2,7 @@
 //! and mounts it is a rigid hub, with the same bits.
 
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::structure::Structure;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::stiffness::Stiffness;
 use crate::flexible::block::finite;
@@ -12,7 +13,7 @@ use crate::flexible::spacecraft::FlexibleConstants;
 use crate::flexible::state::{ModalAccelerations, ModalState};
 use crate::flexible::storage::{Flexible, ModalStorage};
 use crate::integrate::energy_lost::Jump;
-use crate::integrate::structure::{Stage, Structure, StructureSteps};
+use crate::integrate::structure::{Stage, StructureSteps};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, components};

@@ -1,5 +1,4 @@
-//! [`Structure`]: a rigid hub or a flexible structure, and what differs between the two in a step and a
-//! stop.
+//! [`StructureSteps`]: what differs between structures in a step and a stop.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::integrate::energy_lost::Jump;
@@ -10,10 +9,6 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 use crate::solve::structure::Solved;
-
-/// What carries the devices of a [`Spacecraft`]: [`Rigid`](crate::Rigid) or [`Flexible`](crate::Flexible). A function
-/// for spacecraft of any structure has this for a bound.
-pub trait Structure: StructureSteps {}
 
 /// The state at a stage, at the start of the step, and the sum of the slopes.
 pub(crate) type Stage<'a, V> = (&'a mut V, &'a V, &'a mut V);

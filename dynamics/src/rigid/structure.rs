@@ -1,16 +1,19 @@
 //! [`Rigid`] as a [`Structure`]: no modal coordinates, so none that could be rejected.
 
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::structure::{Structure, StructureDerivatives};
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::energy_lost::Jump;
-use crate::integrate::structure::{Stage, Structure, StructureSteps};
+use crate::integrate::structure::{Stage, StructureSteps};
+use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
 use crate::results::ledger::Ledger;
 use crate::results::loads::{LoadAxes, Loads};
 use crate::results::momentum::MotionSums;
 use crate::results::structure::StructureResults;
-use crate::sets::devices::Devices;
+use crate::sets::devices::{DeviceSet, Devices};
+use crate::sets::with_numbers::WithNumbers;
 use crate::solve::elimination::Eliminate;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -145,4 +148,43 @@ impl StructureSteps for Rigid {
     fn set_rates<T: Scalar>((): &mut (), _: T) {}
 
     fn add_rates<T: Scalar>(_: (T, &mut ()), _: (T, &())) {}
+}
+
+impl StructureDerivatives for Rigid {
+    fn constants<D: WithNumbers, U: Scalar>(
+        _: &Spacecraft<D>,
+        _: &<D::With<U> as DeviceSet>::Prepared,
+        _: impl Fn(D::Scalar) -> U + Copy,
+    ) {
+    }
+
+    fn state<T: Scalar, U: Scalar>((): &(), _: impl Fn(T) -> U + Copy) {}
+
+    fn inputs<T: Scalar, U: Scalar>((): &(), _: impl Fn(T) -> U + Copy) {}
+
+    fn accelerations<T: Scalar, U: Scalar>((): &(), _: impl Fn(T) -> U + Copy) {}
+
+    fn modes<D: Devices>(_: &Spacecraft<D>) -> usize {
+        0
+    }
+
+    fn mounts<D: Devices>(_: &Spacecraft<D>) -> usize {
+        0
+    }
+
+    fn coordinates<T: Scalar>((): &mut ()) -> [&mut [T]; 2] {
+        [&mut [], &mut []]
+    }
+
+    fn forces<T: Scalar>((): &mut ()) -> &mut [T] {
+        &mut []
+    }
+
+    fn wrenches<T: Scalar>((): &mut ()) -> &mut [Wrench<T>] {
+        &mut []
+    }
+
+    fn modal_accelerations<T: Scalar>((): &()) -> &[T] {
+        &[]
+    }
 }

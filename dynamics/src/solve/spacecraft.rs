@@ -5,7 +5,6 @@ use crate::equations::hub::HubConstants;
 use crate::model::parameters::Hub;
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, TriangleExcesses};
-use crate::sets::with_numbers::WithNumbers;
 use crate::solve::structure::{Rigid, StructureData, StructureEquations};
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
@@ -20,7 +19,7 @@ pub struct Spacecraft<D: Devices, S: StructureData = Rigid> {
     pub(crate) devices: D::Prepared,
     /// Whether a joint has a spring, a damper or dry friction.
     pub(crate) passive: bool,
-    hub_excess: D::Scalar,
+    pub(crate) hub_excess: D::Scalar,
     pub(crate) arithmetic: Arithmetic,
     /// What the structure has beside the hub.
     pub(crate) structure: S::Constants<D>,
@@ -55,31 +54,6 @@ impl<D: Devices> Spacecraft<D> {
         let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());
         let arithmetic = Arithmetic::detected();
         Self { hub, body, devices, passive, hub_excess, arithmetic, structure: () }
-    }
-
-    /// The same spacecraft with each of its numbers converted, such as
-    /// [`Dual::constant`](crate::Dual::constant): every service then runs over the other numbers.
-    ///
-    /// Converted are the constants that [`Self::new`] has computed, so parameters are no variables
-    /// of the result. Those of which parameters are variables come from
-    /// [`WithNumbers::with_numbers`](crate::set::WithNumbers::with_numbers) and [`Self::new`].
-    #[must_use]
-    pub fn with_numbers<U: Scalar>(
-        &self,
-        number: impl Fn(D::Scalar) -> U + Copy,
-    ) -> Spacecraft<D::With<U>>
-    where
-        D: WithNumbers,
-    {
-        Spacecraft {
-            hub: self.hub.map(number),
-            body: self.body.map(number),
-            devices: D::convert(&self.devices, number),
-            passive: self.passive,
-            hub_excess: number(self.hub_excess),
-            arithmetic: self.arithmetic,
-            structure: (),
-        }
     }
 }
 

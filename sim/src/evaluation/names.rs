@@ -85,7 +85,19 @@ impl Evaluator {
             Variable::BodyMoment(joint, axis) => wrench(joint, "moment", axis),
             Variable::Gravity(axis) => along("gravity", axis),
             Variable::Mu => "gravity.mu".to_owned(),
+            Variable::ModalCoordinate(mode) => format!("modes.eta_{}", mode + 1),
+            Variable::ModalRate(mode) => format!("modes.eta_dot_{}", mode + 1),
+            Variable::ModalForce(mode) => format!("modes.force_{}", mode + 1),
+            Variable::MountForce(mount, axis) => along(&self.mount_wrench(mount, "force"), axis),
+            Variable::MountMoment(mount, axis) => along(&self.mount_wrench(mount, "moment"), axis),
         }
+    }
+
+    /// The name of what acts on a mount, by its node: `tip.force`.
+    fn mount_wrench(&self, mount: usize, what: &str) -> String {
+        let of = self.scenario.structure.as_ref();
+        let node = of.and_then(|of| of.nodes.get(of.mounts().get(mount).copied()?));
+        node.map_or_else(String::new, |node| format!("{}.{what}", node.name))
     }
 
     /// The name of an output of the linearised system: that of a column where there is one;
@@ -103,6 +115,7 @@ impl Evaluator {
             Output::Acceleration(axis) => along("acceleration_b", axis),
             Output::AngularAcceleration(axis) => along("omega_dot", axis),
             Output::JointAcceleration(joint) => of(joint, |joint| &joint.acceleration),
+            Output::ModalAcceleration(mode) => format!("structure.eta_ddot_{}", mode + 1),
             Output::Energy => "kinetic_energy".to_owned(),
             Output::LinearMomentum(axis) => along("linear_momentum", axis),
             Output::AngularMomentum(axis) => along("angular_momentum", axis),

@@ -4,6 +4,7 @@
 mod accelerations;
 mod conservation;
 mod craft;
+mod derivatives;
 mod errors;
 mod field;
 mod known;
@@ -16,3 +17,4 @@ mod reference;
 mod residual;
 mod steps;
 mod stop;
+mod wide;

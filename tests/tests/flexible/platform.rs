@@ -21,14 +21,14 @@ use crate::reference::reference;
 use crate::stop::velocities;
 
 /// A wheel on one mount, a gyro on a platform on another.
-type Carried = (ReactionWheel, Isolated<Vscmg>);
+pub(crate) type Carried = (ReactionWheel, Isolated<Vscmg>);
 
 /// That of the gyro is not read.
-const ON_MOUNT: <Carried as DeviceSet>::Per<OnMount> =
+pub(crate) const ON_MOUNT: <Carried as DeviceSet>::Per<OnMount> =
     (1, platform::Data { platform: 2, carried: 0 });
 
 /// As on a rigid hub, with the platform's axes those of the gyro's mount: one chain of eight joints.
-fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
+pub(crate) fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
     let random = &mut Random::new(seed);
     let (wheel, platform) =
         (crate::craft::device(random, 4.0), crate::craft::device::<Platform>(random, 10.0));
@@ -51,7 +51,7 @@ fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
 }
 
 /// Springs that couple joints, and a strut, without damping if so wished.
-fn suspension(damping: f64) -> Suspension {
+pub(crate) fn suspension(damping: f64) -> Suspension {
     let stiffness = nalgebra::Matrix6::from_fn(|i, j| if i == j { 40.0 } else { 3.0 });
     let rest = nalgebra::Vector6::from_element(0.01);
     let strut = Strut {

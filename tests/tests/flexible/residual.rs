@@ -16,7 +16,7 @@ use crate::known::{Cantilever, analytic};
 use crate::reference::reference;
 
 /// A random case with residual coordinates.
-fn case(seed: u64, modes: usize, residual: usize) -> Case {
+pub(crate) fn case(seed: u64, modes: usize, residual: usize) -> Case {
     let size = Size { modes, contained: false, rotation: 0.1, free: false };
     let mut case = Case::new(seed, size);
     let random = &mut Random::new(seed + 1);

@@ -5,11 +5,13 @@ use precess_dynamics::{Gravity, Variable};
 use precess_tests::blocks::Figures;
 pub(crate) use precess_tests::bounds::{DERIVATIVES_MEDIAN as MEDIAN, DERIVATIVES_WORST as WORST};
 use precess_tests::cases;
+use precess_tests::derivative_blocks::{Blocks, kind};
+use precess_tests::differences::difference;
 use precess_tests::double_double::DoubleDouble as Wide;
 
 use crate::draw::{Drawn, SEED};
-use crate::outputs::{Blocks, OUTPUTS, derivatives, kind, values};
-use crate::perturb::{changed, difference, magnitude, size};
+use crate::outputs::{OUTPUTS, derivatives, values};
+use crate::perturb::{changed, magnitude, size};
 
 /// How many spacecraft.
 pub(crate) const SPACECRAFT: u64 = 240;

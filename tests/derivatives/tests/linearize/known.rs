@@ -7,10 +7,10 @@ use precess_dynamics::{
     Linearization, Mode, Mrp, Output, Outputs, Passive, Quaternion, Spacecraft, State, Variable,
     hinged_panel,
 };
+use precess_tests::differences::index;
 
 use crate::draw::{Drawn, List, SEED};
 use crate::outputs::OUTPUTS;
-use crate::perturb::index;
 
 /// A few units in the last place of numbers of about one.
 const ROUNDING: f64 = 4e-15;

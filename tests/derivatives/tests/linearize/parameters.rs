@@ -10,12 +10,13 @@ use precess_dynamics::{
 };
 use precess_tests::blocks::Figures;
 use precess_tests::cases;
+use precess_tests::derivative_blocks::Blocks;
+use precess_tests::differences::{difference, index};
 use precess_tests::double_double::DoubleDouble as Wide;
 
 use crate::accuracy::{MEDIAN, WORST};
 use crate::draw::{Case, Drawn, SEED};
-use crate::outputs::{Blocks, OUTPUTS, derivatives, values};
-use crate::perturb::{difference, index};
+use crate::outputs::{OUTPUTS, derivatives, values};
 
 /// How many spacecraft: each has some sixty parameters.
 pub(crate) const SPACECRAFT: u64 = 60;

@@ -6,13 +6,13 @@ use precess_dynamics::{Accelerations, Outputs, Variable};
 use precess_tests::blocks::Figures;
 use precess_tests::case::Case;
 use precess_tests::cases;
+use precess_tests::derivative_blocks::Blocks;
+use precess_tests::differences::{Named, difference, index};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler;
 use precess_tests::random::{SEED, Sample};
 
 use crate::accuracy::{MEDIAN, WORST};
-use crate::outputs::{Blocks, Named};
-use crate::perturb::{difference, index};
 
 /// How many spacecraft of one and two devices each.
 const SPACECRAFT: u64 = 60;
