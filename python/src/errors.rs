@@ -61,7 +61,7 @@ pub(crate) fn evaluation(error: &EvaluationError) -> PyErr {
             class::ParameterError::new_err(message)
         }
         EvaluationError::Derivative(_) => class::DerivativeError::new_err(message),
-        EvaluationError::Flexible { .. } => class::UnsupportedError::new_err(message),
+        EvaluationError::Flexible => class::UnsupportedError::new_err(message),
         EvaluationError::UnknownParameter { .. } => PyKeyError::new_err(message),
     }
 }

@@ -96,7 +96,7 @@ impl NativeEvaluator {
     /// Mass of the whole spacecraft, kg.
     #[getter]
     fn mass(&self) -> f64 {
-        self.evaluator.rigid().mass()
+        self.evaluator.structure().mass()
     }
 
     /// The initial state of the scenario.
@@ -302,9 +302,8 @@ pub(crate) fn numbers(y: &PyReadonlyArray1<'_, f64>) -> Vec<f64> {
 
 /// All accelerations in a row.
 pub(crate) fn flat(found: &CraftAccelerations) -> Vec<f64> {
-    let rigid = &found.rigid;
-    let hub = rigid.r_b_n_ddot.iter().chain(rigid.omega_dot.iter()).copied();
-    hub.chain(rigid.devices.values()).chain(found.modal.eta_ddot.iter().copied()).collect()
+    let hub = found.r_b_n_ddot.iter().chain(found.omega_dot.iter()).copied();
+    hub.chain(found.devices.values()).chain(found.modal.eta_ddot.iter().copied()).collect()
 }
 
 /// A matrix, rows first.

@@ -38,31 +38,31 @@ impl NativeInputs {
     /// External force through B, in B, N.
     #[getter]
     fn force(&self) -> PyResult<[f64; 3]> {
-        Ok(self.get()?.rigid.force.into())
+        Ok(self.get()?.force.into())
     }
 
     #[setter]
     fn set_force(&self, force: [f64; 3]) -> PyResult<()> {
-        self.get()?.rigid.force = force.into();
+        self.get()?.force = force.into();
         Ok(())
     }
 
     /// External torque about B, in B, N m.
     #[getter]
     fn torque(&self) -> PyResult<[f64; 3]> {
-        Ok(self.get()?.rigid.torque_b.into())
+        Ok(self.get()?.torque_b.into())
     }
 
     #[setter]
     fn set_torque(&self, torque: [f64; 3]) -> PyResult<()> {
-        self.get()?.rigid.torque_b = torque.into();
+        self.get()?.torque_b = torque.into();
         Ok(())
     }
 
     /// Motor torque or force of each joint, N m or N.
     #[getter]
     fn motors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let motors: Vec<f64> = self.get()?.rigid.motors.values().collect();
+        let motors: Vec<f64> = self.get()?.motors.values().collect();
         Ok(motors.into_pyarray(py))
     }
 
@@ -70,8 +70,8 @@ impl NativeInputs {
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn set_motors(&self, motors: Vec<f64>) -> PyResult<()> {
         let mut inputs = self.get()?;
-        count(inputs.rigid.motors.values().count(), motors.len())?;
-        inputs.rigid.motors.values_mut().zip(&motors).for_each(|(to, from)| *to = *from);
+        count(inputs.motors.values().count(), motors.len())?;
+        inputs.motors.values_mut().zip(&motors).for_each(|(to, from)| *to = *from);
         Ok(())
     }
 
@@ -83,23 +83,23 @@ impl NativeInputs {
             Mode::Prescribed(acceleration) => ("prescribed", acceleration),
             Mode::Locked => ("locked", 0.0),
         };
-        Ok(self.get()?.rigid.modes.values().map(facts).collect())
+        Ok(self.get()?.modes.values().map(facts).collect())
     }
 
     #[setter]
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn set_modes(&self, modes: Vec<(String, f64)>) -> PyResult<()> {
         let mut inputs = self.get()?;
-        count(inputs.rigid.modes.values().count(), modes.len())?;
+        count(inputs.modes.values().count(), modes.len())?;
         let modes: PyResult<Vec<Mode>> = modes.iter().map(mode).collect();
-        inputs.rigid.modes.values_mut().zip(modes?).for_each(|(to, from)| *to = from);
+        inputs.modes.values_mut().zip(modes?).for_each(|(to, from)| *to = from);
         Ok(())
     }
 
     /// Mode of the hub; its acceleration and angular acceleration, in B, where they are prescribed.
     #[getter]
     fn hub(&self) -> PyResult<(&'static str, [f64; 3], [f64; 3])> {
-        Ok(match self.get()?.rigid.hub {
+        Ok(match self.get()?.hub {
             HubMode::Free => ("free", [0.0; 3], [0.0; 3]),
             HubMode::Fixed => ("fixed", [0.0; 3], [0.0; 3]),
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => {
@@ -111,7 +111,7 @@ impl NativeInputs {
     #[setter]
     fn set_hub(&self, hub: (String, [f64; 3], [f64; 3])) -> PyResult<()> {
         let (mode, acceleration, omega_dot) = hub;
-        self.get()?.rigid.hub = match mode.as_str() {
+        self.get()?.hub = match mode.as_str() {
             "free" => HubMode::Free,
             "fixed" => HubMode::Fixed,
             "prescribed" => {
@@ -125,7 +125,7 @@ impl NativeInputs {
     /// Uniform field, in N, m/s², or gravitational parameter of a central body, m³/s².
     #[getter]
     fn gravity(&self) -> PyResult<(Option<[f64; 3]>, Option<f64>)> {
-        Ok(match self.get()?.rigid.gravity {
+        Ok(match self.get()?.gravity {
             Gravity::None => (None, None),
             Gravity::Uniform(field) => (Some(field.into()), None),
             Gravity::Central { mu } => (None, Some(mu)),
@@ -134,7 +134,7 @@ impl NativeInputs {
 
     #[setter]
     fn set_gravity(&self, gravity: (Option<[f64; 3]>, Option<f64>)) -> PyResult<()> {
-        self.get()?.rigid.gravity = match gravity {
+        self.get()?.gravity = match gravity {
             (None, None) => Gravity::None,
             (Some(field), None) => Gravity::Uniform(field.into()),
             (None, Some(mu)) => Gravity::Central { mu },
@@ -151,7 +151,7 @@ impl NativeInputs {
     #[getter]
     fn wrenches<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let inputs = self.get()?;
-        let Some(bodies) = &inputs.rigid.bodies else { return Ok(None) };
+        let Some(bodies) = &inputs.bodies else { return Ok(None) };
         let rows: Vec<f64> = bodies
             .values()
             .flat_map(|of| of.force.iter().chain(of.moment.iter()).copied().collect::<Vec<_>>())
@@ -166,14 +166,14 @@ impl NativeInputs {
         let mut bodies = self.evaluator.no_wrenches();
         let mut inputs = self.get()?;
         let Some(wrenches) = wrenches else {
-            inputs.rigid.bodies = None;
+            inputs.bodies = None;
             return Ok(());
         };
         count(bodies.values().count(), wrenches.len())?;
         for (to, [fx, fy, fz, mx, my, mz]) in bodies.values_mut().zip(wrenches) {
             *to = Wrench { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) };
         }
-        inputs.rigid.bodies = Some(bodies);
+        inputs.bodies = Some(bodies);
         Ok(())
     }
 

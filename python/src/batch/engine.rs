@@ -195,14 +195,14 @@ fn of_kind(scenarios: &[&Scenario], each: bool, in_lanes: bool) -> Option<Engine
 
 /// Inputs as lanes take them.
 fn acting(inputs: &[CraftInputs]) -> Vec<Acting> {
-    let one = |CraftInputs { rigid, .. }: &CraftInputs| Acting {
-        force: rigid.force,
-        torque_b: rigid.torque_b,
-        motors: rigid.motors.values().collect(),
-        modes: rigid.modes.values().collect(),
-        hub: rigid.hub,
-        gravity: rigid.gravity,
-        bodies: rigid.bodies.as_ref().map(|bodies| bodies.values().collect()),
+    let one = |of: &CraftInputs| Acting {
+        force: of.force,
+        torque_b: of.torque_b,
+        motors: of.motors.values().collect(),
+        modes: of.modes.values().collect(),
+        hub: of.hub,
+        gravity: of.gravity,
+        bodies: of.bodies.as_ref().map(|bodies| bodies.values().collect()),
     };
     inputs.iter().map(one).collect()
 }

@@ -88,12 +88,12 @@ impl BatchRows {
     ///
     /// # Errors
     ///
-    /// Where there is none: a flexible structure.
+    /// Where there is none: an initial pose that has no accelerations.
     pub(crate) fn linearized(&self, inputs: &CraftInputs) -> Result<Linearized, EvaluationError> {
         let none: &[&str] = &[];
         // A locked joint does not move.
         let mut pose = self.evaluator.initial();
-        pose.rigid.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
+        pose.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
         let found = self.evaluator.linearize(&pose, inputs, &NONE, none)?;
         Ok(Linearized { outputs: found.outputs, states: found.states, inputs: found.inputs })
     }
@@ -160,11 +160,10 @@ impl ActingRows {
 fn with_row(base: &CraftInputs, row: &[f64]) -> CraftInputs {
     let mut inputs = base.clone();
     let mut numbers = row.iter().copied();
-    let rigid = &mut inputs.rigid;
-    for (to, from) in rigid.force.iter_mut().chain(rigid.torque_b.iter_mut()).zip(&mut numbers) {
+    for (to, from) in inputs.force.iter_mut().chain(inputs.torque_b.iter_mut()).zip(&mut numbers) {
         *to = from;
     }
-    let joints = rigid.motors.values_mut().zip(rigid.modes.values_mut());
+    let joints = inputs.motors.values_mut().zip(inputs.modes.values_mut());
     for ((motor, mode), number) in joints.zip(numbers) {
         match mode {
             Mode::Prescribed(acceleration) => *acceleration = number,

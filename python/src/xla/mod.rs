@@ -28,7 +28,7 @@ const NAMES: [&str; 2] = ["precess_accelerations", "precess_linearize"];
 struct Function {
     batch: Arc<BatchRows>,
     base: CraftInputs,
-    /// None of a flexible structure.
+    /// None where the initial pose has no accelerations.
     linearized: Result<Linearized, EvaluationError>,
     /// Calls of each of [`NAMES`].
     calls: [AtomicU64; 2],

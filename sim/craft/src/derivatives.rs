@@ -1,4 +1,4 @@
-//! Derivatives of a rigid hub with the set of a scenario.
+//! Derivatives with the set of a scenario: of any structure by state and inputs, of a rigid hub by parameters.
 
 use nalgebra::DMatrix;
 use precess_dynamics::{
@@ -6,7 +6,7 @@ use precess_dynamics::{
     Spacecraft, State, StepLinearization, Variable,
 };
 
-use crate::Set;
+use crate::{Craft, CraftAccelerations, CraftInputs, CraftState, Set, Structure, rigid_state};
 
 /// The linearised system.
 ///
@@ -14,12 +14,31 @@ use crate::Set;
 ///
 /// As [`Spacecraft::linearize`].
 pub fn linearize(
+    craft: &Craft,
+    state: &CraftState,
+    inputs: &CraftInputs,
+    outputs: &Outputs,
+) -> Result<Linearization<Set, Structure>, DerivativeError> {
+    craft.0.linearize(state, inputs, outputs)
+}
+
+/// The linearised system of a rigid hub.
+///
+/// # Errors
+///
+/// As [`Spacecraft::linearize`].
+pub fn linearize_rigid(
     craft: &Spacecraft<Set>,
     state: &State<Set>,
     inputs: &Inputs<Set>,
     outputs: &Outputs,
 ) -> Result<Linearization<Set>, DerivativeError> {
-    craft.linearize(state, inputs, outputs)
+    let craft = Craft::from(craft.clone());
+    let inputs = inputs.clone().with_modal(craft.no_inputs().modal);
+    let found = linearize(&craft, &rigid_state(state.clone()), &inputs, outputs)?;
+    let Linearization { accelerations, states, inputs, outputs, a, b, c, d } = found;
+    let accelerations = accelerations.with_modal(());
+    Ok(Linearization { accelerations, states, inputs, outputs, a, b, c, d })
 }
 
 /// A column of derivatives for each state or input, and the accelerations.
@@ -28,13 +47,13 @@ pub fn linearize(
 ///
 /// As [`Spacecraft::derivatives`].
 pub fn derivatives(
-    craft: &Spacecraft<Set>,
-    (state, inputs): (&State<Set>, &Inputs<Set>),
+    craft: &Craft,
+    (state, inputs): (&CraftState, &CraftInputs),
     outputs: &Outputs,
     variables: &mut dyn Iterator<Item = Variable>,
-    column: &mut dyn FnMut(Variable, &Column<Set>),
-) -> Result<Accelerations<Set>, DerivativeError> {
-    craft.derivatives(state, inputs, outputs, variables, column)
+    column: &mut dyn FnMut(Variable, &Column<Set, Structure>),
+) -> Result<CraftAccelerations, DerivativeError> {
+    craft.0.derivatives(state, inputs, outputs, variables, column)
 }
 
 /// A column of derivatives for each parameter, and the accelerations.
@@ -59,12 +78,12 @@ pub fn parameter_derivatives<'a>(
 ///
 /// As [`Spacecraft::linearize_step`].
 pub fn linearize_step(
-    craft: &Spacecraft<Set>,
-    state: &State<Set>,
-    inputs: &Inputs<Set>,
+    craft: &Craft,
+    state: &CraftState,
+    inputs: &CraftInputs,
     length: f64,
-) -> Result<StepLinearization<Set>, DerivativeError> {
-    craft.linearize_step(state, inputs, length)
+) -> Result<StepLinearization<Set, Structure>, DerivativeError> {
+    craft.0.linearize_step(state, inputs, length)
 }
 
 /// Derivatives of the state after a step by parameters.

@@ -6,7 +6,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `craft` | [`Craft`]: a rigid hub or a flexible structure |
+//! | `craft` | [`Craft`]: a flexible structure, or a rigid hub as one without modes |
 //! | `derivatives` | derivatives by state, inputs and parameters |
 //! | `tangent` | the set over dual numbers |
 
@@ -15,18 +15,23 @@ mod derivatives;
 pub mod tangent;
 
 use precess_dynamics::{
-    BuiltIn, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError, Spacecraft, platform,
+    BuiltIn, DeviceSet, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError, Spacecraft,
+    Wrench, platform, set,
 };
 
 pub use craft::{
-    Craft, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft, FlexibleState, rigid_state,
+    Craft, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft, Structure, rigid_state,
 };
 pub use derivatives::{
-    derivatives, linearize, linearize_step, parameter_derivatives, step_parameter_derivatives,
+    derivatives, linearize, linearize_rigid, linearize_step, parameter_derivatives,
+    step_parameter_derivatives,
 };
 
 /// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
 pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+
+/// A wrench on the child body of each joint.
+pub type BodyWrenches = <Set as DeviceSet>::Per<set::PerJoint<Wrench>>;
 
 /// The spacecraft, prepared for evaluation.
 ///

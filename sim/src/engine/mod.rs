@@ -17,7 +17,7 @@ mod runs;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
+pub(crate) use precess_craft::{Craft, rigid_state};
 
 pub(crate) use equations::inputs::Acting;
 pub(crate) use equations::kinematics::Chain;
@@ -35,6 +35,6 @@ use crate::scenario::Scenario;
 pub(crate) fn craft_of(scenario: &Scenario) -> Result<Craft, RunError> {
     Ok(match scenario.flexible() {
         Some(craft) => Craft::from(craft.map_err(RunError::Modes)?),
-        None => Craft::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
+        None => Craft::from(scenario.spacecraft().map_err(RunError::Parameters)?),
     })
 }

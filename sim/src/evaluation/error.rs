@@ -12,11 +12,8 @@ pub enum EvaluationError {
     Solve(SolveError),
     /// There is no derivative.
     Derivative(DerivativeError),
-    /// The library does not have it for a flexible structure.
-    Flexible {
-        /// What: `the mass matrix`.
-        what: &'static str,
-    },
+    /// Derivatives by parameters of a flexible structure, which the library does not have.
+    Flexible,
     /// A name is that of no parameter.
     UnknownParameter {
         /// The name.
@@ -31,9 +28,9 @@ impl fmt::Display for EvaluationError {
         match self {
             Self::Solve(error) => error.fmt(f),
             Self::Derivative(error) => error.fmt(f),
-            Self::Flexible { what } => {
-                write!(f, "{what} is not available for a flexible structure; use a rigid hub")
-            }
+            Self::Flexible => f.write_str(
+                "derivatives by parameters are not available for a flexible structure; use a rigid hub",
+            ),
             Self::UnknownParameter { name, nearest } => {
                 write!(f, "`{name}` is no parameter of the spacecraft")?;
                 nearest.iter().enumerate().try_for_each(|(index, near)| {
@@ -50,7 +47,7 @@ impl Error for EvaluationError {
         match self {
             Self::Solve(source) => Some(source),
             Self::Derivative(source) => Some(source),
-            Self::Flexible { .. } | Self::UnknownParameter { .. } => None,
+            Self::Flexible | Self::UnknownParameter { .. } => None,
         }
     }
 }

@@ -43,7 +43,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a flexible structure,
+    /// [`EvaluationError::Flexible`] for parameters of a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize`] and
     /// [`precess_dynamics::Spacecraft::parameter_derivatives`].
     pub fn linearize<N: AsRef<str>>(
@@ -53,12 +53,8 @@ impl Evaluator {
         outputs: &Outputs,
         parameters: &[N],
     ) -> Result<Linearized, EvaluationError> {
-        if self.is_flexible() {
-            return Err(EvaluationError::Flexible { what: "the linearised system" });
-        }
-        let parameters = Parameter::named(&self.scenario, parameters)?;
-        let (state, inputs) = (&state.rigid, &inputs.rigid);
-        let found = precess_craft::linearize(self.rigid(), state, inputs, outputs)?;
+        let parameters = self.parameters_named(parameters)?;
+        let found = precess_craft::linearize(&self.craft, state, inputs, outputs)?;
         let (rows, count) = (found.states.len(), parameters.len());
         let mut p = DMatrix::zeros(rows, count);
         let mut q = DMatrix::zeros(found.outputs.len(), count);
@@ -68,10 +64,11 @@ impl Evaluator {
             let mut by = parameters.iter().map(Parameter::variable);
             // What no state of the linearised system is: the variable of a column by parameters.
             let none = precess_dynamics::Variable::Mu;
+            let at = (&state.clone().with_modal(()), &inputs.clone().with_modal(()));
             precess_craft::parameter_derivatives(
                 &hub,
                 &self.scenario.devices,
-                (state, inputs),
+                at,
                 outputs,
                 &mut by,
                 &mut |_, column| {
@@ -98,5 +95,16 @@ impl Evaluator {
             p,
             q,
         })
+    }
+
+    /// The parameters of these names, which are variables only of a rigid hub.
+    pub(super) fn parameters_named<N: AsRef<str>>(
+        &self,
+        names: &[N],
+    ) -> Result<Vec<Parameter>, EvaluationError> {
+        if self.is_flexible() && !names.is_empty() {
+            return Err(EvaluationError::Flexible);
+        }
+        Parameter::named(&self.scenario, names)
     }
 }

@@ -16,12 +16,12 @@ use super::{CraftInputs, CraftState, EvaluationError, Evaluator};
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassMatrix {
     /// Names of the accelerations: inertial of B and angular of the hub, both in B, then of every
-    /// joint with a motor.
+    /// joint with a motor, and of the modal coordinates.
     pub coordinates: Vec<String>,
-    /// M: kg, kg m, kg m².
+    /// M: kg, kg m, kg m²; one for a mode, and sqrt(kg), m sqrt(kg) beside it.
     pub matrix: DMatrix<f64>,
-    /// Bias, N and N m: Coriolis and centrifugal, gravity, springs, dampers and friction, wrenches on
-    /// bodies.
+    /// Bias, N, N m, N/sqrt(kg): Coriolis and centrifugal, gravity, springs, dampers and friction,
+    /// stiffness and damping of modes, wrenches on bodies.
     pub bias: DVector<f64>,
 }
 
@@ -30,16 +30,12 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a flexible structure; as
-    /// [`precess_dynamics::Spacecraft::accelerations`] in a pose that has no accelerations.
+    /// As [`precess_dynamics::Spacecraft::accelerations`] in a pose that has no accelerations.
     pub fn mass_matrix(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
     ) -> Result<MassMatrix, EvaluationError> {
-        if self.is_flexible() {
-            return Err(EvaluationError::Flexible { what: "the mass matrix" });
-        }
         let joints = self.joints();
         let driven: Vec<_> =
             joints.iter().enumerate().filter(|(_, joint)| joint.driven).map(|(k, _)| k).collect();
@@ -47,26 +43,31 @@ impl Evaluator {
         let variables: Vec<_> = hub
             .flat_map(|of| Axis::ALL.map(of))
             .chain(driven.iter().map(|joint| Variable::Rate(*joint)))
+            .chain((0..self.layout.modes).map(Variable::ModalRate))
             .collect();
         let matrix = self.matrix(state, &variables)?;
         let mut free = inputs.clone();
-        free.rigid.hub = HubMode::Free;
-        free.rigid.force.fill(0.0);
-        free.rigid.torque_b.fill(0.0);
-        free.rigid.motors.values_mut().for_each(|motor| *motor = 0.0);
+        free.hub = HubMode::Free;
+        free.force.fill(0.0);
+        free.torque_b.fill(0.0);
+        free.motors.values_mut().for_each(|motor| *motor = 0.0);
+        free.modal = self.no_inputs().modal;
         let own = self.no_inputs();
-        for (mode, own) in free.rigid.modes.values_mut().zip(own.rigid.modes.values()) {
+        for (mode, own) in free.modes.values_mut().zip(own.modes.values()) {
             *mode = own;
         }
-        let found = self.accelerations(state, &free)?.rigid;
+        let found = self.accelerations(state, &free)?;
         let all: Vec<_> = found.devices.values().collect();
         let hub = found.r_b_n_ddot.iter().chain(found.omega_dot.iter()).copied();
         let joints_of = driven.iter().filter_map(|joint| all.get(*joint).copied());
-        let accelerations = DVector::from_iterator(variables.len(), hub.chain(joints_of));
+        let of_modes = found.modal.eta_ddot.iter().copied();
+        let accelerations = hub.chain(joints_of).chain(of_modes);
+        let accelerations = DVector::from_iterator(variables.len(), accelerations);
         let bias = -(&matrix * accelerations);
         let names = self.acceleration_names();
         let of_joints = driven.iter().map(|joint| joint + 6);
-        let places = (0..6).chain(of_joints);
+        let first = 6 + joints.len();
+        let places = (0..6).chain(of_joints).chain(first..first + self.layout.modes);
         let coordinates = places.filter_map(|place| names.get(place).cloned()).collect();
         Ok(MassMatrix { coordinates, matrix, bias })
     }
@@ -77,15 +78,13 @@ impl Evaluator {
         state: &CraftState,
         variables: &[Variable],
     ) -> Result<DMatrix<f64>, EvaluationError> {
-        let craft = self.rigid();
-        let inputs = self.no_inputs().rigid;
+        let inputs = self.no_inputs();
         let outputs = Outputs { momentum: Some(About::InertialOrigin), loads: None };
-        let mut pose = self.at_rest().rigid;
+        let mut pose = self.at_rest();
         // B along N, so that velocities along N are those along B.
         pose.attitude = Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 };
-        for ([coordinate, _], [own, _]) in
-            pose.devices.states_mut().zip(state.rigid.devices.states())
-        {
+        pose.modal.eta.clone_from(&state.modal.eta);
+        for ([coordinate, _], [own, _]) in pose.devices.states_mut().zip(state.devices.states()) {
             *coordinate = own;
         }
         let mut matrix = DMatrix::zeros(variables.len(), variables.len());
@@ -99,12 +98,13 @@ impl Evaluator {
                         *rate = 1.0;
                     }
                 }
+                Variable::ModalRate(mode) => moving.modal.eta_dot[mode] = 1.0,
                 _ => {}
             }
             let mut elements = column.iter_mut();
             let at = (&moving, &inputs);
             let mut by = variables.iter().copied();
-            precess_craft::derivatives(craft, at, &outputs, &mut by, &mut |_, of| {
+            precess_craft::derivatives(&self.craft, at, &outputs, &mut by, &mut |_, of| {
                 if let (Some(element), Some(momentum)) = (elements.next(), &of.momentum) {
                     *element = momentum.energy;
                 }

@@ -20,9 +20,9 @@
 //! # let (scenario, _) = precess::file::from_toml("bus", text, std::path::Path::new(""))?;
 //! let evaluator = Evaluator::new(&scenario)?;
 //! let mut inputs = evaluator.no_inputs();
-//! inputs.rigid.torque_b.x = 8.0;
+//! inputs.torque_b.x = 8.0;
 //! let found = evaluator.accelerations(&evaluator.initial(), &inputs)?;
-//! assert!((found.rigid.omega_dot.x - 0.1).abs() < 1e-15);
+//! assert!((found.omega_dot.x - 0.1).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -35,10 +35,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 
-use precess_dynamics::{
-    About, DeviceSet, EnergyAndMomentum, Inputs, Ledger, ModalState, Power, SolveError, Spacecraft,
-    Wrench, set,
-};
+use precess_dynamics::{About, EnergyAndMomentum, Ledger, ModalState, Power, SolveError};
 
 pub use error::EvaluationError;
 pub use linearization::Linearized;
@@ -49,9 +46,9 @@ pub use step::LinearizedStep;
 
 use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, craft_of, rigid_state};
 use crate::record::{Column, Columns, RunError};
-use crate::scenario::{Scenario, Set};
+use crate::scenario::Scenario;
 
-pub use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
+pub use precess_craft::{BodyWrenches, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft};
 
 /// A scenario's spacecraft, prepared for evaluation.
 #[derive(Clone, Debug)]
@@ -89,16 +86,16 @@ impl Evaluator {
         &self.scenario
     }
 
-    /// The spacecraft of the library; of a flexible structure, undeformed.
+    /// The spacecraft of the library, with no modes where the hub is rigid.
     #[must_use]
-    pub fn rigid(&self) -> &Spacecraft<Set> {
-        self.craft.rigid()
+    pub fn structure(&self) -> &FlexibleCraft {
+        self.craft.structure()
     }
 
     /// Whether the spacecraft is a flexible structure.
     #[must_use]
     pub fn is_flexible(&self) -> bool {
-        self.craft.flexible().is_some()
+        self.craft.is_flexible()
     }
 
     /// The initial state of the scenario.
@@ -123,10 +120,10 @@ impl Evaluator {
         self.craft.no_inputs()
     }
 
-    /// Zero wrenches on all bodies, for [`Inputs::bodies`].
+    /// Zero wrenches on all bodies, for [`CraftInputs::bodies`].
     #[must_use]
     pub fn no_wrenches(&self) -> BodyWrenches {
-        Inputs::no_wrenches_for(self.craft.rigid())
+        self.craft.no_wrenches()
     }
 
     /// What acts at a time, s, and state: the scenario's gravity, mode of the hub, initial drives,
@@ -174,7 +171,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::accelerations`].
+    /// As [`FlexibleCraft::accelerations`].
     pub fn accelerations(
         &self,
         state: &CraftState,
@@ -201,7 +198,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::energy_and_momentum`].
+    /// As [`FlexibleCraft::energy_and_momentum`].
     pub fn energy_and_momentum(
         &self,
         state: &CraftState,
@@ -214,7 +211,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::ledger`].
+    /// As [`FlexibleCraft::ledger`].
     pub fn ledger(
         &self,
         state: &CraftState,
@@ -234,7 +231,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::loads`].
+    /// As [`FlexibleCraft::loads`].
     pub fn loads(
         &self,
         state: &CraftState,
@@ -274,7 +271,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::step`].
+    /// As [`FlexibleCraft::step`].
     pub fn step(
         &self,
         state: &CraftState,
@@ -288,7 +285,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::step_with_work`].
+    /// As [`FlexibleCraft::step_with_work`].
     pub fn step_with_work(
         &self,
         state: &CraftState,
@@ -302,7 +299,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::stop`].
+    /// As [`FlexibleCraft::stop`].
     pub fn stop(
         &self,
         state: &CraftState,
@@ -311,6 +308,3 @@ impl Evaluator {
         self.craft.stop(state, inputs)
     }
 }
-
-/// A wrench on the child body of each joint.
-pub type BodyWrenches = <Set as DeviceSet>::Per<set::PerJoint<Wrench>>;

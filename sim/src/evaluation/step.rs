@@ -36,7 +36,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for a flexible structure,
+    /// [`EvaluationError::Flexible`] for parameters of a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize_step`]
     /// and [`precess_dynamics::Spacecraft::step_parameter_derivatives`].
     pub fn linearize_steps<N: AsRef<str>>(
@@ -46,18 +46,14 @@ impl Evaluator {
         (length, steps): (f64, usize),
         parameters: &[N],
     ) -> Result<LinearizedStep, EvaluationError> {
-        if self.is_flexible() {
-            return Err(EvaluationError::Flexible { what: "the linearised step" });
-        }
-        let parameters = Parameter::named(&self.scenario, parameters)?;
+        let parameters = self.parameters_named(parameters)?;
         let by: Vec<_> = parameters.iter().map(Parameter::variable).collect();
         let hub = if by.is_empty() { None } else { Some(self.scenario.bare_hub()?) };
-        let inputs = &inputs.rigid;
         let names = |of: &mut dyn Iterator<Item = Variable>| -> Vec<String> {
             of.map(|variable| self.variable_name(variable)).collect()
         };
-        let states = names(&mut self.rigid().state_variables(inputs));
-        let by_inputs = names(&mut self.rigid().input_variables(inputs));
+        let states = names(&mut self.structure().state_variables(inputs));
+        let by_inputs = names(&mut self.structure().input_variables(inputs));
         let mut reached = LinearizedStep {
             state: state.clone(),
             a: DMatrix::identity(states.len(), states.len()),
@@ -68,17 +64,18 @@ impl Evaluator {
             parameters: parameters.iter().map(|parameter| parameter.name.clone()).collect(),
         };
         for _ in 0..steps {
-            let now = &reached.state.rigid;
-            let step = precess_craft::linearize_step(self.rigid(), now, inputs, length)?;
+            let now = &reached.state;
+            let step = precess_craft::linearize_step(&self.craft, now, inputs, length)?;
             if let Some(hub) = &hub {
-                let (devices, at) = (&self.scenario.devices, (now, inputs));
+                let rigid = (now.clone().with_modal(()), inputs.clone().with_modal(()));
+                let (devices, at) = (&self.scenario.devices, (&rigid.0, &rigid.1));
                 let found =
                     precess_craft::step_parameter_derivatives(hub, devices, at, length, &by)?;
                 reached.p = &step.a * &reached.p + found;
             }
             reached.a = &step.a * &reached.a;
             reached.b = &step.a * &reached.b + step.b;
-            reached.state.rigid = step.state;
+            reached.state = step.state;
         }
         Ok(reached)
     }

@@ -23,19 +23,19 @@ impl Scenario {
         let mut state = craft.at_rest();
         state.modal.eta.clone_from(&structure.coordinates);
         let initial = self.initial.devices.states();
-        for ([own, _], [coordinate, _]) in state.rigid.devices.states_mut().zip(initial) {
+        for ([own, _], [coordinate, _]) in state.devices.states_mut().zip(initial) {
             *own = coordinate;
         }
         let mut inputs = craft.no_inputs();
-        drive_at_start(self, &mut inputs.rigid.modes);
+        drive_at_start(self, &mut inputs.modes);
         let massless = |inputs: &CraftInputs| match craft.accelerations(&state, inputs) {
             Err(error @ SolveError::ModalMass { .. }) => Some(error),
             _ => None,
         };
         let error = massless(&inputs)?;
-        let free: Vec<_> = inputs.rigid.modes.values().map(|mode| mode == Mode::Driven).collect();
+        let free: Vec<_> = inputs.modes.values().map(|mode| mode == Mode::Driven).collect();
         let held = |inputs: &mut CraftInputs, released: Option<usize>| {
-            let modes = inputs.rigid.modes.values_mut().zip(&free).enumerate();
+            let modes = inputs.modes.values_mut().zip(&free).enumerate();
             for (joint, (mode, _)) in modes.filter(|(_, (_, free))| **free) {
                 *mode = if released == Some(joint) { Mode::Driven } else { Mode::Locked };
             }

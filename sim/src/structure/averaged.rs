@@ -108,7 +108,7 @@ impl AveragedDevices {
         joints: &[[f64; 2]],
         motors: &[Motor],
     ) -> Result<Self, Fault> {
-        Self::by(precess_craft::linearize, devices, mount, joints, motors)
+        Self::by(precess_craft::linearize_rigid, devices, mount, joints, motors)
     }
 
     fn by<D: WithNumbers<Scalar = f64>>(

@@ -125,7 +125,7 @@ impl<'a> Disturbances<'a> {
 
     fn angle(&self, wheel: Option<usize>, state: &CraftState) -> WheelAngle {
         let Some(joint) = wheel else { return WheelAngle::default() };
-        let [theta, rate] = state.rigid.devices.states().nth(joint).unwrap_or_default();
+        let [theta, rate] = state.devices.states().nth(joint).unwrap_or_default();
         let turns = self.turns.borrow().get(joint).copied().unwrap_or_default();
         WheelAngle { theta, turns, rate }
     }
@@ -186,8 +186,8 @@ impl<'a> Source<'a> {
         };
         match &self.on {
             SourceBodyPoint::Hub => {
-                all.rigid.torque_b += moment;
-                all.rigid.add_force(&self.point, &force);
+                all.torque_b += moment;
+                all.add_force(&self.point, &force);
             }
             SourceBodyPoint::Mount(mount) => {
                 if let Some(sum) = all.modal.mounts.get_mut(*mount) {
@@ -200,11 +200,11 @@ impl<'a> Source<'a> {
             SourceBodyPoint::Body(joint, turned) => {
                 let (mut force, mut moment) = (force, moment);
                 if let Some(info) = turned {
-                    let [angle, _] = state.rigid.devices.states().nth(*joint).unwrap_or_default();
+                    let [angle, _] = state.devices.states().nth(*joint).unwrap_or_default();
                     let rotation = turn(info, angle);
                     (force, moment) = (rotation.tr_mul(&force), rotation.tr_mul(&moment));
                 }
-                let bodies = all.rigid.bodies.as_mut();
+                let bodies = all.bodies.as_mut();
                 if let Some(sum) = bodies.and_then(|bodies| bodies.values_mut().nth(*joint)) {
                     *sum = sum.plus(&about(&force, &moment));
                 }

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Attitude, Inputs, JointStates, ListedModes, ModalPoint, Mode, Wrench};
+use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
 use super::disturbances::Disturbances;
 use super::kinematics::{Chain, axes};
@@ -84,10 +84,10 @@ impl<'a> Acting<'a> {
     /// Inputs with everything that does not depend on time.
     pub(crate) fn inputs(&self, scenario: &Scenario, craft: &Craft) -> CraftInputs {
         let mut inputs = craft.no_inputs();
-        inputs.rigid.hub = scenario.hub_mode;
-        inputs.rigid.gravity = scenario.gravity;
+        inputs.hub = scenario.hub_mode;
+        inputs.gravity = scenario.gravity;
         if self.on_joints() {
-            inputs.rigid.bodies = Some(Inputs::no_wrenches_for(craft.rigid()));
+            inputs.bodies = Some(craft.no_wrenches());
         }
         inputs
     }
@@ -160,8 +160,7 @@ impl<'a> Acting<'a> {
     }
 
     /// Writes what depends on time, and on the attitude of the bodies.
-    pub(crate) fn fill(&self, time: f64, state: &CraftState, all: &mut CraftInputs) {
-        let inputs = &mut all.rigid;
+    pub(crate) fn fill(&self, time: f64, state: &CraftState, inputs: &mut CraftInputs) {
         let time = time.clamp(self.start, self.end);
         let from_below = time > self.start;
         let at = |profile: &Profile| profile.at(time, from_below);
@@ -179,16 +178,16 @@ impl<'a> Acting<'a> {
         if !self.has_wrenches() {
             return;
         }
-        let bn = state.rigid.attitude.dcm();
+        let bn = state.attitude.dcm();
         (inputs.force, inputs.torque_b) = (Vector3::zeros(), Vector3::zeros());
         if let Some(bodies) = &mut inputs.bodies {
             for wrench in bodies.values_mut() {
                 *wrench = Wrench::none();
             }
         }
-        all.modal.forces.fill(0.0);
-        all.modal.mounts.fill(Wrench::none());
-        self.disturbances.add(time, from_below, state, all);
+        inputs.modal.forces.fill(0.0);
+        inputs.modal.mounts.fill(Wrench::none());
+        self.disturbances.add(time, from_below, state, inputs);
         for WrenchOnBody { wrench, on } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));
             let (mut force, mut moment) = (vector(&wrench.force), vector(&wrench.moment));
@@ -197,22 +196,22 @@ impl<'a> Acting<'a> {
             }
             let (device, index, joint) = match on {
                 WrenchBody::Hub => {
-                    all.rigid.torque_b += moment;
-                    all.rigid.add_force(&wrench.point, &force);
+                    inputs.torque_b += moment;
+                    inputs.add_force(&wrench.point, &force);
                     continue;
                 }
                 WrenchBody::Node(point) => {
-                    all.add_wrench(point, &force, &moment);
+                    inputs.add_wrench(point, &force, &moment);
                     continue;
                 }
                 WrenchBody::Body(device, index, joint) => (*device, *index, *joint),
             };
             if wrench.axes == WrenchAxes::Inertial {
-                let joints: Vec<_> = state.rigid.devices.states().collect();
+                let joints: Vec<_> = state.devices.states().collect();
                 let axes = axes(&self.chains, device, index, &joints);
                 (force, moment) = (axes.tr_mul(&force), axes.tr_mul(&moment));
             }
-            let bodies = all.rigid.bodies.as_mut();
+            let bodies = inputs.bodies.as_mut();
             if let Some(sum) = bodies.and_then(|bodies| bodies.values_mut().nth(joint)) {
                 let wrench = Wrench::at(&wrench.point, &force).plus(&Wrench::torque(&moment));
                 *sum = sum.plus(&wrench);

@@ -11,8 +11,9 @@
 //! Only the sum of the momenta themselves has to equal what the solver says; a test compares them.
 
 use nalgebra::{Matrix3, Vector3};
+use precess_craft::CraftState;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
-use precess_dynamics::{Angle, Attitude, Hub, JointStates, State};
+use precess_dynamics::{Angle, Attitude, Hub, JointStates};
 
 use crate::scenario::{Set, members};
 
@@ -120,7 +121,7 @@ pub(crate) fn axes(
 pub(crate) fn momenta(
     hub: &Hub,
     chains: &[Chain],
-    state: &State<Set>,
+    state: &CraftState,
     mut each: impl FnMut(BodyMomentum),
 ) {
     let nb = state.attitude.dcm().transpose();

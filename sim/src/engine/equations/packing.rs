@@ -130,7 +130,7 @@ impl Layout {
 
     /// Writes a state and both integrals to a flat vector.
     pub(crate) fn pack(&self, state: &CraftState, integrals: [f64; 2]) -> Vec<f64> {
-        let CraftState { rigid: state, modal: ModalState { eta, eta_dot } } = state;
+        let ModalState { eta, eta_dot } = &state.modal;
         let mut y = vec![0.0; self.length()];
         y[..3].copy_from_slice(state.r_b_n.as_slice());
         y[3..6].copy_from_slice(state.r_b_n_dot.as_slice());
@@ -158,7 +158,6 @@ impl Layout {
         let (coordinates, rates) = self.modal();
         state.modal.eta.copy_from_slice(&y[coordinates]);
         state.modal.eta_dot.copy_from_slice(&y[rates]);
-        let state = &mut state.rigid;
         let vector = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
         state.r_b_n = vector(0);
         state.r_b_n_dot = vector(3);
@@ -189,16 +188,15 @@ impl Layout {
         found: &CraftAccelerations,
         dydt: &mut [f64],
     ) {
-        let hub = &state.rigid;
-        let bn = hub.attitude.dcm();
+        let bn = state.attitude.dcm();
         // The solver's inertial acceleration is expressed in B; positions are expressed in N.
-        let acceleration = bn.tr_mul(&found.rigid.r_b_n_ddot);
-        let quaternion_rate = Self::attitude(y).rate(&hub.omega);
-        dydt[..3].copy_from_slice(hub.r_b_n_dot.as_slice());
+        let acceleration = bn.tr_mul(&found.r_b_n_ddot);
+        let quaternion_rate = Self::attitude(y).rate(&state.omega);
+        dydt[..3].copy_from_slice(state.r_b_n_dot.as_slice());
         dydt[3..6].copy_from_slice(acceleration.as_slice());
         dydt[6..10].copy_from_slice(quaternion_rate.as_slice());
-        dydt[10..HUB].copy_from_slice(found.rigid.omega_dot.as_slice());
-        for (place, acceleration) in self.joints.iter().zip(found.rigid.devices.values()) {
+        dydt[10..HUB].copy_from_slice(found.omega_dot.as_slice());
+        for (place, acceleration) in self.joints.iter().zip(found.devices.values()) {
             dydt[place.coordinate] = y[place.rate];
             dydt[place.rate] = acceleration;
         }
@@ -228,7 +226,7 @@ impl Layout {
 
     /// Coordinate, turns counted, and rate of a joint.
     pub(crate) fn joint(joint: usize, state: &CraftState, turns: &[f64]) -> [f64; 2] {
-        let [coordinate, rate] = state.rigid.devices.states().nth(joint).unwrap_or([f64::NAN; 2]);
+        let [coordinate, rate] = state.devices.states().nth(joint).unwrap_or([f64::NAN; 2]);
         [coordinate + turns[joint] * TAU, rate]
     }
 

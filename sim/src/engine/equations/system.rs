@@ -81,7 +81,7 @@ impl<'a> System<'a> {
     /// A joint's coordinate in the state that was evaluated last.
     pub(crate) fn evaluated_coordinate(&self, joint: usize) -> Option<f64> {
         let scratch = self.scratch.borrow();
-        scratch.state.rigid.devices.states().nth(joint).map(|[coordinate, _]| coordinate)
+        scratch.state.devices.states().nth(joint).map(|[coordinate, _]| coordinate)
     }
 
     /// Whether the solver's ledger is needed for the work.
@@ -143,9 +143,8 @@ impl<'a> System<'a> {
         inputs: &CraftInputs,
         found: &CraftAccelerations,
     ) -> Result<[f64; 2], SolveError> {
-        let rates = state.rigid.devices.states();
-        let CraftInputs { rigid, .. } = inputs;
-        let motors = rigid.motors.values().zip(rates).zip(rigid.modes.values());
+        let rates = state.devices.states();
+        let motors = inputs.motors.values().zip(rates).zip(inputs.modes.values());
         let mut throughput = 0.0;
         if self.needs_ledger() {
             let power = self.craft.ledger(state, inputs, found)?.power;
@@ -160,8 +159,8 @@ impl<'a> System<'a> {
             return Ok([work_of(&power), throughput]);
         }
         // dW/dt = F . v_B + L_B . omega + sum(u * rate)
-        let mut power = rigid.force.dot(&(state.rigid.attitude.dcm() * state.rigid.r_b_n_dot));
-        power += rigid.torque_b.dot(&state.rigid.omega);
+        let mut power = inputs.force.dot(&(state.attitude.dcm() * state.r_b_n_dot));
+        power += inputs.torque_b.dot(&state.omega);
         for ((torque, [_, rate]), _) in motors {
             power += torque * rate;
             throughput += (torque * rate).abs();

@@ -258,7 +258,7 @@ fn rates(stepper: &Stepper, functions: &[Function], moment: &Moment) -> Vec<f64>
 /// A quantity of the state.
 fn state_value(stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
     let joint = |joint| Layout::joint(joint, &moment.state, stepper.turns());
-    let state = &moment.state.rigid;
+    let state = &moment.state;
     match quantity {
         Quantity::Position(axis) => state.r_b_n[axis],
         Quantity::Velocity(axis) => state.r_b_n_dot[axis],

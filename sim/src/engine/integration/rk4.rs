@@ -131,10 +131,10 @@ fn stepped(
     }
     let rates_times_torques = |next: &CraftState| {
         let coordinates = |of: &CraftState| -> Vec<f64> {
-            of.rigid.devices.states().map(|[coordinate, _]| coordinate).collect()
+            of.devices.states().map(|[coordinate, _]| coordinate).collect()
         };
         let moved = coordinates(next).into_iter().zip(coordinates(state));
-        let torques = inputs.rigid.motors.values().zip(inputs.rigid.modes.values()).zip(moved);
+        let torques = inputs.motors.values().zip(inputs.modes.values()).zip(moved);
         torques.fold([0.0, 0.0], |[sum, magnitudes], ((torque, mode), (to, from))| {
             // Held over the step, so the step's own quadrature of the rate is the coordinate.
             let work = if mode == Mode::Driven { torque * (to - from) } else { 0.0 };

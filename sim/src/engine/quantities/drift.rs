@@ -110,12 +110,12 @@ impl Conserved {
 /// Sums of the magnitudes of the terms of energy and momenta at a state.
 fn sizes(scenario: &Scenario, system: &System<'_>, state: &CraftState) -> Sizes {
     let mut sum = Sizes::default();
-    momenta(&scenario.hub, system.acting.chains(), &state.rigid, |body| {
+    momenta(&scenario.hub, system.acting.chains(), state, |body| {
         sum.linear += body.sizes.linear;
         sum.angular += body.sizes.angular;
         sum.kinetic += body.sizes.kinetic;
     });
-    let far = magnitude(&state.rigid.r_b_n);
+    let far = magnitude(&state.r_b_n);
     let modes = scenario.structure.iter().flat_map(|structure| &structure.modes);
     for (mode, rate) in modes.zip(&state.modal.eta_dot) {
         let linear = magnitude(&(mode.linear * *rate));

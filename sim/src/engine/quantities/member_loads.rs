@@ -10,7 +10,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
-use precess_dynamics::{DeviceLoads, Loads, Wrench};
+use precess_dynamics::{DeviceLoads, Loads, StructureData, Wrench};
 
 use crate::engine::equations::kinematics::Chain;
 use crate::record::columns::Quantity;
@@ -29,7 +29,7 @@ pub(crate) struct MemberLoads {
 }
 
 impl MemberLoads {
-    pub(crate) fn new(loads: &Loads<Set>, chains: &[Chain]) -> Self {
+    pub(crate) fn new<S: StructureData>(loads: &Loads<Set, S>, chains: &[Chain]) -> Self {
         let (mounts, joints, motors) = (Vec::new(), Vec::new(), Vec::new());
         let mut of = Self { mounts, joints, motors, carried: vec![Wrench::none(); chains.len()] };
         let (on_hub, isolated) = &loads.devices;

@@ -17,7 +17,7 @@ use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::scenario::Scenario;
-use precess_craft::{CraftAccelerations, CraftInputs};
+use precess_craft::CraftInputs;
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
@@ -118,8 +118,7 @@ impl SampleValues {
             let filled = self.inputs.get_or_insert_with(|| system.inputs(held_from, state));
             system.acting.fill(held_from, state, filled);
             let computed = |mode| mode != Mode::Driven;
-            let needs_loads =
-                self.loads || (self.torques && filled.rigid.modes.values().any(computed));
+            let needs_loads = self.loads || (self.torques && filled.modes.values().any(computed));
             if self.accelerations || needs_loads {
                 found = Some(system.craft.accelerations(state, filled)?);
                 system.count(1);
@@ -142,19 +141,13 @@ impl SampleValues {
             None if self.momentum => Some(system.craft.momentum(state, About::InertialOrigin)?),
             known => known,
         };
-        if let Some(craft) = system.craft.flexible()
-            && !self.points.is_empty()
-        {
-            let state = state.flexible();
-            let found = found.as_ref().map(CraftAccelerations::flexible);
-            for point in &mut self.points {
-                if point.moves {
-                    point.motion = Some(craft.point_motion(&point.place, &state)?);
-                }
-                if let (true, Some(found)) = (point.accelerates, &found) {
-                    let acceleration = craft.point_acceleration(&point.place, &state, found)?;
-                    point.acceleration = Some(acceleration);
-                }
+        let craft = system.craft.structure();
+        for point in &mut self.points {
+            if point.moves {
+                point.motion = Some(craft.point_motion(&point.place, state)?);
+            }
+            if let (true, Some(found)) = (point.accelerates, &found) {
+                point.acceleration = Some(craft.point_acceleration(&point.place, state, found)?);
             }
         }
         let computed = Computed {
@@ -163,17 +156,15 @@ impl SampleValues {
             time,
             lost,
             energy,
-            mrp: Mrp::from(state.rigid.attitude),
+            mrp: Mrp::from(state.attitude),
             momentum,
-            joints: state.rigid.devices.states().collect(),
+            joints: state.devices.states().collect(),
             accelerations: found.map(|found| SampleAccelerations {
-                b: found.rigid.r_b_n_ddot,
-                omega_dot: found.rigid.omega_dot,
-                joints: found.rigid.devices.values().collect(),
+                b: found.r_b_n_ddot,
+                omega_dot: found.omega_dot,
+                joints: found.devices.values().collect(),
             }),
-            motors: inputs.map(|CraftInputs { rigid, .. }| {
-                rigid.motors.values().zip(rigid.modes.values()).collect()
-            }),
+            motors: inputs.map(|of| of.motors.values().zip(of.modes.values()).collect()),
             loads,
             points: &self.points,
             disturbances: if self.disturbances {
@@ -194,8 +185,6 @@ impl Computed<'_> {
     fn number(&self, quantity: Quantity) -> f64 {
         let Moment { state, integrals: [work, _] } = self.moment;
         let motion = |point: usize| self.points.get(point).and_then(|point| point.motion.as_ref());
-        let modal = state;
-        let state = &state.rigid;
         let joint = |joint: usize| {
             let turns = self.turns.get(joint).copied().unwrap_or_default();
             let [coordinate, rate] = self.joints.get(joint).copied().unwrap_or([f64::NAN; 2]);
@@ -243,8 +232,8 @@ impl Computed<'_> {
             Quantity::Disturbance(source, component) => {
                 self.disturbances.get(source).and_then(|of| of.get(component).copied())
             }
-            Quantity::ModalCoordinate(mode) => modal.modal.eta.get(mode).copied(),
-            Quantity::ModalRate(mode) => modal.modal.eta_dot.get(mode).copied(),
+            Quantity::ModalCoordinate(mode) => state.modal.eta.get(mode).copied(),
+            Quantity::ModalRate(mode) => state.modal.eta_dot.get(mode).copied(),
             Quantity::Displacement(point, axis) => motion(point).map(|m| m.displacement[axis]),
             Quantity::Rotation(point, axis) => motion(point).map(|m| m.rotation[axis]),
             Quantity::PointOmega(point, axis) => motion(point).map(|m| m.omega[axis]),

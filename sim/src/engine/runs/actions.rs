@@ -78,7 +78,7 @@ impl Run<'_> {
     /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
     fn brake(&mut self, joints: &[usize]) -> Result<f64, RunError> {
         let mut inputs = self.system.inputs(self.time, &self.moment.state);
-        for (joint, mode) in inputs.rigid.modes.values_mut().enumerate() {
+        for (joint, mode) in inputs.modes.values_mut().enumerate() {
             if joints.contains(&joint) {
                 *mode = Mode::Locked;
             }

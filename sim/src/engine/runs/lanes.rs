@@ -10,9 +10,9 @@ use precess_lanes::{Acting, Motion, SideBySide, side_by_side};
 use super::Run;
 use super::recorded::Recorded;
 use crate::engine::equations::run_quantities::RunQuantities;
-use crate::engine::{Craft, CraftState};
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
+use precess_craft::CraftState;
 
 /// The most steps that are made before it is asked whether to go on.
 const STEPS_MAX: usize = 64;
@@ -35,7 +35,9 @@ impl Lanes {
         for recorded in runs {
             let run = &recorded?.run;
             let scenario = run.scenario;
-            let Craft::Rigid(_) = run.system.craft else { return None };
+            if run.system.craft.is_flexible() {
+                return None;
+            }
             let (devices, platforms) = &scenario.devices;
             let fixed = matches!(scenario.settings.integrator, IntegratorChoice::Rk4 { .. });
             if !(fixed && platforms.is_empty() && run.system.quantities == RunQuantities::Motion) {
@@ -135,7 +137,7 @@ impl Run<'_> {
     }
 
     fn motion(&self) -> Motion {
-        let state = &self.moment.state.rigid;
+        let state = &self.moment.state;
         Motion {
             r_b_n: state.r_b_n,
             r_b_n_dot: state.r_b_n_dot,
@@ -146,7 +148,7 @@ impl Run<'_> {
     }
 
     fn acting(&self) -> Acting {
-        let inputs = self.system.inputs(self.time, &self.moment.state).rigid;
+        let inputs = self.system.inputs(self.time, &self.moment.state);
         Acting {
             force: inputs.force,
             torque_b: inputs.torque_b,
@@ -161,10 +163,9 @@ impl Run<'_> {
     /// Takes over the motion after so many steps.
     fn take(&mut self, motion: &Motion, steps: usize) -> Result<(), RunError> {
         let mut state: CraftState = self.moment.state.clone();
-        let rigid = &mut state.rigid;
-        (rigid.r_b_n, rigid.r_b_n_dot) = (motion.r_b_n, motion.r_b_n_dot);
-        (rigid.attitude, rigid.omega) = (motion.attitude, motion.omega);
-        for ([coordinate, rate], from) in rigid.devices.states_mut().zip(&motion.joints) {
+        (state.r_b_n, state.r_b_n_dot) = (motion.r_b_n, motion.r_b_n_dot);
+        (state.attitude, state.omega) = (motion.attitude, motion.omega);
+        for ([coordinate, rate], from) in state.devices.states_mut().zip(&motion.joints) {
             [*coordinate, *rate] = *from;
         }
         self.stepper.take(&self.system, state, steps);

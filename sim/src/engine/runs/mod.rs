@@ -13,13 +13,13 @@ use precess_dynamics::{About, JointStates, ModalState, State};
 pub use recorded::run;
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
+use crate::engine::craft_of;
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::engine::equations::system::System;
 use crate::engine::events::segments::Segments;
 use crate::engine::events::{EventKind, Monitors, StepEvent};
 use crate::engine::integration::{Moment, Stepper};
 use crate::engine::quantities::drift::Conserved;
-use crate::engine::{CraftState, craft_of};
 use crate::record::{Drift, End, Event, Outcome, RunError, Steps};
 use crate::scenario::{Scenario, Set, StopAction};
 
@@ -90,8 +90,7 @@ impl<'a> Run<'a> {
             .structure
             .as_ref()
             .map_or_else(Default::default, |of| (of.coordinates.clone(), of.rates.clone()));
-        let state =
-            CraftState { rigid: scenario.initial.clone(), modal: ModalState { eta, eta_dot } };
+        let state = scenario.initial.clone().with_modal(ModalState { eta, eta_dot });
         let moment = Moment { state, integrals: [0.0; 2] };
         // The solver names what is not finite, and a list of another length.
         let evaluated = system.craft.momentum(&moment.state, About::InertialOrigin);
@@ -212,7 +211,7 @@ impl<'a> Run<'a> {
     /// The present state, joint angles counted through every turn.
     #[must_use]
     pub fn state(&self) -> State<Set> {
-        let mut state = self.moment.state.rigid.clone();
+        let mut state: State<Set> = self.moment.state.clone().with_modal(());
         let joints = state.devices.states_mut();
         for ([coordinate, _], turns) in joints.zip(self.stepper.turns()) {
             *coordinate += turns * std::f64::consts::TAU;
@@ -295,7 +294,7 @@ impl<'a> Run<'a> {
         if self.system.quantities == RunQuantities::Motion {
             return Ok(());
         }
-        let joints = self.moment.state.rigid.devices.states();
+        let joints = self.moment.state.devices.states();
         for (peak, [_, rate]) in self.peak_rates.iter_mut().zip(joints) {
             *peak = peak.max(rate.abs());
         }

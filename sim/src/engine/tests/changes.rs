@@ -142,7 +142,7 @@ fn a_brake_keeps_angular_momentum_and_enters_its_loss() {
     let before = spacecraft.momentum(&scenario.initial, about).expect("finite");
     assert!(
         (before.angular
-            - run.system.craft.rigid().momentum(&run.state(), about).expect("finite").angular)
+            - run.system.craft.undeformed().momentum(&run.state(), about).expect("finite").angular)
             .norm()
             < 1e-15
     );

@@ -9,8 +9,8 @@ use precess_dynamics::{
 };
 
 use super::{DOP853, column, last, recorded, scenario};
-use crate::engine::Run;
 use crate::engine::equations::kinematics::{Chain, momenta};
+use crate::engine::{Run, rigid_state};
 use crate::scenario::{IntegratorChoice, Scenario};
 
 /// Sums over some bodies in another order; a few hundred roundings of 2e-16.
@@ -69,7 +69,7 @@ fn momenta_of_the_bodies_add_up_to_the_solvers() {
     let scenario = every_kind(Passive::none());
     let chains = Chain::all(&scenario.devices);
     let (mut linear, mut angular, mut bodies) = (Vector3::zeros(), Vector3::zeros(), 0);
-    momenta(&scenario.hub, &chains, &scenario.initial, |body| {
+    momenta(&scenario.hub, &chains, &rigid_state(scenario.initial.clone()), |body| {
         linear += body.linear;
         angular += body.angular;
         bodies += 1;
