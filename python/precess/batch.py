@@ -237,7 +237,7 @@ class Batch:
         Raises
         ------
         UnsupportedError
-            Spacecraft that differ, a flexible structure.
+            Spacecraft that differ.
         """
         y, base, u = self._given(states, inputs)
         found = self._native.linearize(y, base, u, _threads(threads))

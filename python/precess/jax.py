@@ -44,7 +44,7 @@ def accelerations(
     Parameters
     ----------
     spacecraft : Spacecraft
-        A rigid hub: a flexible structure has no linearised system.
+        What is evaluated.
     inputs : Inputs, optional
         Modes, gravity and wrenches; those of the scenario at its start by default. Force, torque and motors are ``u``, as
         :meth:`precess.Inputs.to_array`.
@@ -141,6 +141,7 @@ def derivative(
     joints = spacecraft.joints
     coordinates = np.array([places[joint.coordinate] for joint in joints], dtype=int)
     rates = np.array([places[joint.rate] for joint in joints], dtype=int)
+    modal, modal_rates = spacecraft._modal
 
     def function(y: Any, u: Any) -> jax.Array:
         y = jnp.asarray(y, dtype=jnp.float64)
@@ -156,6 +157,7 @@ def derivative(
         )
         slopes = jnp.zeros_like(y).at[0:3].set(y[3:6]).at[3:6].set(acceleration)
         slopes = slopes.at[6:10].set(q_dot).at[10:13].set(found[3:6])
-        return slopes.at[coordinates].set(y[rates]).at[rates].set(found[6 : 6 + len(joints)])
+        slopes = slopes.at[coordinates].set(y[rates]).at[rates].set(found[6 : 6 + len(joints)])
+        return slopes.at[modal].set(y[modal_rates]).at[modal_rates].set(found[6 + len(joints) :])
 
     return function

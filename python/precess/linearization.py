@@ -25,7 +25,8 @@ class Linearization:
 
     The attitude in ``dx`` is a small rotation about the axes of B (``attitude_x``): states have one
     number fewer than a :class:`State`. What does not move is no state: those of a fixed hub and of
-    locked joints.
+    locked joints. Of a flexible structure modal coordinates and their rates are states, and modal forces
+    (``modes.force_1``) and wrenches on the mounts, by their nodes (``tip.force_x``), inputs.
 
     Attributes
     ----------

@@ -117,11 +117,13 @@ class MassMatrix:
     Attributes
     ----------
     coordinates : tuple of str
-        Names of ``a``: acceleration of B and of the hub, both in B, then of each joint with a motor.
+        Names of ``a``: acceleration of B and of the hub, both in B, then of each joint with a motor, and of each
+        modal coordinate.
     matrix : array, shape (n, n)
-        kg, kg m, kg m².
+        kg, kg m, kg m²; one for a mode, and sqrt(kg), m sqrt(kg) beside it.
     bias : array, shape (n,)
-        N, N m: Coriolis and centrifugal, gravity, springs, dampers and friction, wrenches on bodies.
+        N, N m, N/sqrt(kg): Coriolis and centrifugal, gravity, springs, dampers and friction, stiffness and damping of
+        modes, wrenches on bodies.
     """
 
     coordinates: tuple[str, ...]
@@ -262,8 +264,6 @@ class Spacecraft:
         ------
         SolveError
             A pose that has no accelerations.
-        UnsupportedError
-            A flexible structure.
         """
         y = self._flat(state)
         names, matrix, bias = self._native.mass_matrix(y, self._acting(y, inputs))
@@ -316,7 +316,9 @@ class Spacecraft:
 
         Raises
         ------
-        SolveError, DerivativeError, UnsupportedError
+        SolveError, DerivativeError
+        UnsupportedError
+            Parameters of a flexible structure.
         """
         y = self._flat(state)
         acting = self._acting(y, inputs)
@@ -351,7 +353,9 @@ class Spacecraft:
 
         Raises
         ------
-        SolveError, DerivativeError, UnsupportedError
+        SolveError, DerivativeError
+        UnsupportedError
+            Parameters of a flexible structure.
         """
         y = self._flat(state)
         found = self._native.linearize_steps(

@@ -148,14 +148,28 @@ def test_failures_in_jax_are_nan_or_errors(craft: precess.Spacecraft) -> None:
 def test_a_structure_that_bends_has_values_in_jax() -> None:
     jax = pytest.importorskip("jax")
     jax.config.update("jax_enable_x64", True)
-    from precess.jax import accelerations
+    from precess.jax import accelerations, derivative
 
     craft = precess.Scenario.from_toml("scenarios/imaging-satellite-flexible.toml").spacecraft
-    function: Any = accelerations(craft)
+    of = Derivatives(craft)
+    function: Any = accelerations(craft, of=of)
     y, u = craft.initial_state().to_array(), craft.inputs().to_array()
+    y[-20:] = 0.01
     np.testing.assert_array_equal(jax.jit(function)(y, u), np.asarray(craft.accelerations(y)))
-    with pytest.raises(precess.UnsupportedError):
-        jax.jacfwd(function)(y, u)
+    by_y, by_u = of.jacobians(y, u)
+    for place, expected in enumerate((by_y, by_u)):
+        for jacobian_of in (jax.jacfwd, jax.jacrev):
+            found = jacobian_of(function, argnums=place)(y, u)
+            np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14)
+    # By a modal coordinate and by its rate.
+    for name in ("modes.eta_3", "modes.eta_dot_3"):
+        step = np.zeros_like(y)
+        step[craft.state_names.index(name)] = 1e-3
+        slope = (of.values(y + step, u) - of.values(y - step, u)) / 2e-3
+        exact = by_y[:, craft.state_names.index(name)]
+        np.testing.assert_allclose(slope, exact, atol=DIFFERENCES * np.abs(exact).max())
+    slopes: Any = derivative(craft, of=of)
+    np.testing.assert_allclose(slopes(y, u), craft.derivative(0.0, y), rtol=1e-12, atol=1e-14)
 
 
 def test_casadi_has_exact_derivatives(craft: precess.Spacecraft) -> None:

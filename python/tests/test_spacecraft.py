@@ -43,6 +43,43 @@ def test_linearize_is_that_of_differences(wheels: str) -> None:
     assert found.Q.shape == (len(found.outputs), 1)
 
 
+#: A scenario with twenty modes, gimbals locked.
+FLEXIBLE = "scenarios/imaging-satellite-flexible.toml"
+
+
+def test_linearised_structure_is_that_of_differences_of_its_derivative() -> None:
+    craft = precess.Scenario.from_toml(FLEXIBLE).spacecraft
+    state, inputs = craft.initial_state(), craft.inputs()
+    inputs.gravity = [0.3, -0.2, 9.8]
+    found = craft.linearize(state, inputs)
+    assert {"modes.eta_20", "modes.eta_dot_1"} <= set(found.states)
+    assert {"modes.force_20", "cmg4.force_x", "cmg1.moment_z"} <= set(found.inputs)
+    names = list(craft.state_names)
+    rows = [place for place, name in enumerate(found.states) if name in names]
+    kept = [names.index(found.states[place]) for place in rows]
+    assert len(rows) == len(found.states) - 3
+    y = state.to_array()
+    for name, size in [("modes.eta_1", 1e-3), ("modes.eta_dot_20", 1e-3), ("omega_x", 1e-4), ("cmg2.spin", 1e-2)]:
+        step = np.zeros_like(y)
+        step[names.index(name)] = size
+        slope = (craft.derivative(0.0, y + step, inputs) - craft.derivative(0.0, y - step, inputs)) / (2 * size)
+        exact = found.A[rows, found.states.index(name)]
+        np.testing.assert_allclose(slope[kept], exact, atol=1e-6 * np.abs(exact).max(), rtol=0, err_msg=name)
+    with pytest.raises(precess.UnsupportedError, match="parameters"):
+        craft.linearize(state, inputs, parameters=["hub.m_b"])
+
+
+def test_mass_matrix_of_a_structure_returns_what_acts() -> None:
+    craft = precess.Scenario.from_toml(FLEXIBLE).spacecraft
+    state, inputs = craft.initial_state(), craft.inputs()
+    for joint in craft.joints:
+        inputs.modes[joint.coordinate] = "driven"
+    found = craft.mass_matrix_and_bias(state, inputs)
+    np.testing.assert_allclose(found.matrix, found.matrix.T, atol=1e-12 * np.abs(found.matrix).max())
+    forces = found.matrix @ np.asarray(craft.accelerations(state, inputs)) + found.bias
+    np.testing.assert_allclose(forces, 0.0, atol=1e-11 * np.abs(found.bias).max())
+
+
 #: Of central differences of a step of RK4, relative to the largest of a column of numbers of size one.
 STEPS = 1e-7
 
