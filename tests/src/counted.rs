@@ -12,7 +12,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 use precess_dynamics::{Angle, Real, Scalar};
 
 /// Operations of an evaluation, sines and cosines apart: what a hub takes, and each DGVSCMG on it. The
-/// suite `operations` asserts them.
+/// tests `dynamics/operations.rs` assert them.
 pub const EVALUATION: [u64; 2] = [276, 907];
 
 /// Operations by what they are.

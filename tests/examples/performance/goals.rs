@@ -168,7 +168,7 @@ impl<'a> Measured<'a> {
     }
 }
 
-/// Operations of an evaluation with so many DGVSCMGs, as the suite `operations` asserts them.
+/// Operations of an evaluation with so many DGVSCMGs, as the tests `dynamics/operations.rs` assert them.
 #[expect(clippy::cast_precision_loss, reason = "thousands")]
 pub(crate) fn operations(count: usize) -> f64 {
     let [hub, device] = EVALUATION.map(|number| number as f64);

@@ -94,6 +94,7 @@ pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>
     let mut made = Vec::new();
     for link in &chain.links {
         let origin = path.with_arm(link.origin, omega);
+        // (12), (13), (14): the arm's second derivative, added to that of the joint's origin.
         let centre = origin.with_arm(link.centre.turned(link.turn.inverse()), omega);
         // (31), (44), (59): each turning joint adds its rate about its own axis.
         let carried = omega.turned(link.turn);
