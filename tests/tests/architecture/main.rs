@@ -1,5 +1,5 @@
 //! The sources are as docs/architecture.md has them: imports between folders make no circle, and the functions of a step
-//! are in the files that the page names.
+//! are in the files that the page names and call each other as it has them.
 
 mod graph;
 mod imports;

@@ -1,67 +1,192 @@
-//! The step tree of docs/architecture.md: every function in it is in the file beside it, of the type before it.
+//! The step tree of docs/architecture.md: every function in it is in the file beside it, of the type before it, and
+//! calls the functions one level below it.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use syn::{ImplItem, Item, TraitItem, Type};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens as _;
+use syn::{Block, ImplItem, Item, TraitItem, Type};
 
 use super::ROOT;
 
-/// A line of the tree: type, function, file from `dynamics/src`.
-#[derive(Debug, PartialEq, Eq)]
-struct Line {
+/// A function of the tree.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Function {
     of: Option<String>,
-    function: String,
+    name: String,
+    /// From `dynamics/src`.
     file: String,
+    /// The number of the function that calls it.
+    caller: Option<usize>,
+    /// The closure by which the caller does so.
+    closure: Option<Closure>,
 }
 
-/// The functions of a tree of the page; lines without a file go on with the text of the line above.
-fn lines(tree: &str) -> Vec<Line> {
-    let mut found = Vec::new();
+/// A line `closure NAME of FUNCTION:`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Closure {
+    name: String,
+    of: String,
+}
+
+/// What other lines are below.
+enum Parent {
+    Function(usize),
+    Closure(Closure),
+    /// A remark: `four times:`.
+    Remark,
+}
+
+impl Function {
+    fn titled(&self) -> String {
+        self.of.as_ref().map_or_else(|| self.name.clone(), |of| format!("{of}::{}", self.name))
+    }
+}
+
+/// The functions of a tree of the page. A line that has no file and ends without a colon continues the text above.
+fn functions(tree: &str) -> Vec<Function> {
+    let (mut found, mut above) = (Vec::<Function>::new(), Vec::<(usize, Parent)>::new());
     for line in tree.lines() {
-        let line = line.trim_start_matches(['│', '├', '└', ' ']);
-        let words: Vec<&str> = line.split_whitespace().collect();
+        let text = line.trim_start_matches(['│', '├', '└', ' ']);
+        let depth = line.chars().count() - text.chars().count();
+        let words: Vec<&str> = text.split_whitespace().collect();
         let is_file =
             |word: &&str| Path::new(word).extension().is_some_and(|ending| ending == "rs");
-        let Some(file) = words.iter().position(is_file) else { continue };
+        let file = words.iter().position(is_file);
+        if file.is_none() && !text.ends_with(':') {
+            continue;
+        }
+        above.retain(|(of, _)| *of < depth);
+        let Some(file) = file else {
+            above.push((depth, group(&words)));
+            continue;
+        };
+        let caller = above.iter().rev().find_map(|(_, parent)| match parent {
+            Parent::Function(index) => Some(*index),
+            _ => None,
+        });
+        let closure = above.last().and_then(|(_, parent)| match parent {
+            Parent::Closure(closure) => Some(closure.clone()),
+            _ => None,
+        });
+        above.push((depth, Parent::Function(found.len())));
         let mut of = None;
-        for name in words.iter().take(file).map(|name| name.trim_end_matches(',')) {
-            let function = match name.split_once("::") {
-                Some((of_function, function)) => {
+        for word in words.iter().take(file).map(|word| word.trim_end_matches(',')) {
+            let name = match word.split_once("::") {
+                Some((of_function, name)) => {
                     of = Some(of_function.to_owned());
-                    function
+                    name
                 }
-                None => name,
+                None => word,
             };
-            let (function, file) = (function.to_owned(), words[file].to_owned());
-            found.push(Line { of: of.clone(), function, file });
+            let (name, file) = (name.to_owned(), words[file].to_owned());
+            found.push(Function { of: of.clone(), name, file, caller, closure: closure.clone() });
         }
     }
     found
 }
 
-/// Whether a file has a function, of a type or trait where one is named.
-fn has(items: &[Item], of: Option<&str>, function: &str) -> bool {
+fn group(words: &[&str]) -> Parent {
+    match words {
+        ["closure", name, "of", of] => Parent::Closure(Closure {
+            name: (*name).to_owned(),
+            of: of.trim_end_matches(':').to_owned(),
+        }),
+        _ => Parent::Remark,
+    }
+}
+
+/// The bodies of a function, of a type or trait where one is named; none of one that a trait only requires.
+fn bodies<'a>(items: &'a [Item], of: Option<&str>, function: &str) -> Vec<Option<&'a Block>> {
     let is = |name: &syn::Ident| name == function;
     let named = |name: &syn::Ident| of.is_some_and(|of| name == of);
-    items.iter().any(|item| match item {
-        Item::Fn(item) => of.is_none() && is(&item.sig.ident),
-        Item::Trait(item) if named(&item.ident) => {
-            item.items.iter().any(|item| matches!(item, TraitItem::Fn(item) if is(&item.sig.ident)))
+    let mut found = Vec::new();
+    for item in items {
+        match item {
+            Item::Fn(item) if of.is_none() && is(&item.sig.ident) => found.push(Some(&*item.block)),
+            Item::Trait(item) if named(&item.ident) => {
+                found.extend(item.items.iter().filter_map(|item| match item {
+                    TraitItem::Fn(item) if is(&item.sig.ident) => Some(item.default.as_ref()),
+                    _ => None,
+                }));
+            }
+            Item::Impl(item) => {
+                let own = match &*item.self_ty {
+                    Type::Path(of) => {
+                        of.path.segments.last().is_some_and(|last| named(&last.ident))
+                    }
+                    _ => false,
+                };
+                let last = item.trait_.as_ref().and_then(|(path, _)| path.segments.last());
+                if own || last.is_some_and(|last| named(&last.ident)) {
+                    found.extend(item.items.iter().filter_map(|item| match item {
+                        ImplItem::Fn(item) if is(&item.sig.ident) => Some(Some(&item.block)),
+                        _ => None,
+                    }));
+                }
+            }
+            _ => {}
         }
-        Item::Impl(item) => {
-            let own = match &*item.self_ty {
-                Type::Path(of) => of.path.segments.last().is_some_and(|last| named(&last.ident)),
-                _ => false,
-            };
-            let last = item.trait_.as_ref().and_then(|(path, _)| path.segments.last());
-            let of_type = own || last.is_some_and(|last| named(&last.ident));
-            let mut functions = item.items.iter();
-            of_type
-                && functions.any(|item| matches!(item, ImplItem::Fn(item) if is(&item.sig.ident)))
+    }
+    found
+}
+
+/// The names that are called: `f(..)`, `a.f(..)`, `A::f::<B>(..)`.
+fn calls(tokens: TokenStream, found: &mut BTreeSet<String>) {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    for (index, token) in tokens.iter().enumerate() {
+        match token {
+            TokenTree::Group(group) => calls(group.stream(), found),
+            TokenTree::Ident(name) => {
+                let called = match tokens.get(index + 1) {
+                    Some(TokenTree::Group(of)) => of.delimiter() == Delimiter::Parenthesis,
+                    _ => [':', ':', '<'].into_iter().zip(index + 1..).all(|(sign, at)| {
+                        let token = tokens.get(at);
+                        matches!(token, Some(TokenTree::Punct(of)) if of.as_char() == sign)
+                    }),
+                };
+                if called {
+                    found.insert(name.to_string());
+                }
+            }
+            _ => {}
         }
-        _ => false,
-    })
+    }
+}
+
+/// What is wrong with a tree; `read` reads a file of the sources.
+fn faults(tree: &[Function], read: impl Fn(&str) -> String) -> Vec<String> {
+    let mut faults = Vec::new();
+    let mut called = Vec::new();
+    for function in tree {
+        let items = syn::parse_file(&read(&function.file)).unwrap().items;
+        let bodies = bodies(&items, function.of.as_deref(), &function.name);
+        if bodies.is_empty() {
+            faults.push(format!("{} is not in {}", function.titled(), function.file));
+        }
+        let mut names = BTreeSet::new();
+        bodies.iter().flatten().for_each(|body| calls(body.to_token_stream(), &mut names));
+        called.push(names);
+    }
+    let mut require = |caller: usize, name: &str| {
+        if !called[caller].contains(name) {
+            faults.push(format!("{} does not call {name}", tree[caller].titled()));
+        }
+    };
+    for function in tree {
+        let Some(caller) = function.caller else { continue };
+        let Some(closure) = &function.closure else {
+            require(caller, &function.name);
+            continue;
+        };
+        require(caller, &closure.name);
+        let mut above = std::iter::successors(Some(caller), |index| tree[*index].caller);
+        let of = above.find(|index| tree[*index].titled() == closure.of);
+        require(of.expect("a closure is one of a function above"), &function.name);
+    }
+    faults
 }
 
 #[test]
@@ -69,41 +194,50 @@ fn every_function_of_the_step_tree_is_in_its_file() {
     let root = Path::new(ROOT);
     let page = fs::read_to_string(root.join("docs/architecture.md")).unwrap();
     let tree = page.split("```text\n").find(|text| text.starts_with("Spacecraft::step ")).unwrap();
-    let tree = tree.split("```").next().unwrap();
-    let lines = lines(tree);
-    assert!(lines.len() > 35, "{} functions", lines.len());
-    let mut missing = Vec::new();
-    for Line { of, function, file } in &lines {
-        let text = fs::read_to_string(root.join("dynamics/src").join(file)).unwrap_or_default();
-        let items = syn::parse_file(&text).unwrap().items;
-        if !has(&items, of.as_deref(), function) {
-            missing.push(format!("{} {function} in {file}", of.as_deref().unwrap_or_default()));
-        }
-    }
-    assert!(
-        missing.is_empty(),
-        "docs/architecture.md names functions that are not there:\n{}",
-        missing.join("\n")
-    );
+    let tree = functions(tree.split("```").next().unwrap());
+    assert!(tree.len() > 45, "{} functions", tree.len());
+    let read =
+        |file: &str| fs::read_to_string(root.join("dynamics/src").join(file)).unwrap_or_default();
+    let faults = faults(&tree, read);
+    assert!(faults.is_empty(), "the step tree of docs/architecture.md:\n{}", faults.join("\n"));
 }
 
 #[test]
 fn a_function_that_is_not_there_is_seen() {
     let text = "A::f, g   a/b.rs  text\n│                    goes on\n├ four times:\n│ └ h   a/c.rs   text\n";
-    let line = |of: Option<&str>, function: &str, file: &str| Line {
+    let line = |of: Option<&str>, name: &str, file: &str, caller: Option<usize>| Function {
         of: of.map(str::to_owned),
-        function: function.to_owned(),
+        name: name.to_owned(),
         file: file.to_owned(),
+        caller,
+        closure: None,
     };
-    let expected =
-        [line(Some("A"), "f", "a/b.rs"), line(Some("A"), "g", "a/b.rs"), line(None, "h", "a/c.rs")];
-    assert_eq!(lines(text), expected);
+    let expected = [
+        line(Some("A"), "f", "a/b.rs", None),
+        line(Some("A"), "g", "a/b.rs", None),
+        line(None, "h", "a/c.rs", Some(0)),
+    ];
+    assert_eq!(functions(text), expected);
     let items =
         syn::parse_file("impl<T> A<T> { fn f() {} }\nimpl B for C { fn g() {} }\nfn h() {}")
             .unwrap();
-    let seen = |of, function| has(&items.items, of, function);
+    let seen = |of, function| !bodies(&items.items, of, function).is_empty();
     assert!(
         seen(Some("A"), "f") && seen(Some("B"), "g") && seen(Some("C"), "g") && seen(None, "h")
     );
     assert!(!seen(Some("A"), "g") && !seen(None, "f") && !seen(Some("A"), "h"));
+}
+
+#[test]
+fn a_call_that_is_not_there_is_seen() {
+    let source = "fn f() { g(|x| h::<u8>(x.i())) }\nfn g(c: C) { c(); }\nfn h() { let i = 1; }\n\
+                  impl X { fn i() {} }";
+    let faults = |tree: &str| faults(&functions(tree), |_| source.to_owned());
+    let right = "f  a.rs\n├ g  a.rs\n│ └ closure c of f:\n│   └ h  a.rs\n└ X::i  a.rs\n";
+    assert_eq!(faults(right), [String::new(); 0]);
+    assert_eq!(faults("f  a.rs\n└ h  a.rs\n  └ X::i  a.rs\n"), ["h does not call i"]);
+    assert_eq!(faults("f  a.rs\n└ g  a.rs\n  └ h  a.rs\n"), ["g does not call h"]);
+    let wrong = "f  a.rs\n└ g  a.rs\n  └ closure d of g:\n    └ h  a.rs\n";
+    assert_eq!(faults(wrong), ["g does not call d", "g does not call h"]);
+    assert_eq!(faults("f  a.rs\n└ j  a.rs\n"), ["j is not in a.rs", "f does not call j"]);
 }
