@@ -3,7 +3,7 @@
 use std::panic::resume_unwind;
 use std::thread::{ScopedJoinHandle, scope};
 
-/// Does the same with each item, each on a thread of its own; the results stand in the order of the
+/// Does the same with each item, each on a thread of its own; the results are in the order of the
 /// items, so that nothing depends on which thread was faster.
 pub fn side_by_side<T, R>(
     items: impl IntoIterator<Item = T>,

@@ -169,7 +169,7 @@ fn a_wrong_stage_of_a_long_elimination_is_caught() {
     }
 }
 
-/// The wheel of a balanced kind is told by its names alone: no sine or cosine of theta is an
+/// The wheel of a balanced kind is recognised only by its names: no sine or cosine of theta is an
 /// argument, and every proof holds without one.
 #[test]
 fn a_rotor_knows_its_angle_unless_it_is_symmetric_about_its_joint() {

@@ -44,7 +44,7 @@ impl Limit {
         self.with(mass, "0").renamed(&format!("{inertia}_"), "0", &ENTRIES)
     }
 
-    /// Held where its axes are the carrier's.
+    /// Held where its axes are those of the parent body.
     fn locked(self, angle: &str, rate: &str) -> Self {
         let held = self.with(&format!("sin_{angle}"), "0").with(&format!("cos_{angle}"), "1");
         held.with(rate, "0")

@@ -1,7 +1,7 @@
 //! A joint's mode as data against a joint that is not there: with the acceleration of a joint given,
 //! and zero, the emitted elimination is that of the kind which prescribes it, term by term.
 //!
-//! The blocks of the system stay symbols, so what is compared is the elimination alone; that the
+//! The blocks of the system stay symbols, so only the elimination is compared; that the
 //! blocks are equal, too, is shown beside the other limits between kinds.
 
 use std::collections::{BTreeMap, BTreeSet};

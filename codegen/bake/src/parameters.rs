@@ -1,4 +1,4 @@
-//! The parameters of a kind by name: where each stands among mount and bodies, and its value.
+//! The parameters of a kind by name: where each is among mount and bodies, and its value.
 //!
 //! Invariant: every number of a device's bodies is the place of exactly one parameter, or is fixed
 //! by the kind itself ([`Fixed`]).
@@ -11,7 +11,7 @@ use precess_description::Device;
 
 use crate::error::BakeError;
 
-/// Where a number stands.
+/// Where a number is in the description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ParameterLocation {
     /// Mass of a body.
@@ -24,7 +24,7 @@ pub(crate) enum ParameterLocation {
     Inertia(usize, usize, usize),
 }
 
-/// A parameter: its name, and where its value stands.
+/// A parameter: its name, and where its value is.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameter {
     pub(crate) name: String,

@@ -23,7 +23,7 @@ use crate::templates::COMMAND;
 
 /// Devices that share a kernel.
 pub(crate) struct Shape<'a> {
-    /// The kind with joints that stand, under the name of the emitted module.
+    /// The kind with locked joints, under the name of the emitted module.
     pub(crate) kind: &'static Kind,
     /// As it is for everybody.
     pub(crate) general: &'static Kind,

@@ -15,7 +15,7 @@ const MISSIONS: [(&str, usize); 5] = [
     ("four_wheels", 64),
     // One device with full inertias: only its offsets are zero.
     ("table1", 79),
-    // Two devices of four stand on the hub.
+    // Two devices of four are locked.
     ("parked_spare", 40),
 ];
 
@@ -137,7 +137,7 @@ fn a_device_that_stands_is_part_of_the_hub() {
         assert!(kernels.text.contains("pub fn constant_share"));
         assert!(!kernels.text.contains("pub fn eliminate") && !kernels.text.contains("Joint"));
     }
-    // What stands costs nothing: the wheels by themselves take as much.
+    // What is locked costs nothing: the wheels by themselves take as much.
     let mut wheels = description("parked_spare");
     wheels.device.retain(|device| device.kind == "reaction_wheel");
     assert_eq!(self::baked(&wheels).operations.baked, baked.operations.baked);

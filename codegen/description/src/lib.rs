@@ -112,7 +112,7 @@ impl Description {
             return Err(DescriptionError::Format(self.format));
         }
         is_name(&self.name)?;
-        // A heading stands in comments of the emitted files.
+        // A heading is written in comments of the emitted files.
         if self.title.chars().any(char::is_control) {
             return Err(DescriptionError::Title);
         }

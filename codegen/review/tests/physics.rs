@@ -51,7 +51,7 @@ fn every_mutant_of_a_sample_is_killed_or_equivalent() {
     assert_eq!(numbered + report.unnumbered(), report.outcomes.len());
 }
 
-/// The kinds that no engine was asked about answer to conservation and differences alone.
+/// Kinds of which no values of engines are stored are judged only by conservation and differences.
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_of_a_sample_of_every_kind_is_killed_or_equivalent() {
@@ -114,7 +114,7 @@ fn whatever_is_made_wrong_is_computed_under_the_same_number() {
         let computed = report.computed.iter().filter(|value| value.tag.as_deref() == Some(tag));
         computed.map(|value| (value.kernel.as_str(), value.name.as_str())).collect::<Vec<_>>()
     };
-    // Products alone: nothing to make wrong, and computed all the same.
+    // Only products: nothing to make wrong, and computed all the same.
     assert!(of("(D10)").contains(&("eliminate", "gain_w_v1")), "{:?}", of("(D10)"));
     assert!(of("(34)").contains(&("eliminate", "alpha_go_gox")), "{:?}", of("(34)"));
     // What several equations share is computed once, in `prepare`, under no number.

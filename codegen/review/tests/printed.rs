@@ -102,7 +102,7 @@ fn errata_and_letter_state_the_counts_of_the_verdicts() {
     }
 }
 
-/// The verdicts on the pages with `right`, which stands there once, replaced by `wrong`.
+/// The verdicts on the pages with `right`, which is there once, replaced by `wrong`.
 fn with(right: &str, wrong: &str) -> Result<Verdicts, JudgementError> {
     let mut found = 0;
     let mut changed = |folder: &str| -> Vec<Page> {
@@ -170,7 +170,7 @@ fn assert_error(right: &str, wrong: &str, page: &str, fault: &str) {
 
 #[test]
 fn a_mend_of_what_is_not_printed_is_named() {
-    let (page, none) = ("causes.md", "`r_gic_go` stands 0 times in the block, not once");
+    let (page, none) = ("causes.md", "`r_gic_go` occurs 0 times in the block, not once");
     assert_error(MEND, &MEND.replace("gi`", "go`"), page, none);
     let more = |block: &str| format!("{}0`\n```\n\n{MEND}", MEND.replace("(67) r_wc_b", block));
     assert_error(MEND, &more("(67) r_wc"), page, "there is no printed block (67) r_wc;");

@@ -145,14 +145,14 @@ impl<'g> Chain<'g> {
         Self { graph, kind, links, hub, passes, assumed, mount }
     }
 
-    /// The first joint that moves, or the last one: the bodies inboard of it stand on the hub.
+    /// The first joint that moves, or the last one: the bodies inboard of it are parts of the hub.
     #[must_use]
     pub fn first_moving(&self) -> usize {
         let links = self.kind.links;
         links.iter().position(|link| !link.is_locked()).unwrap_or(links.len() - 1)
     }
 
-    /// Whether every joint stands: a body of the hub, without an equation of its own.
+    /// Whether every joint is locked: a body of the hub, without an equation of its own.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.kind.links.iter().all(kinds::Link::is_locked)

@@ -9,7 +9,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Heading {
     what: String,
-    /// What stands before the equations: nothing where they state it as it is, else `as in`, `see`.
+    /// What is written before the equations: nothing where they state it as it is, else `as in`, `see`.
     relation: &'static str,
     equations: Vec<String>,
     axes: String,

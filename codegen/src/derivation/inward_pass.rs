@@ -97,7 +97,7 @@ fn first_parent<'g>(
 }
 
 /// The axes of the parent body of the first joint that moves, expressed in B: the mount. Where it is
-/// made of turns, or bodies stand on the hub, they are constants of their own.
+/// made of turns, or bodies are locked on the hub, they are constants of their own.
 fn parent_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
     use crate::space::Axis::{X, Y, Z};
     if chain.first_moving() == 0 && !chain.mount_is_turned() {

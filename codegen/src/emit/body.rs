@@ -18,7 +18,7 @@ use crate::graph::{Graph, Node, NodeId, Rational};
 
 /// A statement with its indentation stays within this width, at which neither formatter breaks it.
 const WIDTH: usize = 89;
-/// What stands on a line besides name and value: indentation, `let`, ` = `, `;`, and `-(` `)`.
+/// What is on a line besides name and value: indentation, `let`, ` = `, `;`, and `-(` `)`.
 const FRAME: usize = "    let  = ;-()".len();
 
 /// Operations as written.

@@ -38,7 +38,7 @@ enum Shape {
     Model,
 }
 
-/// The parameters in the order of the structure; `passive` stands before the last, the model, where
+/// The parameters in the order of the structure; `passive` comes before the last, the model, where
 /// the kind has one, and is none of them.
 pub(super) fn parameters(kind: &Kind) -> Vec<Parameter> {
     let mut list = vec![mount(kind)];

@@ -17,7 +17,7 @@ pub enum EmitError {
     Width(String, String),
     /// A statement that C has not.
     NoC {
-        /// The function that it stands in.
+        /// The function that it is in.
         function: String,
         /// As Rust.
         statement: String,

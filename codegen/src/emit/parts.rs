@@ -19,7 +19,7 @@ pub(super) const INLINED: [&str; 4] = ["eliminate", "back_substitute", "external
 
 /// Records and functions of a kind, in the order of the emitted files.
 pub(super) struct Parts {
-    /// Those of the kind alone, each before those that contain it.
+    /// Those of only this kind, each before those that contain it.
     pub(super) records: Vec<Record>,
     /// `prepare` first.
     pub(super) functions: Vec<Part>,
@@ -82,7 +82,7 @@ pub(super) fn parts(chain: &Chain<'_>) -> Result<Parts, EmitError> {
     let functions = std::iter::once(prepare).chain(kernels.iter().map(part)).collect();
 
     let mut records = vec![raw, prepared.record.clone()];
-    // What stands on the hub has no state.
+    // What is locked on the hub has no state.
     if !chain.is_rigid() {
         records.extend(pose(kind).into_iter().map(|(_, record)| record));
         // A kind whose joints all keep their rates has neither motors nor modes.

@@ -48,7 +48,7 @@ fn broken(line: &str) -> String {
     lines.join("\n")
 }
 
-/// What the first line of an item that stands apart begins with: all but imports and types.
+/// What the first line of an item between empty lines begins with: all but imports and types.
 const APART: [&str; 6] = ["///", "#[", "const ", "fn ", "impl", "pub "];
 
 /// Items as formatted text, with the empty lines between them that tokens do not have.

@@ -7,7 +7,7 @@
 //! - ids depend only on the order of construction: the same derivation gives the same graph.
 //!
 //! Sine and cosine of an angle are two symbols (see [`Graph::angle`]); that their squares add to
-//! one is known to the normal form alone.
+//! one is known only to the normal form.
 
 mod calculus;
 pub(crate) mod rational;
@@ -26,7 +26,7 @@ pub use symbol::{Stage, Symbol, SymbolId};
 /// Position of a node in its graph.
 pub type NodeId = u32;
 
-/// One interned node. Operands of a sum and of a product stand in id order.
+/// One interned node. Operands of a sum and of a product are in id order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A rational constant.

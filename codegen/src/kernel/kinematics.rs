@@ -1,7 +1,7 @@
 //! The kernels of kinematics: one per body, seen from B, and one for the device's centre of mass.
 //!
-//! Vectors of a body stand along the axes that carry its joint, as the paper prints them; angular
-//! velocity and inertia along the body's own. Second derivatives are returned as what the
+//! Vectors of a body are expressed in the parent body's axes, as the paper prints them; angular
+//! velocity and inertia in the body's own. Second derivatives are returned as what the
 //! second-order states multiply and the remainder.
 
 use super::function::inputs;

@@ -23,7 +23,7 @@ pub use records::{
 use crate::derivation::chain::Chain;
 
 /// Every kernel of a chain, in the order of the emitted file; where something is assumed of the
-/// parameters, those of an evaluation; where every joint stands, the constant share of the hub.
+/// parameters, those of an evaluation; where every joint is locked, the constant share of the hub.
 #[must_use]
 pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     if chain.is_rigid() {

@@ -23,7 +23,7 @@ pub fn parameters(kind: &Kind) -> Record {
 }
 
 /// What is left of the parameters of a chain where something is assumed of them: the turns of the
-/// mount for its entries, the coordinates of joints that stand, nothing of what is zero.
+/// mount for its entries, the coordinates of locked joints, nothing of what is zero.
 #[must_use]
 pub fn parameters_of(chain: &Chain<'_>) -> Record {
     let mut record = parameters(chain.kind);

@@ -34,7 +34,7 @@ pub struct Record {
     pub doc: String,
     /// In order.
     pub fields: Vec<Field>,
-    /// Whether it is the same for every kind and stands in `hub.rs`.
+    /// Whether it is the same for every kind and is in `hub.rs`.
     pub shared: bool,
 }
 

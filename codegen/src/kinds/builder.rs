@@ -85,7 +85,7 @@ impl KindBuilder {
     /// The kind, with every name formed and checked.
     ///
     /// # Errors
-    /// When there is no link, or a name cannot stand in the emitted code or stands there already.
+    /// When there is no link, or a name is not allowed in the emitted code or is there already.
     pub fn build(self) -> Result<&'static Kind, KindError> {
         let carriers = std::iter::once("b").chain(self.links.iter().map(|link| &*link.letter));
         let last = self.links.len().saturating_sub(1);

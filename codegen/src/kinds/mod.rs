@@ -104,7 +104,7 @@ pub enum Drive {
     /// It keeps its rate, whatever torque that takes: the acceleration is zero, no equation is
     /// solved for it, and nothing is given.
     Prescribed,
-    /// It stands: its coordinate is a parameter, its rate and its acceleration are zero.
+    /// It does not move: its coordinate is a parameter, its rate and its acceleration are zero.
     Locked,
 }
 
@@ -203,13 +203,13 @@ impl Link {
         Self { joint: Joint { drive: Drive::Prescribed, ..self.joint }, ..self }
     }
 
-    /// The same link with a joint that stands.
+    /// The same link with its joint locked.
     #[must_use]
     pub const fn locked(self) -> Self {
         Self { joint: Joint { drive: Drive::Locked, ..self.joint }, ..self }
     }
 
-    /// Whether the joint stands.
+    /// Whether the joint is locked.
     #[must_use]
     pub fn is_locked(&self) -> bool {
         self.joint.drive == Drive::Locked
@@ -247,7 +247,7 @@ impl Kind {
     }
 
     /// The links on whose angle the equations depend: those with axes that turn, or are turned by a
-    /// joint that stands.
+    /// locked joint.
     pub fn turning(&self) -> impl Iterator<Item = &Link> {
         let links = self.links.iter().enumerate();
         links.filter(|(k, _)| self.axes_turn(*k)).map(|(_, link)| link)

@@ -146,7 +146,7 @@ pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
         words(body.title, ' ', ["title of a link", TITLE])?;
         titles.add(body.title)?;
         for letter in BTreeSet::from([body.frame, body.origin, body.point, link.assembly]) {
-            // The device as a whole is D, whatever stands first in it.
+            // The device as a whole is D, whatever comes first in it.
             if letter != "d" || letter == body.frame {
                 letters.add(letter)?;
             }

@@ -1,4 +1,4 @@
-//! The reaction wheel: a wheel alone.
+//! The reaction wheel: a wheel on the hub.
 
 use super::wheel::{WheelAssembly, imbalanced};
 use super::{Kind, Triple};
@@ -11,6 +11,6 @@ pub const REACTION_WHEEL: Kind = Kind {
     links: &[imbalanced(ORIGIN, ["b_x", "w_y", "w_z"], WheelAssembly::Device)],
 };
 
-/// Where the wheel stands in the hub.
+/// Where the wheel is in the hub.
 pub(super) const ORIGIN: Triple =
     Triple { symbol: "r_{W/B}", name: "r_w_b", names: ["r_w_b_bx", "r_w_b_by", "r_w_b_bz"] };

@@ -3,7 +3,7 @@
 use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
-/// The mass stands at `r_{S/B} + x b_x`. Its spring and damper come in through the force along the
+/// The mass is at `r_{S/B} + x b_x`. Its spring and damper come in through the force along the
 /// axis: `u_s = -k x - c x_dot`.
 ///
 /// The paper has no sliding joint. The numbers are those of the outer gimbal's equations, which hold

@@ -60,7 +60,7 @@ enum Reduction {
 /// A power of a symbol or of its reciprocal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Factor {
-    /// Whether it stands below the line.
+    /// Whether it is below the line.
     pub recip: bool,
     /// The symbol.
     pub name: String,

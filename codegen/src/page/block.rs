@@ -18,7 +18,7 @@ pub enum Kind {
     Text,
 }
 
-/// One block as it stands in the page.
+/// One block as it is written in the page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
     /// The paper's number, `(14)`, or `(definition)`, or `(step)`.

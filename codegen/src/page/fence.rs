@@ -1,4 +1,4 @@
-//! Fenced blocks of Markdown, with what stands between them.
+//! Fenced blocks of Markdown, with the text between them.
 
 use super::{PageError, ReadError};
 

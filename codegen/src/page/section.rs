@@ -11,7 +11,7 @@ pub struct Number {
     pub numbered: bool,
 }
 
-/// `### (14) wheel's centre of mass`, with what stands between it and the first block.
+/// `### (14) wheel's centre of mass`, with the text between it and the first block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
     /// `(14)`, `(before 67)`.

@@ -42,7 +42,7 @@ pub struct Comparison {
     pub terms: usize,
     /// How it went.
     pub verdict: Verdict,
-    /// Page and line of what was checked, where it stands on a page.
+    /// Page and line of what was checked, where it is on a page.
     pub place: Option<String>,
     /// The kind whose derivation and text it is about; none where it is about the paper only.
     pub kind: Option<&'static str>,

@@ -1,7 +1,7 @@
 //! The pages of our own equations, (D1) to (D13), against the kernels that rest on them.
 //!
 //! A block is compared with the statements of its name. Composites, Coriolis wrenches and joint
-//! rows are compared expanded: they stand on the paper's pages, and a second block of a name states
+//! rows are compared expanded: they are on the paper's pages, and a second block of a name states
 //! it by the paper's equations. The elimination is compared as the kernel has it: what was named
 //! before is a symbol, and so is each entry and divisor once its block is read.
 

@@ -1,5 +1,5 @@
 //! Emitted functions read back, strictly: every name is a `let` before it or a field of an
-//! argument, no `let` is repeated, and nothing else stands in a function but the returned record.
+//! argument, no `let` is repeated, and nothing else is in a function but the returned record.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -22,7 +22,7 @@ pub enum EmittedError {
     NoFile(String),
     /// A function is missing, or there are two.
     NoFunction(String),
-    /// A `let` of a name that stands already.
+    /// A `let` of a name that there is already.
     Repeated(String, String),
     /// A statement has no meaning here.
     Statement(String, ReadError),

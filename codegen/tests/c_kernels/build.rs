@@ -23,7 +23,7 @@ pub(crate) const FLAGS: [&str; 8] = [
 /// Set to 1, it makes a skip a failure: for machines on which everything is to be run.
 const REQUIRE_ALL: &str = "PRECESS_REQUIRE_ALL";
 
-/// The compilers that this machine has; what is missing is told, or refused.
+/// The compilers that this machine has; one that is missing is named, or refused.
 pub(crate) fn compilers() -> Vec<&'static str> {
     let there = |name: &&str| {
         let asked = Command::new(name).arg("--version").output();
@@ -103,7 +103,7 @@ fn finish(compiler: &str, command: &mut Command) {
     assert!(output.status.success(), "{compiler} refuses what was emitted: {errors}");
 }
 
-/// Programs over the dynamics crate, by name: the folder that they stand in.
+/// Programs over the dynamics crate, by name; returns the folder that they are in.
 pub(crate) fn rust(folder: &Path, programs: &[(&str, &str)]) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let source = folder.join("src/bin");

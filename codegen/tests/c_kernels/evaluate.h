@@ -4,7 +4,7 @@
 
 #define DEVICES 4
 
-/* A device: its constants, where its joints stand and how they move, and what is given of them. */
+/* A device: its constants, where its joints are and how they move, and what is given of them. */
 struct device {
     struct precess_dgvscmg_prepared constants;
     double gamma_o;

@@ -24,7 +24,7 @@ use random::Random;
 const ROUNDS: usize = 1000;
 /// Spacecraft of the whole evaluation.
 const SPACECRAFT: usize = 1000;
-/// What users are told.
+/// The page for users.
 const PAGE: &str = include_str!("../../../docs/c.md");
 /// Where all random numbers start.
 const SEED: u64 = 0x1AC_17C1;

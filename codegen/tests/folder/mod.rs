@@ -10,7 +10,7 @@ pub(crate) fn pages(folder: &str) -> Vec<Page> {
     // From the folder of either crate of the generator.
     let mut above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().skip(1);
     let pages = above.find_map(|path| Some(path.join("tests/derivation")).filter(|p| p.is_dir()));
-    let folder = pages.expect("the pages stand in the repository").join(folder);
+    let folder = pages.expect("the pages are in the repository").join(folder);
     let mut pages = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

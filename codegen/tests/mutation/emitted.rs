@@ -54,7 +54,7 @@ fn value<'a>(file: &'a mut syn::File, name: &str, index: usize) -> Option<&'a mu
 }
 
 /// Drops and flips every operand of every sum of `name`; each mutant must fail a row of the
-/// functions in `judged`, which are asked in turn until one names it. Returns the number of mutants
+/// functions in `judged`, which are tried in turn until one names it. Returns the number of mutants
 /// and of those that a claim named.
 fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
     let graph = Graph::new();

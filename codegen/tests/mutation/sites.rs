@@ -26,7 +26,7 @@ pub(crate) fn changed(expr: &Expr, site: usize, change: Change) -> Expr {
     made
 }
 
-/// The operands of a sum or, told so, of a difference.
+/// The operands of a sum or of a difference, and whether it is one.
 fn sum(expr: &Expr) -> Option<(Expr, Expr, bool)> {
     let Expr::Binary(binary) = expr else { return None };
     let minus = matches!(binary.op, BinOp::Sub(_));

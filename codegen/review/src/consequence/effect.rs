@@ -4,7 +4,7 @@ use std::fmt;
 
 use precess_codegen::page::{Block, Note};
 
-/// Drifts below this are the integrator's. A slip that leaves (16) and (75) alone cannot disturb the
+/// Drifts below this are the integrator's. A slip that does not change (16) and (75) cannot disturb the
 /// momenta, and such runs drift by 8e-11; the smallest drift that a slip causes is 3e-9.
 pub const RESOLUTION: f64 = 1e-9;
 

@@ -5,7 +5,7 @@ use std::fmt;
 use super::Effect;
 use precess_codegen::page::PageError;
 
-/// What stands in the way.
+/// Why there is no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ConsequenceError {
     /// A page cannot be read.

@@ -1,5 +1,5 @@
 //! What a printed slip does to Table 1: drift of energy and momenta over one second when the
-//! printed form stands in the assembled system.
+//! printed form is in the assembled system.
 //!
 //! - [`table1`]: the scenario as data;
 //! - `assembled`: the paper's nine equations from the hand-checked pages, with the slip in them;
@@ -90,7 +90,7 @@ pub fn effects(pages: &[Page], sets: &[Vec<Slip<'_>>]) -> Result<Vec<Effect>, Co
     Ok(found)
 }
 
-/// The drift of the right system over the same run: what the figures stand on.
+/// The drift of the right system over the same run: what the figures are compared with.
 ///
 /// # Errors
 /// When a page cannot be read, or the assembled system is not on the pages or does not run.

@@ -1,6 +1,6 @@
 //! Table 1 of the paper as printed, by the names of the pages: parameters, initial state, torques.
 //!
-//! The row `d` (8 mm) and the row `J_13` (15.4 g m^2) as they stand, `u_x` read as 200 mN m. What
+//! The row `d` (8 mm) and the row `J_13` (15.4 g m^2) as printed, `u_x` read as 200 mN m. What
 //! the table does not give (`L^o`, `L^i`, the gimbals' centres of mass, F, `L_B`) is zero, and so are
 //! the gimbals' initial angles and rates, whose rows the scan garbles. The suites hold these numbers
 //! against their own and the tool's.

@@ -262,7 +262,7 @@ impl<'a, 'g> Device<'a, 'g> {
             motion,
             || {
                 let returned = self.call(function, &self.arguments(case, motion), fault);
-                // The names as they stand: this is called more often than all else together.
+                // The names without a search: this is called more often than all else together.
                 let vector =
                     |names: [&str; 3]| Vector3::from(names.map(|name| returned.scalar(name)));
                 EnergyMomentum {

@@ -32,7 +32,7 @@ pub(super) struct Listing<'g> {
 
 /// One statement, with the nodes that are computed there for the first time.
 pub(super) struct Line<'g> {
-    /// Heading it stands under.
+    /// Heading it is under.
     pub(super) section: String,
     /// Emitted name.
     pub(super) name: String,

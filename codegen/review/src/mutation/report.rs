@@ -119,7 +119,7 @@ impl Report {
         tags
     }
 
-    /// How many mutants stand under no number: in what `prepare` shares between equations.
+    /// How many mutants are under no number: in what `prepare` shares between equations.
     #[must_use]
     pub fn unnumbered(&self) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.mutant.tag.is_none()).count()

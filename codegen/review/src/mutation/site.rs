@@ -36,9 +36,9 @@ impl fmt::Display for Change {
 pub struct Mutant {
     /// The function.
     pub kernel: String,
-    /// The heading that the place stands under.
+    /// The heading that the place is under.
     pub section: String,
-    /// The emitted name that the place stands under.
+    /// The emitted name that the place belongs to.
     pub name: String,
     /// The paper's number of that name, or those that its heading cites: `(14)`, `(17), (78)`.
     pub tag: Option<String>,
@@ -46,7 +46,7 @@ pub struct Mutant {
     pub change: Change,
     /// The operand it is done to.
     pub operand: String,
-    /// What the operand stands in.
+    /// The expression that the operand is part of.
     pub whole: String,
 }
 

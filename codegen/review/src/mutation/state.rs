@@ -61,8 +61,8 @@ pub(super) struct Drive {
 /// What is given of a joint.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Mode {
-    /// Its torque. The motor may have an inertia of its own that takes part in the joint's rate
-    /// alone, as a fast rotor behind a gear does: zero, but where `held` is to be noticed.
+    /// Its torque. The motor may have an inertia of its own that takes part only in
+    /// the joint's rate, as a fast rotor behind a gear does: zero, but where `held` is to be noticed.
     Driven { inertia: f64 },
     /// Its acceleration; zero by the kind where that prescribes it.
     Given { acceleration: f64 },
@@ -169,7 +169,7 @@ impl Wrench {
         Self { force: self.force + other.force, moment: self.moment + other.moment }
     }
 
-    /// Along the axes in which `axes` stand as columns.
+    /// Turned by `axes`, whose columns are the axes of the components.
     pub(super) fn turned(self, axes: &Matrix3<f64>) -> Self {
         Self { force: axes * self.force, moment: axes * self.moment }
     }
@@ -319,7 +319,7 @@ fn patterned(t: &Matrix3<f64>, names: &[Option<String>; 6]) -> Vec<f64> {
     groups.iter().map(mean).collect()
 }
 
-/// The names of a kind's parameters, in order; the mount stands by itself.
+/// The names of a kind's parameters, in order; the mount is not among them.
 pub(super) fn parameters_of(kind: &Kind) -> Vec<String> {
     let names = parameters(kind).fields.into_iter().map(|field| field.name);
     names.filter(|name| !name.starts_with("mount_")).collect()

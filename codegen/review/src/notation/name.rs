@@ -1,6 +1,6 @@
 //! Code names to the paper's symbols: `quantity_of_wrt_derivative_component`.
 
-/// What stands above the letter of a quantity.
+/// What is above the letter of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accent {
     /// Nothing but what the name itself says.
@@ -48,7 +48,7 @@ struct Symbol {
     before: &'static str,
     letter: String,
     below: String,
-    /// Whether it stands in brackets: a tensor.
+    /// Whether it is in brackets: a tensor.
     bracket: bool,
 }
 
@@ -172,7 +172,7 @@ fn axis(component: &str) -> Option<&str> {
     known.then_some(axis)
 }
 
-/// Points where the spacecraft as a whole cannot stand: there, `sc` is the slosh mass's centre.
+/// Points that cannot be of the spacecraft as a whole: there, `sc` is the slosh mass's centre.
 fn centre(name: &str) -> Option<&'static str> {
     if name == "sc" { Some("S_c") } else { point(name) }
 }

@@ -44,7 +44,7 @@ pub fn expression(body: &str, text: &str) -> Result<String, ReadError> {
 }
 
 /// Expressions one above the other, each after its label, as an aligned display; `body` is the
-/// block in whose scope they stand.
+/// block in whose scope they are.
 ///
 /// # Errors
 /// When one does not parse or holds a form that no block may hold.

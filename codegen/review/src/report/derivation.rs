@@ -303,7 +303,7 @@ fn component_lines<'g>(
 }
 
 /// Where the emitted code computes a quantity: by its name, else by its number, else where the
-/// equation stands that it goes into.
+/// equation is that it goes into.
 fn emitted<'g>(
     chain: &Chain<'g>,
     quantity: &Quantity<'g>,
@@ -326,7 +326,7 @@ fn emitted<'g>(
     found = claims(kernels, |tag, _| numbered(tag));
     if !found.is_empty() {
         return format!(
-            "Not computed as it stands; one device's share of it, or its part, by {}",
+            "Not computed by itself; one device's share of it, or its part, by {}",
             found.join("; ")
         );
     }

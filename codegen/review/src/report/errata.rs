@@ -13,7 +13,7 @@ use crate::notation::{Accent, equation, expression, side_by_side, symbol};
 use crate::verdict::{Cause, Component, Counts, Entry, Form, Verdicts};
 use precess_codegen::page::{Block, Kind, Note};
 
-/// A change of so many characters stands on the line of its note.
+/// A change of so many characters is written on the line of its note.
 const INLINE: usize = 100;
 /// So many differing terms are listed; of more, the number is stated.
 const LISTED: usize = 6;
@@ -49,7 +49,7 @@ struct DriftText {
 /// Equations that differ.
 #[derive(Serialize)]
 struct PartText {
-    /// With a slip, or with what cannot be told from one; otherwise the scan explains everything.
+    /// With a slip, or with what cannot be distinguished from one; otherwise the scan explains everything.
     papers: bool,
     findings: Vec<FindingText>,
 }
@@ -76,7 +76,7 @@ struct FindingText {
 struct FormText {
     /// Tag of the block, with its special case.
     tag: String,
-    /// The equation as printed and as it ought to be; empty where it stands above or is torn.
+    /// The equation as printed and as it ought to be; empty where it is above or torn.
     printed: String,
     right: String,
     above: bool,
@@ -244,7 +244,7 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
     };
     let words = block.kind == Kind::Text || above;
     let agrees = form.components.is_empty();
-    // Of a block that several numbers share, what concerns them all stands with the first.
+    // Of a block that several numbers share, what concerns them all is with the first.
     let notes = block.notes.iter().filter(|note| !above || note.place.is_some());
     let notes = notes.map(|note| note_text(block, note)).collect::<Result<Vec<_>, _>>()?;
     Ok(FormText {

@@ -50,7 +50,7 @@ impl From<tera::Error> for HtmlError {
 const DOCUMENTS: [&str; 6] =
     ["derivation.md", "errata.md", "kinds.md", "letter.md", "mutation.md", "traceability.md"];
 
-/// The page; `pictures` are put where an image of that name stands.
+/// The page; `pictures` are put where an image of that name is.
 ///
 /// # Errors
 /// When a formula cannot be converted.

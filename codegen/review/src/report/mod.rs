@@ -30,7 +30,7 @@ use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::page::{Block, Page, PageError};
 
-/// Where files stand that are built and not committed, from the repository's root.
+/// Where files are that are built and not committed, from the repository's root.
 pub const BUILT: &str = "target/";
 
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.

@@ -24,7 +24,7 @@ struct Page {
     engines: usize,
     laws: Vec<LawText>,
     equations: Vec<TallyRow>,
-    /// Mutants that stand under no number.
+    /// Mutants under no number.
     unnumbered: usize,
     survivors: Vec<String>,
     equivalent: Vec<String>,

@@ -18,7 +18,7 @@ pub(super) struct Traceability {
     rows: Vec<EquationText>,
     kinds: Vec<String>,
     system: Vec<SystemText>,
-    /// Mutants that stand under no number.
+    /// Mutants under no number.
     unnumbered: usize,
 }
 
@@ -63,7 +63,7 @@ struct EquationText {
     derived: &'static str,
     /// The emitted values that are proven to be what it states.
     proven: String,
-    /// All emitted values that stand under it.
+    /// All emitted values under it.
     emitted: String,
     /// Mutants under it, and how many of them each kind of law sees.
     mutants: usize,
@@ -188,7 +188,7 @@ struct Citation {
     last: u16,
     path: String,
     line: usize,
-    /// The function that it stands in, or is the summary of.
+    /// The function that it is in, or is the summary of.
     function: Option<String>,
 }
 

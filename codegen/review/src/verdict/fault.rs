@@ -27,7 +27,7 @@ pub struct VerdictError {
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// No entry for a number of the paper; the place is where it would stand.
+    /// No entry for a number of the paper; the place is where it would be.
     Missing(u16),
     /// Two entries for one number.
     Twice(String),
@@ -55,7 +55,7 @@ pub enum Fault {
     NoNote(char, String),
     /// A mend of a block that is not printed.
     NoTarget(String),
-    /// A mend of text that stands so many times in the block, not once.
+    /// A mend of text that occurs so many times in the block, not once.
     Found(String, usize),
     /// A piece of code that is none.
     Code(String),
@@ -115,7 +115,7 @@ impl fmt::Display for Fault {
             }
             Self::Found(text, times) => write!(
                 f,
-                "`{text}` stands {times} times in the block, not once; copy a longer or exact piece"
+                "`{text}` occurs {times} times in the block, not once; copy a longer or exact piece"
             ),
             Self::Code(text) => write!(f, "`{text}` is not a piece of code; close its brackets"),
         }

@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use super::fault::Fault;
 
 /// `body` with each printed piece replaced by the right one; for `0` the right one is added to the
-/// value. A piece must stand in the body exactly once.
+/// value. A piece must occur in the body exactly once.
 pub(super) fn mended(body: &str, changes: &[(String, String)]) -> Result<String, Fault> {
     let mut text = tokens(body)?;
     for (printed, right) in changes {

@@ -40,7 +40,7 @@ pub(super) struct Based<'g> {
     pub(super) constant_share: MassProperties<'g, ParentFrame>,
 }
 
-/// Makes the passes; the bodies' own lumps go to `script`.
+/// Makes the passes; the bodies' own first moments and inertias go to `script`.
 pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g> {
     let passes = chain.passes;
     let bodies = chain.links.iter().zip(chain.kind.links);

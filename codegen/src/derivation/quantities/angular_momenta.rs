@@ -1,7 +1,7 @@
 //! Section 3.2: angular momenta about B and their inertial derivatives, expressed in B.
 //!
 //! H is relative to B: `H_{k,B} = [I_k] omega_{k/N} + m r x r_dot` with the inertial derivative of
-//! the position *from B*. It is differentiated as it stands: its components in B, and the transport
+//! the position *from B*. It is differentiated directly: its components in B, and the transport
 //! theorem with omega; the paper's (25) to (74) rearrange what comes out.
 
 use super::List;

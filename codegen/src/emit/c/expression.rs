@@ -31,7 +31,7 @@ pub(super) fn statement(tokens: proc_macro2::TokenStream) -> Option<String> {
     Some(format!("const double {} = {};", name.ident, value.text))
 }
 
-/// A statement in lines that stand `indent` columns to the right.
+/// A statement in lines that begin `indent` columns to the right.
 pub(super) fn lines(statement: &str, indent: usize) -> Vec<String> {
     if statement.chars().count() + indent <= LINE {
         return vec![statement.to_owned()];

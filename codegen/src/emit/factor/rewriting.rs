@@ -73,7 +73,7 @@ impl<'g> Rewriting<'_, 'g> {
         (operations < before).then_some(value)
     }
 
-    /// Adds the terms of a node; the operations that they take as they stand.
+    /// Adds the terms of a node; the operations that they take unchanged.
     fn terms(&self, id: NodeId, root: bool, negative: bool, terms: &mut Vec<Term<'g>>) -> usize {
         match self.function.graph.node(id) {
             Node::Sum(a, b) if root || self.passes(id) => {

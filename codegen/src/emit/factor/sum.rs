@@ -44,7 +44,7 @@ impl<'g> Sum<'g> {
         Written { value: self.value(), operations: operations + self.operations() }
     }
 
-    /// What it costs as it stands; what is known beforehand is one addend at most.
+    /// What it costs unchanged; what is known beforehand is one addend at most.
     fn operations(&self) -> usize {
         let products: usize = self.terms.iter().map(Term::operations).sum();
         let running = self.terms.iter().filter(|term| !term.is_hoisted()).count();

@@ -12,7 +12,7 @@ use precess_codegen::derivation::recursions::external::acting;
 use precess_codegen::derivation::recursions::gravity::gradient;
 use precess_codegen::kinds;
 
-/// Where a body stands, along B.
+/// Origin and axes of a body, expressed in B.
 pub(in crate::mutation) struct BodyPose {
     /// Its axes, as columns.
     pub(in crate::mutation) axes: Matrix3<f64>,

@@ -1,4 +1,4 @@
-//! Where the bodies stand: axes that stay square, turn with the bodies and lead to their centres.
+//! Where the axes of the bodies point: axes that stay square, turn with the bodies and lead to their centres.
 
 use nalgebra::{DMatrix, Matrix3};
 

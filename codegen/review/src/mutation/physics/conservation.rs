@@ -68,7 +68,7 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     ]
 }
 
-/// With the joints' mass matrix as energies: the diagonal as it stands, and what a unit of momentum
+/// With the joints' mass matrix as energies: the diagonal itself, and what a unit of momentum
 /// meets when the driven joints outboard are free to follow, each with its motor, which is where
 /// the energy is least.
 fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {

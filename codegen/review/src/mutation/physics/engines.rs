@@ -32,8 +32,8 @@ impl Engines {
         if kind.name == self.kind { self.cases.len() } else { 0 }
     }
 
-    /// Residuals of the laws that a change in `role` can move; none for a kind that the engines
-    /// were not asked about.
+    /// Residuals of the laws that a change in `role` can move; none for a kind of which no
+    /// values of the engines are stored.
     pub(super) fn residuals(
         &self,
         device: &Device<'_, '_>,
