@@ -1,4 +1,4 @@
-//! [`Column`]: the derivatives of everything that was asked for by one variable.
+//! [`Column`]: the derivatives of all requested results by one variable.
 
 use nalgebra::Vector3;
 
@@ -54,14 +54,14 @@ pub struct Column<D: Devices, S: StructureData = Rigid> {
     /// Of the acceleration of B expressed in N, the derivative of
     /// [`State::r_b_n_dot`](crate::State::r_b_n_dot): it also changes with the attitude.
     pub r_b_n_ddot_n: Vector3<D::Scalar>,
-    /// Of kinetic energy and momenta, if they were asked for. By
+    /// Of kinetic energy and momenta, if requested. By
     /// [`Variable::Attitude`], of their components expressed in N.
     pub momentum: Option<EnergyAndMomentum<D::Scalar>>,
-    /// Of the load on every joint, if it was asked for: force and moment that its parent body exerts
+    /// Of the load on every joint, if requested: force and moment that its parent body exerts
     /// on its child body, about the joint's origin.
     pub loads: Option<JointLoads<D>>,
     /// Of what must act on the hub in addition to the inputs, about B, expressed in B
-    /// ([`Loads::hub`]), if loads were asked for: what moves a fixed or prescribed hub.
+    /// ([`Loads::hub`]), if loads were requested: what moves a fixed or prescribed hub.
     pub hub_load: Option<Wrench<D::Scalar>>,
 }
 

@@ -34,12 +34,12 @@ pub enum Output {
     Energy,
     /// Of the linear momentum, N axes, kg m/s.
     LinearMomentum(Axis),
-    /// Of the angular momentum about the point that was asked for, N axes, kg m²/s.
+    /// Of the angular momentum about the requested point, N axes, kg m²/s.
     AngularMomentum(Axis),
-    /// Of the force on the child body of a joint, in the axes that were asked for, N.
+    /// Of the force on the child body of a joint, in the requested axes, N.
     JointForce(usize, Axis),
-    /// Of the moment on the child body of a joint about the joint's origin, in the axes that were
-    /// asked for, N m.
+    /// Of the moment on the child body of a joint about the joint's origin, in the requested
+    /// axes, N m.
     JointMoment(usize, Axis),
     /// Of the force that must act on the hub in addition to the inputs, B axes, N.
     HubForce(Axis),

@@ -72,8 +72,8 @@ impl<T: Real> Assembly<T> {
         );
     }
 
-    /// Writes, number by number, what a function makes of the sum so far and a share. Each sum where
-    /// it stands: a new record of sums is held whole, and where registers are few that takes a store
+    /// Writes, number by number, what a function makes of the sum so far and a share. Each sum in
+    /// place: a new record of sums is held whole, and where registers are few that takes a store
     /// and a load a number.
     #[inline(always)]
     pub(crate) fn add_by<U: Copy>(&mut self, e: &HubShare<U>, mut add: impl FnMut(T, U) -> T) {

@@ -19,7 +19,7 @@ pub(crate) struct Sines {
 
 impl Sines {
     /// Those of the joints whose angle the equations depend on, with the bits of a single number.
-    /// None of one joint alone, which is quicker by itself, and where an angle is beyond those
+    /// None of a single joint, which is quicker by itself, and where an angle is beyond those
     /// that lanes support.
     #[inline(always)]
     pub(crate) fn of<K: Kernels, T: Value, S: Simd>(

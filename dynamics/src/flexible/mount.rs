@@ -1,4 +1,4 @@
-//! [`MountMotion`]: where a mount stands and how it moves, (F5) to (F8).
+//! [`MountMotion`]: where a mount is and how it moves, (F5) to (F8).
 //!
 //! The mount's frame K is the place in which B, carried rigidly by the mount, would be: at rest and
 //! undeformed it is B. Devices on the mount have in K the constants that they have in B on a rigid

@@ -232,7 +232,7 @@ impl<T: Real + Value> Gains<T> {
         (JointAccelerations::of(found), platform)
     }
 
-    /// By how much each joint follows while one accelerates by one, those inboard of it stand and
+    /// By how much each joint follows while one accelerates by one, those inboard of it are locked and
     /// those outboard of it are driven by no torque: row by row. What a pivot is the inertia of.
     pub(crate) fn responses(&self) -> [[T; 6]; 6] {
         let (zero, one) = (self.p[0].like(0.0), self.p[0].like(1.0));

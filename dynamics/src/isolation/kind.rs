@@ -160,7 +160,7 @@ impl<S: Scalar> Kernels for Platform<S> {
     }
 }
 
-/// A joint of the platform: where it stands, its child body, its names, its axis.
+/// A joint of the platform: where it is, its child body, its names, its axis.
 const fn joint(
     index: usize,
     body: &'static str,

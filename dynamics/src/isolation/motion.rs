@@ -105,7 +105,7 @@ pub(crate) struct Motion<T> {
 }
 
 impl<T: Real + Value> Motion<T> {
-    /// Of a platform whose mount stands on the base as `mount`, at `origin` in it, both expressed
+    /// Of a platform whose mount on the base is `mount`, at `origin` in it, both expressed
     /// in the base, which turns at `omega_base`.
     #[inline(always)]
     pub(crate) fn of(

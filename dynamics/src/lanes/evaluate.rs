@@ -33,7 +33,7 @@ pub(crate) struct Acting<T> {
 }
 
 /// What an evaluation finds of the hub, and the lanes where it holds; what it finds of the devices
-/// stands in their slots.
+/// is in their slots.
 #[derive(Clone, Copy)]
 pub(crate) struct Found<T: Number> {
     pub(crate) r_b_n_ddot: Vec3<T>,
@@ -53,7 +53,7 @@ pub(crate) struct LanedCraft<'a, D: LanedSet, T> {
     pub(crate) passive: bool,
 }
 
-/// Evaluates the devices in their slots, and the hub; `EACH` with the constants that stand in the
+/// Evaluates the devices in their slots, and the hub; `EACH` with the constants in the
 /// slots, else with those of the devices.
 #[inline(always)]
 pub(crate) fn evaluate<D: LanedSet, T: Number, const EACH: bool>(

@@ -28,7 +28,7 @@ pub(super) struct Group<D: LanedSet, T: Number> {
     pub(super) slots: SlotsOf<D, T>,
     /// The lanes whose state and inputs lanes support.
     pub(super) laned: [bool; WIDEST],
-    /// Whether what is given of the joints stands there already, the same for every state.
+    /// Whether what is given of the joints is there already, the same for every state.
     given: bool,
     /// The hub's motion.
     pub(super) motion: Motion<T>,

@@ -31,7 +31,7 @@
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A
 //! call that is not inlined costs more than what it calls, so there are plain loops and emitted
-//! field-by-field functions here where elsewhere stand iterators.
+//! field-by-field functions here instead of iterators.
 
 mod accelerations;
 mod batch;

@@ -188,7 +188,7 @@ pub(crate) fn zero<T: Scalar>() -> T {
     T::from_f64(0.0)
 }
 
-/// A zero to fill a record with. Compilers for 32-bit processors are not told its value: they would
+/// A zero to fill a record with. Compilers for 32-bit processors do not know its value: they would
 /// clear the record by a function that takes five instructions a word, where a store takes one for
 /// two words.
 #[inline(always)]

@@ -48,7 +48,8 @@ impl<'a, T: Scalar> CarriedLoads<'a, T> {
         HubAccelerations { r_b_n_ddot: sub(at_p, self.field), omega_dot }
     }
 
-    /// The axes for the loads of the carried joints: those of the base are where the base stands.
+    /// The axes for the loads of the carried joints: those of the base are given by the
+    /// platform's rotation.
     pub(crate) fn along(&self, of_base: &Along<T>) -> Along<T> {
         let axes = &self.motion.axes;
         match of_base {

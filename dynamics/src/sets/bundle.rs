@@ -1,5 +1,5 @@
 //! [`Bundle`]: references to some data of a set, taken apart member by member; [`Part`]: where a
-//! member stands in its set.
+//! member is in its set.
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
@@ -12,7 +12,7 @@ use crate::sets::enumeration::{DeviceEnum, Variant};
 use crate::sets::held::{Held, HeldMut};
 use crate::sets::per_device::{Motors, PerDevice, PerJoint};
 
-/// Where a member stands in a set `W`.
+/// Where a member is in a set `W`.
 pub trait Part<W: DeviceSet>: Copy {
     /// The member.
     type Of: DeviceSet<Scalar = W::Scalar>;

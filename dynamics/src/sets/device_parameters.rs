@@ -46,7 +46,7 @@ impl Display for UnsupportedParameter {
                  change it, or use an imbalanced kind"
             ),
             None => {
-                write!(f, "the kind has no imbalance of the {body} to lump; use the coupled model")
+                write!(f, "the kind has no imbalance of the {body}; use the coupled model")
             }
         }
     }

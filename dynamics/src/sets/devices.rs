@@ -3,7 +3,7 @@
 //!
 //! A set knows no operation. It has data of any family in its shape ([`PerDevice`]), and shows its
 //! members in order to a visitor ([`Visit`]), which is what an operation is: written once, for any
-//! kind. Devices known when the program is compiled cost the same wherever they stand: every call
+//! kind. Devices known when the program is compiled cost the same wherever they are in the set: every call
 //! is direct.
 
 #![expect(clippy::inline_always, reason = "part of a visit, which is inlined into its operation")]
@@ -172,7 +172,7 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
         }
         Ok(1)
     }
-    /// Told of each part of the data whether it is of as many members as the set has.
+    /// Called with the number of members of the set and that of a part of the data; accepts any here.
     ///
     /// # Errors
     /// Ends the visit.

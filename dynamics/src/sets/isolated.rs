@@ -20,7 +20,7 @@ use crate::validation::parameter_error::ParameterError;
 
 /// Devices on an isolated platform: `Isolated<([ReactionWheel; 4], Sgcmg)>`.
 ///
-/// A set of devices like any other, alone, in arrays and in tuples; it counts as the device
+/// A set of devices like any other, by itself, in arrays and in tuples; it counts as the device
 /// `platform` followed by the carried ones. Origins and mounts of the carried devices are from P
 /// and in the platform's axes where those of other devices are from B and in B. Its data are
 /// [`Data`](crate::platform::Data): `state.devices.platform.x`, `state.devices.carried.0[1].spin`.

@@ -1,8 +1,8 @@
 //! Sets of devices: one device, arrays, tuples, options, vectors, and devices whose kind is known
 //! only at run time.
 //!
-//! [`DeviceSet`](devices::DeviceSet) offers the members in order; what is done with them stands
-//! where it is used, as a [`Visit`](devices::Visit).
+//! [`DeviceSet`](devices::DeviceSet) offers the members in order; what is done with them is
+//! written where it is used, as a [`Visit`](devices::Visit).
 
 pub(crate) mod array;
 pub(crate) mod built_in;

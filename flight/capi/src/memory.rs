@@ -49,7 +49,7 @@ pub unsafe fn read<T: Plain>(pointer: *const T) -> Result<T, Code> {
     Ok(unsafe { pointer.read() })
 }
 
-/// As [`read`], where the value stands: structures are large, and copies of them take time.
+/// As [`read`], in place: structures are large, and copies of them take time.
 ///
 /// # Errors
 ///

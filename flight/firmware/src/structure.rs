@@ -24,7 +24,7 @@ pub type Wheels<T> = [ReactionWheel<T>; MOUNTS];
 /// Where the modes are kept.
 pub type Storage = FixedModes<MODES, MOUNTS>;
 
-/// A spacecraft that bends, its state and what acts on it.
+/// A spacecraft with a flexible structure, its state and what acts on it.
 #[derive(Clone, Debug)]
 pub struct Structure<T: Scalar> {
     /// The spacecraft.
