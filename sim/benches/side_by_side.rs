@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         let [alone, together] = least.map(|time| time * 1e3);
         let ratio = alone / together;
-        println!("{name}: {alone:.1} alone, {together:.1} side by side, {ratio:.2} times less");
+        println!("{name}: {alone:.1} by itself, {together:.1} side by side, {ratio:.2} times less");
     }
     Ok(())
 }

@@ -162,7 +162,7 @@ fn number(count: usize) -> f64 {
 /// The frame of the satellite: B on its axis, the deck 0.6 m below.
 fn satellite() -> Frame {
     let mut frame = Frame::default();
-    // The gyros stand 45 cm from the axis, on the diagonals.
+    // The gyros are 45 cm from the axis, on the diagonals.
     let gyro = 0.45 * FRAC_1_SQRT_2;
     let lines = [-0.75, -gyro, 0.0, gyro, 0.75];
     let deck: Vec<Vec<usize>> =

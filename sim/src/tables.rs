@@ -231,7 +231,7 @@ fn reason(error: &dyn fmt::Display) -> TableFault {
 fn missing(name: &str, head: &csv::StringRecord) -> TableFault {
     if !head.is_empty() && head.iter().all(|cell| cell.parse::<f64>().is_ok()) {
         return TableFault::Dialect(
-            "the first line has numbers, where the names of the columns stand; write them there, and not as a comment",
+            "the first line has numbers, where the names of the columns should be; write them there, and not as a comment",
         );
     }
     let present = head.iter().map(str::to_owned).collect();
@@ -266,7 +266,7 @@ fn delimiter(head: &[u8]) -> Result<u8, TableFault> {
     };
     let ((names, _), (cells, numbers)) = (words(heading), words(row));
     if best.0 == 0 && names > 1 && cells == names && numbers == cells {
-        let text = "spaces stand between the columns; write commas, semicolons or tabs";
+        let text = "the columns are separated by spaces; write commas, semicolons or tabs";
         return Err(TableFault::Dialect(text));
     }
     Ok(best.1)

@@ -1,4 +1,4 @@
-//! The solver over the set of a scenario: devices of any kind, platforms that carry some, a hub that may bend.
+//! The solver over the set of a scenario: devices of any kind, platforms that carry some, a rigid hub or a flexible structure.
 //!
 //! A crate of its own, because its generic code takes minutes to compile: here once, and not again with every
 //! change of the desktop tool and with its unit tests. In the profiles of development, compiled with `opt-level`

@@ -25,7 +25,7 @@ struct KindBatch<K: Kind<Scalar = f64>> {
     parts: Vec<Batch<Set<K>>>,
 }
 
-/// The batch, and what is wrong with each spacecraft: in its place stands the first sound one.
+/// The batch, and what is wrong with each spacecraft: in its place is the first sound one.
 pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: bool) -> BatchSupport {
     if !each {
         let Some((hub, devices)) = crafts.first() else { return BatchSupport::Unsupported };
@@ -51,7 +51,7 @@ fn failed(errors: Vec<Option<ParameterError<f64>>>) -> BatchSupport {
     BatchSupport::Lanes(Box::new(EmptyBatch), errors)
 }
 
-/// A batch of no sound spacecraft: nothing is asked of it.
+/// A batch of no sound spacecraft: nothing is evaluated.
 struct EmptyBatch;
 
 impl Lanes for EmptyBatch {

@@ -120,7 +120,7 @@ macro_rules! devices_of {
 }
 use devices_of;
 
-/// What comes of a kind in lanes, or alone where it has no lanes here: its spacecraft are evaluated one by
+/// What comes of a kind in lanes, or one by one where it has no lanes here: its spacecraft are evaluated one by
 /// one, with the same bits. In lanes the kernels of the flexible VSCMG, with seven joints, would be a
 /// twentieth of the Python package.
 macro_rules! in_lanes {

@@ -126,7 +126,7 @@ fn factor(matrix: &DMatrix<f64>) -> Result<DMatrix<f64>, Indefinite> {
     Ok(factor)
 }
 
-/// Which coefficient of a row is to be changed: the largest of those whose change alone gives a factor, else the largest. The
+/// Which coefficient of a row is to be changed: the largest of those whose change by itself gives a factor, else the largest. The
 /// pivot is a quadratic function of each, `1 - r^T A^-1 r` with the matrix A of the rows before.
 fn indefinite(matrix: &DMatrix<f64>, row: usize, pivot: f64) -> Indefinite {
     let before = matrix.view((0, 0), (row, row)).into_owned();

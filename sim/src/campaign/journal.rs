@@ -254,7 +254,7 @@ mod tests {
         }
     }
 
-    /// As campaigns do that are started at the same instant: one has the journal, the others are told so.
+    /// As campaigns do that are started at the same instant: one has the journal, the others get an error that says so.
     #[test]
     fn of_several_that_make_a_journal_one_has_it() {
         for _ in 0..50 {

@@ -84,7 +84,7 @@ enum Command {
     /// Print the kinds of devices with their bodies and joints
     #[command(after_help = "Example:\n  precess kinds dgvscmg")]
     Kinds(kinds::Kinds),
-    /// Derive, prove and write kernels for this spacecraft alone, as Rust or C
+    /// Derive, prove and write kernels of this one spacecraft, as Rust or C
     #[command(after_help = "Example:\n  precess bake bus.toml --out bus_kernels --language c")]
     Bake(bake::Bake),
     /// Show the modes of a structure, or write them as NPZ

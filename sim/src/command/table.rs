@@ -1,6 +1,6 @@
 //! Text in columns, for the terminal.
 
-/// Where a cell stands in its column.
+/// Where a text is in the width of its column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Left,

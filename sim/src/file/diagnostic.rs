@@ -63,7 +63,7 @@ pub struct Diagnostic {
     pub span: Option<Span>,
     /// What is wrong.
     pub message: String,
-    /// What stands under the underlined text; may be empty.
+    /// The text below the underlined place; may be empty.
     pub label: String,
     /// What to do; may be empty.
     pub help: String,

@@ -1,6 +1,6 @@
 //! [`Keys`]: the keys of one table, read by what each wants.
 //!
-//! Every key that is asked for is known; [`Keys::finish`] reports the others. A key that is missing
+//! Every key that is read is known; [`Keys::finish`] reports the others. A key that is missing
 //! or wrong is reported, and reading goes on with a stand-in, so that all errors come at once. A key that
 //! is missing because it is misspelt is reported once, as the unknown key.
 
@@ -121,7 +121,7 @@ impl<'a> Keys<'a> {
         self.reports.borrow().errors()
     }
 
-    /// Reports the keys that nobody asked for; whether there are any.
+    /// Reports the keys that were not read; whether there are any.
     pub(super) fn finish(&self) -> bool {
         let asked = self.asked.borrow();
         let mut known: Vec<_> = asked.iter().map(String::as_str).collect();

@@ -240,7 +240,7 @@ fn strength(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
 }
 
 /// The statistic of a trial number: of the group that shows it best, standard deviations; not above the threshold
-/// where noise alone reaches it with a probability above `chance`.
+/// where pure noise reaches it with a probability above `chance`.
 fn statistic(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>], chance: f64) -> f64 {
     let mut sums = [0.0; 4];
     let mut shown = [0_usize; 4];

@@ -184,7 +184,7 @@ impl fmt::Display for FitError {
             ),
             Self::Harmonic { number, range: [low, high] } => write!(
                 f,
-                "harmonic number {number} stands twice or is not within {low} to {high}; state each \
+                "harmonic number {number} is stated twice or is not within {low} to {high}; state each \
                  line once"
             ),
             Self::NoLines { highest, bound } => write!(

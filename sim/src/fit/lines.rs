@@ -17,7 +17,7 @@
 //! the last a step of Gauss and Newton towards the frequency of the line, uncorrelated with the amplitude
 //! because t counts from the middle. With a rectangular window these are the bounds of Rife and Boorstyn
 //! (IEEE Trans. Inf. Theory 20(5), 1974); Hann's costs 1.76 dB of amplitude and keeps far lines out. Another
-//! estimator of spectra could stand here; what follows needs amplitudes, noise and the two corrections.
+//! estimator of spectra could be used here; what follows needs amplitudes, noise and the two corrections.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -177,7 +177,7 @@ impl Default for Options {
 /// Fits a disturbance model.
 ///
 /// # Errors
-/// A record that cannot be used or is there twice, stated harmonics that cannot be told apart, no line, no imbalance, or a
+/// A record that cannot be used or is there twice, stated harmonics that cannot be distinguished, no line, no imbalance, or a
 /// group whose parameters the measurement does not determine.
 pub fn fit(measurement: &Measurement, options: &Options) -> Result<Fitted, FitError> {
     fit_with_progress(measurement, options, &mut |_| {})

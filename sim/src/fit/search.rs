@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     /// Speeds, rad/s, with power and noise, N² m², of h = 1 forward and backward and of h = 2 likewise: a wheel with
-    /// `U_d = 2e-9 kg m²` and no mode. In the second record noise alone is 6.6 times its mean at h = 2.
+    /// `U_d = 2e-9 kg m²` and no mode. In the second record pure noise is 6.6 times its mean at h = 2.
     #[rustfmt::skip]
     const POWERS: [(f64, [(f64, f64); 4]); 10] = [
         (104.71376, [(4.80839e-10, 2.36337e-12), (-1.06035e-12, 2.04149e-12), (-1.36219e-12, 2.58502e-12), (-3.35135e-13, 2.16158e-12)]),

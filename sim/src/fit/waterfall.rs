@@ -1,7 +1,7 @@
 //! A fit to spectra where the time series are gone: densities over frequency at each speed.
 //!
 //! A line has the power of its lobe above the noise beside it, and the frequency of the lobe's centroid
-//! ([`super::lobe`]). There are no phases: forward and backward cannot be told apart and all radial lines count
+//! ([`super::lobe`]). There are no phases: forward and backward cannot be distinguished, and all radial lines count
 //! as forward; moments cannot be referred to another point, so they are about W.
 
 use std::f64::consts::TAU;

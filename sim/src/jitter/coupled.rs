@@ -118,7 +118,7 @@ impl Compared {
 /// [`CoupledError`].
 pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compared, CoupledError> {
     let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
-    // Imbalance alone: the run has no sources, whose noise would be among the lines.
+    // Only imbalance: the run has no sources, whose noise would be among the lines.
     let model = Model::new(scenario, &budget.outputs(), &steady)?;
     let lines = model.lines(speed)?;
     let mut frequencies: Vec<f64> = lines.iter().map(|line| line.frequency).collect();

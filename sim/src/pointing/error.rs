@@ -37,7 +37,7 @@ pub enum PointingError {
     Level(f64),
     /// An interpretation that is not defined for this input.
     Interpretation {
-        /// What is asked of what.
+        /// What is evaluated, and of what.
         of: &'static str,
     },
     /// Too few runs for a level with a confidence.

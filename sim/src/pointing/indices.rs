@@ -207,7 +207,7 @@ pub(super) fn check_run(components: &[&[f64]]) -> Result<usize, PointingError> {
     Ok(length)
 }
 
-/// Mean of samples that stand one after the other, each with some components.
+/// Mean of samples that are one after the other, each with some components.
 fn mean_of(samples: &[f64], components: usize) -> Vec<f64> {
     let mut mean = vec![0.0; components];
     let count = float(samples.len() / components.max(1));

@@ -10,7 +10,7 @@ use super::csv::{COUNT, NOT_ENDED};
 /// The number of samples is within the first lines of a file, bytes.
 const HEAD_BYTES: u64 = 1 << 20;
 
-/// The comments at the start of a CSV file, without the ends of lines; the reader stands behind them.
+/// The comments at the start of a CSV file, without the ends of lines; the reader is left behind them.
 ///
 /// # Errors
 /// Of the operating system.

@@ -144,7 +144,7 @@ pub(crate) fn waterfall(
         let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;
         let frequency = |value: f64| order * value.abs() * axis.size / std::f64::consts::TAU;
         let [from, to] = ends;
-        // The label stands at the end: below the title.
+        // The label is at the end: below the title.
         let share = (BELOW_TITLE * top / frequency(to)).min(1.0);
         let end = if from >= 0.0 { to * share } else { to };
         let ends = [from, end.max(from)];

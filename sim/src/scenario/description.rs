@@ -16,7 +16,7 @@ use super::{Drive, Member, Scenario};
 pub enum UndescribedError {
     /// The hub's mode is not free.
     Hub,
-    /// The structure bends.
+    /// The structure is flexible.
     Structure,
     /// A device whose imbalance is lumped.
     Lumped(String),

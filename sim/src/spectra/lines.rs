@@ -69,7 +69,7 @@ pub fn amplitude_spectrum(
 impl AmplitudeSpectrum {
     /// The strongest lines, at most `count`, the strongest first: peaks that are 12 dB above the median of the bins
     /// about them, that are no sidelobes of stronger lines, and that have as many periods in a segment as half the
-    /// window's main lobe has bins: what is slower is not told from a drift. Frequency and amplitude are those of a single line
+    /// window's main lobe has bins: what is slower is not distinguished from a drift. Frequency and amplitude are those of a single line
     /// between bins: by the ratio of the two highest bins (rectangular, Hann), by the centroid of the squares
     /// (flat-top, whose peak is the amplitude).
     #[must_use]

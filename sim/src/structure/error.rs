@@ -262,7 +262,7 @@ impl fmt::Display for Fault {
                 write!(f, "the file ends where {wanted} should follow; is it cut off?")
             }
             Self::NotNumber { wanted, found } => {
-                write!(f, "`{found}` where {wanted} should stand; correct the line")
+                write!(f, "`{found}` where {wanted} should be; correct the line")
             }
             Self::Number { what, found, range: [low, high] } => {
                 write!(f, "{found} {what}; {low} to {high} are possible")

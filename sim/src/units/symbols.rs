@@ -74,7 +74,7 @@ const PREFIXES: &[(&str, i32)] = &[
     ("G", 9),
 ];
 
-/// A symbol by its text, prefix included. A symbol that stands by itself has precedence: `min` is
+/// A symbol by its text, prefix included. A symbol by itself has precedence: `min` is
 /// the minute, and `m` the metre.
 pub(super) fn find(text: &str) -> Option<Symbol> {
     let plain = PLAIN.iter().chain(PREFIXED).find(|(name, _)| *name == text);
@@ -236,7 +236,7 @@ fn worded(text: &str) -> Option<String> {
         let singular = lower.strip_suffix("es").filter(|word| *word == "inch");
         let singular = singular.or_else(|| lower.strip_suffix('s')).unwrap_or(&lower);
         let word = UNIT_WORDS.iter().find(|(word, _)| *word == singular || *word == lower);
-        // A prefix as a word may stand before a symbol, whose letters are as they are written.
+        // A prefix as a word may be before a symbol, whose letters are as they are written.
         let unit = match word {
             Some((_, symbol)) => *symbol,
             None => unit,

@@ -206,7 +206,7 @@ fn a_structure_is_written_and_read_back_the_same() {
     assert_eq!(to_toml(&second), written);
     let structure = first.structure.expect("a structure");
     assert_eq!(structure.coordinates, [0.001, 0.0]);
-    // The node that nothing uses is left out; the wheel stands at its own.
+    // The node that nothing uses is left out; the wheel is at its own.
     assert_eq!(structure.nodes.len(), 1);
     assert_eq!(first.devices.0[0].parameters().bodies[0].origin, [1.2, 0.0, 0.0]);
 }

@@ -48,7 +48,7 @@ fn columns<const N: usize>(samples: &Samples, names: [&str; N]) -> Vec<[f64; N]>
     samples.rows.iter().map(|row| indices.map(|index| row[index])).collect()
 }
 
-/// A beam that is clamped at B and bends in z, with one mode and a wheel at its tip.
+/// A beam that is clamped at B and flexible in z, with one mode and a wheel at its tip.
 const BEAM: &str = r#"
 format = 1
 [hub]

@@ -135,7 +135,7 @@ fn errors_name_the_key() {
         (whole.replace("contains_devices = false", "contains_devices = true"), "residual"),
         (
             panel("", 0.0).replacen("damping = 0.3", "damping = 0.3\nresidual = true", 1),
-            "a residual coordinate stands before a mode",
+            "a residual coordinate is before a mode",
         ),
         (
             panel("", 0.0)

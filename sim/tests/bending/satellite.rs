@@ -56,7 +56,7 @@ fn the_model_is_sound() {
     assert!(hertz[0] < 100.0 && 100.0 < hertz[MODES - 1], "{hertz:?}");
 }
 
-/// The gyros stand at their nodes, the hub is the file's, momentum and energy are conserved, and the
+/// The gyros are at their nodes, the hub is the file's, momentum and energy are conserved, and the
 /// camera sees more than the rigid satellite does.
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]

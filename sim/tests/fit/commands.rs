@@ -59,7 +59,7 @@ fn the_example_is_fitted_and_its_device_is_read() {
         "phase of U_d",
         "I_s / I_r",
         "The model holds",
-        "above 1.5; noise alone has 1",
+        "above 1.5; pure noise has 1",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -116,7 +116,7 @@ fn a_rotor_on_soft_bearings_is_found_by_its_loads() {
     let guess = |group, frequency: f64, ratio: f64| ModeGuess {
         group,
         mode: Mode { frequency, damping: 0.02, inertia_ratio: ratio, share: 1.0 },
-        // At h = 1 alone only w_0² / (1 - g) counts: the ratio is that of the inertias.
+        // Where h = 1 is the only line, only w_0² / (1 - g) counts: the ratio is that of the inertias.
         fit_ratio: false,
         fit_share: false,
     };

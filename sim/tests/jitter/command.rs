@@ -74,7 +74,7 @@ fn noise_of_a_data_sheet_is_in_the_budget_of_a_rigid_hub() {
     assert!(found.status.code().is_some_and(|code| code != 1), "{text}");
     assert!(text.contains("broadband noise,"), "{text}");
     assert!(out.join("wheel-data-sheet-jitter-density-1.svg").exists());
-    // A balanced wheel has noise alone.
+    // A balanced wheel has only noise.
     let text = std::fs::read_to_string(scenarios().join("wheel-data-sheet.toml")).expect("a file");
     let start = text.find("[[source]]").expect("sources");
     let noise = text.find("# Noise:").expect("noise");

@@ -252,5 +252,5 @@ fn a_coarse_grid_does_not_miss_a_resonance() {
     let fine = largest(&speeds(range, 20_000));
     let coarse = largest(&refined(speeds(range, 11), range, &crossings));
     assert!((coarse / fine - 1.0).abs() < 0.01, "{coarse:e} for {fine:e}");
-    assert!(largest(&speeds(range, 11)) < 0.7 * fine, "the grid alone misses it");
+    assert!(largest(&speeds(range, 11)) < 0.7 * fine, "the grid by itself misses it");
 }

@@ -75,7 +75,7 @@ fn write_records(folder: &Path) {
     }
 }
 
-/// The description of these records: what stands before the table, the spin axis, and speeds with their unit.
+/// The description of these records: the text before the table, the spin axis, and speeds with their unit.
 fn description(keys: &str, axis: &str, speed: impl Fn(usize, f64) -> String) -> String {
     let mut text = format!(
         "format = 1\nname = \"rw\"\n{keys}[table]\nposition = \"0, 0, 5 cm\"\nspin_axis = {axis}\n\
@@ -294,7 +294,7 @@ fn speeds_are_found_in_records_of_any_number_of_turns() {
     let options = Options { harmonics: vec![1.0], ..Options::default() };
     let found = fit(&measurement, &options);
     assert!(matches!(found, Err(FitError::Lost { lost: 3, of: 4 })), "{found:?}");
-    // Noise alone has no line and no speed.
+    // Pure noise has no line and no speed.
     for record in &mut measurement.records {
         record.channels.iter_mut().flatten().for_each(|sample| *sample = random.normal());
     }

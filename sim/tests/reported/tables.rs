@@ -22,7 +22,7 @@ fn refused(rows: &str) -> Vec<(String, &'static str)> {
     vec![
         (rows.replacen('\n', &format!("\n{units}\n"), 1), "row of units"),
         (rows.replace(',', ";").replace('.', ","), "decimal comma"),
-        (rows.replace(',', " "), "spaces stand between the columns"),
+        (rows.replace(',', " "), "the columns are separated by spaces"),
     ]
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::{WHEEL, column, errors, last, ran, read, read_back};
 
-/// Of a metre, at tolerance 1e-13 and with steps that end where the force bends.
+/// Of a metre, at tolerance 1e-13 and with steps that end where the slope of the force jumps.
 const DISTANCE: f64 = 1e-12;
 
 fn source(keys: &str) -> String {

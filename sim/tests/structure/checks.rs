@@ -5,7 +5,7 @@ use precess::structure::{Mode, Node, RigidMass, Structure};
 
 use super::structure;
 
-/// Three lumps along x on springs in z, each with some inertia, and their modes by the eigenvalue problem.
+/// Three bodies along x on springs in z, each with some inertia, and their modes by the eigenvalue problem.
 fn lumps() -> Structure {
     let [mass, inertia, stiffness] = [2.0, 0.1, 500.0];
     let names = ["left", "middle", "right"];

@@ -4,7 +4,7 @@
 //! Drift is counted in units that cannot vanish by cancellation: for each momentum the sum over the
 //! bodies of the magnitudes of all terms, as `m (|v_B| + |omega x c|)`, its largest; for energy the
 //! same sum of the kinetic energy, its largest, plus the integral of sum |u * rate|. Bodies of a
-//! flexible structure stand as if it were undeformed, and each of its modes is a term. The units
+//! flexible structure are where they are undeformed, and each of its modes is a term. The units
 //! are those at the end of the run: drift is the largest departure over the final unit, which is
 //! what the largest share of any entry would be.
 

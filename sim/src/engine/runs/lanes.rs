@@ -14,7 +14,7 @@ use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 use precess_craft::CraftState;
 
-/// The most steps that are made before it is asked whether to go on.
+/// The most steps between two checks whether to go on.
 const STEPS_MAX: usize = 64;
 
 /// Runs whose steps are made together.

@@ -171,7 +171,7 @@ impl Keys<'_> {
         match parse_quantity(text) {
             Ok(quantity) => Some(quantity),
             Err(error) => {
-                // Within the quotation marks, where the text stands there letter by letter.
+                // Within the quotation marks, where the text is written without escapes.
                 let mut span = node.span.clone();
                 if span.range.len() == text.len() + 2 {
                     let start = span.range.start + 1;

@@ -101,7 +101,7 @@ pub(super) fn scenario(
     overrides: (&[Override], Numbers),
     mut reports: Diagnostics,
 ) -> Read {
-    // What is not TOML is reported alone: its keys would be guesses.
+    // Of what is not TOML only that is reported: its keys would be guesses.
     if reports.has_errors() {
         return Err(reports);
     }

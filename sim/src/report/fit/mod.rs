@@ -85,7 +85,7 @@ impl FitReport<'_> {
             let largest = self.fitted.groups.iter().max_by(|a, b| mean(a).total_cmp(&mean(b)));
             let bound = short(largest.map_or(SQUARES_MAX, |fit| squares_bound(fit.freedom)), 3);
             let text = format!(
-                "no group has a mean square of weighted residuals above {bound}; noise alone has 1. The largest: {}.",
+                "no group has a mean square of weighted residuals above {bound}; pure noise has 1. The largest: {}.",
                 largest.map_or_else(|| "none".to_owned(), named)
             );
             return Verdict { state: "met", word: "The model holds:".to_owned(), text };
@@ -262,7 +262,7 @@ fn assumptions() -> Block {
             "Noise",
             "with that of the table; divided by the squared amplification of the modes where that is above 1",
         ),
-        row("Modes", "of the wheel alone: those of the table are above its range"),
+        row("Modes", "of the wheel by itself: those of the table are above its range"),
     ];
     table("What the numbers rest on", &[("Subject", ""), ("Assumption", "")], 0..0, rows)
 }

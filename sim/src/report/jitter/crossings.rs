@@ -195,7 +195,7 @@ impl JitterReport<'_> {
         found.map_or_else(
             || "no mode of the structure".to_owned(),
             |(k, frequency)| {
-                format!("{word} mode {} ({} Hz alone)", k + 1, short(frequency / TAU, 4))
+                format!("{word} mode {} ({} Hz by itself)", k + 1, short(frequency / TAU, 4))
             },
         )
     }

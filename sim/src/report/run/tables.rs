@@ -12,7 +12,7 @@ const MOMENTUM_UNIT: &str = "largest sum over the bodies of the magnitudes of th
     momenta, as m (|v_B| + |ω × c|)";
 /// What drifts say.
 const MEANING: &str = "A drift is the largest departure from the start over a unit that cannot \
-    vanish by cancellation. It measures the integration, not the model: rounding alone gives 10⁻¹⁶ \
+    vanish by cancellation. It measures the integration, not the model: rounding by itself gives 10⁻¹⁶ \
     to 10⁻¹³, and what exceeds that by far is the tolerance or the step.";
 const NOT_CONSERVED: &str = "Momentum is not conserved here: gravity, a wrench, a source, a lumped \
     imbalance or what holds the hub acts from outside.";

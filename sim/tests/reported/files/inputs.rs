@@ -31,7 +31,7 @@ fn no_command_replaces_a_file_that_it_reads() {
         case.arguments.push("--force".to_owned());
         for (number, input) in case.inputs.clone().into_iter().enumerate() {
             let before = fs::read(&input).expect("a file");
-            // A link of either kind stands where the output would, and where it is written until it is complete; one of
+            // A link of either kind is where the output would be, and where it is written until it is complete; one of
             // them for the other inputs.
             let places =
                 [(name.clone(), true), (name.clone(), false), (format!("{name}.partial"), true)];

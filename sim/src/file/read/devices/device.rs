@@ -238,7 +238,7 @@ pub(crate) fn has_mass(kind: BuiltInKind, joint: &JointInfo) -> bool {
 }
 
 /// Whether the table of a link has the origin of its joint. The first one's is the device's position; of links
-/// without a body only one that stands in a body, as the bearings of a wheel in a gimbal do, has one.
+/// without a body only one in a body, as the bearings of a wheel in a gimbal are, has one.
 pub(crate) fn has_origin(kind: BuiltInKind, joint: &JointInfo) -> bool {
     joint.index > 0 && (has_mass(kind, joint) || has(kind, joint, "m"))
 }

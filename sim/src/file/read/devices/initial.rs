@@ -11,7 +11,7 @@ use crate::units::{Measure, Plain};
 
 /// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.
 const NORM_MAX: f64 = 1e-4;
-/// One whose norm is off by less has all its digits: it is taken as it stands, to the bit.
+/// One whose norm is off by less has all its digits: it is taken unchanged, to the bit.
 const NORM_EXACT: f64 = 1e-14;
 
 /// How an attitude is written.

@@ -15,7 +15,7 @@ use crate::units::{Measure, Plain};
 
 /// Most struts of a platform.
 const STRUTS_MAX: usize = 6;
-/// A direction whose norm is off by less has all its digits: it is taken as it stands, to the bit.
+/// A direction whose norm is off by less has all its digits: it is taken unchanged, to the bit.
 const NORM_EXACT: f64 = 1e-14;
 
 /// The suspension; nothing where it is wrong, which has been reported.

@@ -35,7 +35,7 @@ pub(super) fn written(keys: &Keys<'_>) -> usize {
     };
     let count = list.iter().rev().take_while(|node| marked(&node.value)).count();
     if list.iter().filter(|node| marked(&node.value)).count() != count {
-        let message = "a residual coordinate stands before a mode";
+        let message = "a residual coordinate is before a mode";
         keys.error("mode", message, "write the modes with `residual = true` last");
     }
     count

@@ -46,7 +46,7 @@ fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
     let of_axes = axes.filter(|_| mount.has("gimbal_axis") || mount.has("hinge_axis"));
     let found = match (ways.as_slice(), of_axes) {
         (["matrix"], _) => matrix(mount, "matrix").map(|m| numbers(rotation(&m))),
-        // All digits of one: it is taken as it stands.
+        // All digits of one: it is taken unchanged.
         (["dcm"], _) => matrix(mount, "dcm").map(numbers),
         (["axis"], _) => axis_and_angle(mount),
         (["euler"], _) => euler(mount, ["hub to device", "device to hub"]),
