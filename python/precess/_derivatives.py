@@ -106,12 +106,12 @@ class Derivatives:
         return of_y.reshape(*shape, *of_y.shape[1:]), of_u.reshape(*shape, *of_u.shape[1:])
 
     def output_places(self, outputs: Sequence[str]) -> list[int]:
-        """Where the rows of the linearised system stand among the accelerations."""
+        """Where the rows of the linearised system are among the accelerations."""
         names = self.spacecraft.acceleration_names
         return [names.index(name) for name in outputs]
 
     def state_places(self, states: Sequence[str]) -> list[tuple[int, int]]:
-        """Columns of C, and where they stand in a flat state; the attitude apart."""
+        """Columns of C, and where they are in a flat state; the attitude apart."""
         flat = {name: place for place, name in enumerate(self.spacecraft.state_names)}
         return [(column, flat[name]) for column, name in enumerate(states) if name in flat]
 
@@ -121,7 +121,7 @@ class Derivatives:
         return [states.index(name) for name in names if name in states]
 
     def input_places(self, inputs: Sequence[str]) -> list[tuple[int, int]]:
-        """Columns of D, and where they stand in a row of inputs."""
+        """Columns of D, and where they are in a row of inputs."""
         columns = {f"{what}_{axis}": 3 * k + m for k, what in enumerate(("force", "torque")) for m, axis in enumerate("xyz")}
         for place, joint in enumerate(self.spacecraft.joints):
             columns[joint.motor] = columns[joint.acceleration] = 6 + place

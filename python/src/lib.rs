@@ -1,7 +1,7 @@
 //! The native module `precess._native`: the library behind the Python package.
 //!
 //! It contains no physics: it converts arrays and names, and calls the crate `precess`. Public classes are
-//! in Python (`precess/`); this module is theirs alone.
+//! in Python (`precess/`); only they use this module.
 
 #![expect(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 

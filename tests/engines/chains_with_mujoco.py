@@ -2,7 +2,7 @@
 
 Locked joints and the free joint of a fixed hub are left out of the model; springs and dampers are
 MuJoCo's own. Prescribed accelerations are given by MuJoCo's mass matrix and forces, solved for the
-rest. B stands at the world's origin with its axes along the world's.
+rest. B is at the world's origin with its axes along the world's.
 """
 
 import mujoco

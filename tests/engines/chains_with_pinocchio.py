@@ -3,7 +3,7 @@
 Locked joints and a fixed hub are removed by Pinocchio itself (`buildReducedModel`); what is left is
 `aba`, or with prescribed accelerations Pinocchio's own mass matrix and bias force solved for the
 rest. Loads are `rnea` of the whole model with the accelerations found. Springs, dampers and
-friction are torques on joints. B stands at the world's origin with its axes along the world's.
+friction are torques on joints. B is at the world's origin with its axes along the world's.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Seeded random spacecraft: masses, places, inertias, state and torques, before any engine.
 
 Inputs are drawn with Python's own generator, whose numbers are the same on every machine, and
-rounded to six digits: short to read, and free of the last bits of a C library. A mount alone is
+rounded to six digits: short to read, and free of the last bits of a C library. Only a mount is
 not rounded, since it must be orthonormal; it takes only + - * / of a rounded quaternion.
 """
 
@@ -165,7 +165,7 @@ class Draw:
     """Random numbers of one spacecraft."""
 
     def __init__(self, seed):
-        # Of this generator `random()` alone is promised never to change.
+        # Of this generator only `random()` is promised never to change.
         self.next = random.Random(seed).random
 
     def within(self, low, high):

@@ -1,7 +1,7 @@
 """The same spacecraft in MuJoCo: a free joint and a chain of three hinges a device.
 
 A free joint's linear velocity and acceleration are along the world's axes and its angular ones
-along the body's. B stands at the world's origin with its axes along the world's.
+along the body's. B is at the world's origin with its axes along the world's.
 """
 
 import mujoco

@@ -1,7 +1,7 @@
 """One spacecraft in Pinocchio: a free-flyer and a chain of three revolute joints a device.
 
 The free-flyer's velocity and acceleration are spatial ones along B: its linear acceleration is
-`r_ddot - omega x r_dot`. B stands at the world's origin with its axes along the world's.
+`r_ddot - omega x r_dot`. B is at the world's origin with its axes along the world's.
 """
 
 import numpy as np
@@ -54,7 +54,7 @@ def build(craft):
             return [p[f"{name}_{i + 1}{k + 1}"] for i, k in ENTRIES]
 
         mount = np.array(device["mount"])
-        # Joint, where it stands in its parent, and its body's mass, centre and inertia.
+        # Joint, where it is in its parent body, and its body's mass, centre and inertia.
         chain = [
             (pin.JointModelRZ(), pin.SE3(mount, mount @ vector("r_go_b", "b")),
              p["m_go"], vector("r_goc_go", "go"), inertia("i_go")),

@@ -3,7 +3,7 @@
     python setup.py --into target/peers [--library target/flight/release/libprecess.a] [--subject NAME]
 
 Safe to run again; what is there and current is kept. Needs Python 3.10 to 3.13 and a package
-index; a compiler that is missing costs its peers alone. `peers.json` says what works and what
+index; a compiler that is missing costs only its peers. `peers.json` says what works and what
 is missing, and how to install it. See README.md.
 """
 

@@ -162,7 +162,7 @@ pub trait Visitor {
 }
 
 /// Shows `count` spacecraft to a visitor, the number of devices going round from 0 to
-/// [`MOST_DEVICES`]. Without the feature `shapes` those of none, one and four devices alone: each number is code of its
+/// [`MOST_DEVICES`]. Without the feature `shapes` only those of none, one and four devices: each number is code of its
 /// own, minutes of it to compile.
 pub fn visit(count: u64, visitor: &mut impl Visitor) {
     for number in 0..count {

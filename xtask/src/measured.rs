@@ -47,7 +47,7 @@ pub(crate) fn wrap(cargo: &mut Command, file: &Path) {
     }
 }
 
-/// The crate that rustc compiles, or the program; none where rustc is only asked something.
+/// The crate that rustc compiles, or the program; none where rustc only answers a query.
 fn name(program: &OsString, arguments: &[OsString]) -> Option<String> {
     let words: Vec<&str> = arguments.iter().filter_map(|word| word.to_str()).collect();
     let program = Path::new(program).file_stem()?.to_str()?.to_owned();

@@ -116,7 +116,7 @@ def remove_partial(folder: Path) -> None:
 
 
 def _lives(process: int) -> bool:
-    """Whether a process is there; where that cannot be asked, that it is."""
+    """Whether a process is there; true where that cannot be found out."""
     if os.name != "posix":
         return True
     try:

@@ -34,7 +34,7 @@ use work::{Progress, share, watched};
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
 /// Index and exception of each element that failed.
 type Failures = Vec<(usize, Py<PyAny>)>;
-/// Final states, samples, reductions in the order they were asked for, failures.
+/// Final states, samples, reductions in the order of the request, failures.
 type RunFacts<'py> = (Rows<'py>, Option<Bound<'py, PyArray3<f64>>>, Vec<Rows<'py>>, Failures);
 /// Names of accelerations, states and inputs; derivatives by states and by inputs; failures.
 type LinearizedFacts<'py> = (

@@ -33,7 +33,7 @@ impl Progress {
 
 /// Whether work may go on.
 type ContinueCheck<'a> = &'a (dyn Fn() -> bool + Sync);
-/// Whether work may go on, asked by the thread that called, with the share that is done.
+/// Whether work may go on, by the thread that called, which passes the share that is done.
 pub(crate) type ProgressCheck<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
 /// Does work without the interpreter's lock. An exception of a signal or of `progress` ends it early.

@@ -26,7 +26,7 @@ const SERVICES: [RGBColor; 6] = [
     RGBColor(0x00, 0x8a, 0x64),
     RGBColor(0xe6, 0x9f, 0x00),
 ];
-/// The services that are drawn: more would not be told apart.
+/// The services that are drawn: more could not be distinguished.
 const DRAWN: [&str; 5] = ["portable", "dispatched", "abreast", "batch", "parameters"];
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 

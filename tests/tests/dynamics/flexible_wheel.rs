@@ -160,7 +160,7 @@ fn residuals(rates: [f64; 2]) -> [f64; 2] {
         let found = craft.accelerations(&state, &inputs).expect("a state");
         let ledger = craft.ledger(&state, &inputs, &found).expect("a state");
         let loads = craft.loads(&state, &inputs, &found, LoadAxes::Hub).expect("a state");
-        // The hub stands with its axes along N.
+        // The axes of the hub are those of N.
         let Wrench { force, moment } = loads.devices.mount;
         let at_mount = state.r_b_n_dot + state.omega.cross(&wheel.r_sx_b);
         let carried = force.component_mul(&at_mount).abs().sum()

@@ -17,7 +17,7 @@ pub(crate) const TIP: f64 = 3.0;
 /// A deformation, m sqrt(kg), whose square is nothing beside it.
 const TINY: f64 = f64::EPSILON * f64::EPSILON;
 
-/// A cantilever along x from B that bends in z, a point mass at its tip.
+/// A cantilever along x from B, flexible in z, a point mass at its tip.
 pub(crate) struct Cantilever {
     craft: Spacecraft<SloshMass, Flexible<ListedModes>>,
     tip: ModalPoint<ListedModes>,
@@ -45,7 +45,7 @@ impl Cantilever {
         Self::with_modes(modes, false)
     }
 
-    /// With the residual compliance for a force across the tip, if asked for: the static response
+    /// With the residual compliance for a force across the tip, if requested: the static response
     /// `L³ / 3 EI`, and the slope `L² / 2 EI` there, less those of the modes.
     pub(crate) fn with_modes(modes: u32, with_residual: bool) -> Self {
         let [length, mass, stiffness] = BEAM;

@@ -130,7 +130,7 @@ fn isolator_on_a_bending_panel_is_faster_than_either() {
     }
 }
 
-/// With every joint driven the massless gimbal is singular; locked, it is not asked.
+/// With every joint driven the massless gimbal is singular; locked, its equation is not solved.
 #[test]
 fn massless_gimbal_that_is_locked_changes_no_limit() {
     type Storage = FixedModes<1, 1>;

@@ -111,7 +111,7 @@ fn platform_that_nothing_holds_leaves_the_hub_as_if_it_were_alone() {
     }
 }
 
-/// The cluster's devices on a hub that has the platform in it, where it stands.
+/// The cluster's devices on a hub that has the platform in it, where it is.
 fn rigid(
     of: &Isolated<([ReactionWheel; 2], Sgcmg)>,
     hub: &Hub,

@@ -1,7 +1,7 @@
 //! `test`: each promise once; with `--all` everything; with `--for` what a change can break.
 //!
 //! Test programs are built first and then run, as many at a time as there are cores. What is built for others (boards,
-//! Python, reports) goes on beside them, in build folders of its own. What each suite took stands in a table at the
+//! Python, reports) goes on beside them, in build folders of its own. What each suite took is in a table at the
 //! end.
 
 mod cost;
@@ -152,7 +152,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
             |members| -> Result<(), String> {
                 let of_group = of_group(chosen, members, all);
                 let built = programs::build(members, &of_group, all, notes)?;
-                // Two libraries of a command are built with all that it selects: what no row asked for is not run.
+                // Two libraries of a command are built with all that it selects: what no row names is not run.
                 let wanted = |program: &Program| {
                     of_group.iter().any(|suite| suite.is(&program.package, &program.target))
                 };

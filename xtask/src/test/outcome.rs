@@ -83,7 +83,7 @@ fn sum(text: &str, ending: &str) -> u64 {
     numbers(text, ending).iter().sum()
 }
 
-/// The numbers that stand before an ending, `N of M` counting as N.
+/// The numbers before an ending, `N of M` counting as N.
 fn numbers(text: &str, ending: &str) -> Vec<u64> {
     let mut found = Vec::new();
     for line in text.lines() {

@@ -77,7 +77,7 @@ pub(crate) struct Drawn {
     pub(crate) omega: [f64; 3],
     pub(crate) force: [f64; 3],
     pub(crate) torque_b: [f64; 3],
-    /// Device by device, body by body; locked ones stand.
+    /// Device by device, body by body; locked ones are at rest.
     pub(crate) joints: Vec<Vec<Joint>>,
 }
 

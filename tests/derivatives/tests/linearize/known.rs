@@ -216,7 +216,7 @@ fn momentum_is_constant_along_the_flow() {
                     Variable::Rate(joint) => accelerations[joint],
                     other => panic!("{other} is no state"),
                 };
-                let of = column.momentum.expect("asked for");
+                let of = column.momentum.expect("requested");
                 let numbers = of.momentum.linear.iter().chain(&of.momentum.angular);
                 let numbers = numbers.copied().chain([of.energy]);
                 for ((sum, unit), number) in sum.iter_mut().zip(&mut unit).zip(numbers) {

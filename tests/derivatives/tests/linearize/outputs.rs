@@ -42,5 +42,5 @@ pub(crate) fn derivatives(
     let hub = [accelerations.r_b_n_ddot, *r_b_n_ddot_n, accelerations.omega_dot];
     let joints = accelerations.devices.values().collect();
     let loads: Vec<_> = loads.iter().flat_map(Each::values).collect();
-    named(craft, hub, [joints, vec![]], &momentum.expect("asked for"), (&loads, held))
+    named(craft, hub, [joints, vec![]], &momentum.expect("requested"), (&loads, held))
 }

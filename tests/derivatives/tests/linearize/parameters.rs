@@ -310,7 +310,7 @@ fn derivatives_by_imbalance_are_those_of_the_data_sheet() {
         ];
         let mut loads = Vec::new();
         let column = |_, column: &precess_dynamics::Column<[ReactionWheel; 1]>| {
-            loads.push(column.loads.expect("asked for")[0].wheel);
+            loads.push(column.loads.expect("requested")[0].wheel);
         };
         let of = (&state, &inputs);
         Spacecraft::parameter_derivatives(&hub, &[wheel], of, &outputs, variables, column).unwrap();
