@@ -10,7 +10,6 @@ use crate::sets::enumeration::{Variant, WithKind};
 
 /// [`DeviceSet::set_groups`](crate::DeviceSet::set_groups) of an enumeration.
 #[doc(hidden)]
-#[cfg_attr(not(feature = "lanes"), expect(clippy::needless_pass_by_ref_mut, reason = "in lanes"))]
 pub fn set_groups_of_enum<E: DeviceEnum>(devices: &mut [E::Prepared]) {
     #[cfg(feature = "lanes")]
     {

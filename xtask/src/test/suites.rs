@@ -54,6 +54,7 @@ const SOLVER: &[&str] = &[
     "dynamics/src/model",
     "dynamics/src/numbers",
     "dynamics/src/results",
+    "dynamics/src/rigid",
     "dynamics/src/sets",
     "dynamics/src/solve",
     "dynamics/src/validation",
