@@ -146,16 +146,16 @@ pub mod platform {
 pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
-    pub use crate::isolation::carrier::Carrier;
-    pub use crate::sets::bundle::{At, Bundle, Given, Maybe, Part, Shared, Unique};
+    pub use crate::isolation::platform_elimination::PlatformConstants;
+    pub use crate::sets::bundle::{Bundle, Given, Maybe, MemberIndex, Part, Shared, Unique};
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
     #[doc(hidden)]
     pub use crate::sets::groups::set_groups_of_enum;
-    pub use crate::sets::held::{Held, HeldMut};
     pub use crate::sets::isolated::PreparedIsolated;
+    pub use crate::sets::kind_data::{KindData, KindDataMut};
     pub use crate::sets::per_device::OnMount;
     pub use crate::sets::per_device::{
         Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,

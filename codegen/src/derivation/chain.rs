@@ -1,11 +1,11 @@
 //! The symbols of a device and of its hub.
 
 pub mod assumed;
+pub mod framed_value;
 pub(crate) mod mass_properties;
 pub mod motion;
 pub mod parallel_axes;
 pub mod passes;
-pub mod placed;
 pub mod wrench;
 
 use self::assumed::{Assumed, Mount};

@@ -1,9 +1,9 @@
 //! The one derivation: positions and angular velocities are stated, differentiation does the rest.
 //!
 //! - [`chain`]: a kind's symbols, and the hub's. Below it: `motion` outwards by the transport theorem, seen from B or
-//!   from N; what is `assumed` of parameters; mass properties and wrenches, moved from origin to origin; [`chain::placed`],
-//!   a vector or tensor with the frame it is expressed in; [`chain::parallel_axes`], where two joints' axes can be
-//!   parallel;
+//!   from N; what is `assumed` of parameters; mass properties and wrenches, moved from origin to origin;
+//!   [`chain::framed_value`], a vector or tensor with the frame it is expressed in; [`chain::parallel_axes`], where two
+//!   joints' axes can be parallel;
 //! - [`quantities`]: the paper's quantities of each body and of the system's centre of mass. Below it, by the same
 //!   names: `angular_momenta` (20) to (76) and `motor_torques` (77) to (121);
 //! - [`reference`]: mass matrix and bias as sums over bodies, by plain differentiation in B, for the proofs. Below it:

@@ -1,13 +1,13 @@
 //! The paper's quantities of each body and of the system's centre of mass, by name.
 //!
-//! Names are those of the hand-checked pages; frames are numbered as in [`super::chain::placed`].
+//! Names are those of the hand-checked pages; frames are numbered as in [`super::chain::framed_value`].
 
 mod angular_momenta;
 mod motor_torques;
 
 use super::chain::Chain;
+use super::chain::framed_value::FramedValue;
 use super::chain::motion::{Motion, Observer, motions};
-use super::chain::placed::Placed;
 
 use crate::graph::{Expr, Stage};
 use crate::kinds::Centre;
@@ -19,7 +19,7 @@ pub struct Quantity<'g> {
     /// Its name in code.
     pub name: String,
     /// What it is.
-    pub value: Placed<'g>,
+    pub value: FramedValue<'g>,
     /// What it belongs to.
     pub chapter: Chapter,
 }
@@ -68,21 +68,21 @@ impl<'g> List<'g> {
         self.chapter = Chapter { title: title.to_owned(), goes_into: goes_into.to_owned() };
     }
 
-    fn push(&mut self, name: &str, value: Placed<'g>) {
+    fn push(&mut self, name: &str, value: FramedValue<'g>) {
         let (name, chapter) = (name.to_owned(), self.chapter.clone());
         self.quantities.push(Quantity { name, value, chapter });
     }
 
     pub(super) fn scalar(&mut self, name: &str, e: Expr<'g>) {
-        self.push(name, Placed::Scalar(e));
+        self.push(name, FramedValue::Scalar(e));
     }
 
     pub(super) fn vector<F: Frame>(&mut self, name: &str, v: Vector<'g, F>, frame: usize) {
-        self.push(name, Placed::Vector(v.components(), frame));
+        self.push(name, FramedValue::Vector(v.components(), frame));
     }
 
     pub(super) fn tensor<F: Frame>(&mut self, name: &str, t: Symmetric<'g, F>, frame: usize) {
-        self.push(name, Placed::Tensor(t.entries(), frame));
+        self.push(name, FramedValue::Tensor(t.entries(), frame));
     }
 }
 
@@ -90,7 +90,7 @@ impl<'g> List<'g> {
     /// A vector collected before, expressed in B.
     pub(super) fn hub_vector(&self, name: &str) -> Vector<'g, Hub> {
         match find(&self.quantities, name).map(|quantity| quantity.value) {
-            Some(Placed::Vector(v, 0)) => Vector::new(v),
+            Some(FramedValue::Vector(v, 0)) => Vector::new(v),
             _ => panic!("`{name}` is a vector along B axes, derived before it is used"),
         }
     }
@@ -198,7 +198,8 @@ fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
 }
 
 fn to_hub<'g>(chain: &Chain<'g>, carrier: usize, v: Vector<'g, ParentFrame>) -> Vector<'g, Hub> {
-    let Placed::Vector(v, _) = Placed::Vector(v.components(), carrier).along(chain, 0) else {
+    let FramedValue::Vector(v, _) = FramedValue::Vector(v.components(), carrier).along(chain, 0)
+    else {
         unreachable!("a vector stays a vector")
     };
     Vector::new(v)

@@ -7,8 +7,8 @@
 use super::function::inputs;
 use super::{Claim, Kernel, Record};
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::framed_value::FramedValue;
 use crate::derivation::chain::motion::{Motion, Observer, motions};
-use crate::derivation::chain::placed::Placed;
 use crate::derivation::heading::Heading;
 use crate::derivation::recursions::composite;
 use crate::derivation::reference::{BodyInHub, bodies};
@@ -97,16 +97,17 @@ fn body<'g>(
     let record = Record::new(&type_name(data.title), &format!("The {} seen from B.", data.title));
     let mut b = Builder::new(chain, record);
     // The same by plain differentiation in B, then expressed in the current axes.
-    let vector = |v: Vector<'g, Hub>, frame: usize| match Placed::Vector(v.components(), 0)
+    let vector = |v: Vector<'g, Hub>, frame: usize| match FramedValue::Vector(v.components(), 0)
         .along(chain, frame)
     {
-        Placed::Vector(v, _) => Vector::<Hub>::new(v),
+        FramedValue::Vector(v, _) => Vector::<Hub>::new(v),
         _ => unreachable!("a vector stays a vector"),
     };
-    let tensor = |t: Symmetric<'g, Hub>| match Placed::Tensor(t.entries(), 0).along(chain, k + 1) {
-        Placed::Tensor(t, _) => t,
-        _ => unreachable!("a tensor stays a tensor"),
-    };
+    let tensor =
+        |t: Symmetric<'g, Hub>| match FramedValue::Tensor(t.entries(), 0).along(chain, k + 1) {
+            FramedValue::Tensor(t, _) => t,
+            _ => unreachable!("a tensor stays a tensor"),
+        };
     let r_prime = reference.r.component_rates();
 
     let equations = &data.equations;

@@ -33,7 +33,7 @@ pub struct Prover<'a, 'g> {
 }
 
 /// A function in both readings.
-struct Both<'g> {
+struct Readings<'g> {
     expanded: Reading<'g>,
     cut: Reading<'g>,
 }
@@ -41,7 +41,7 @@ struct Both<'g> {
 /// `prepare`, and the names at which its cut reading and that of all others stops.
 struct Constants<'g> {
     cuts: BTreeSet<String>,
-    prepare: Both<'g>,
+    prepare: Readings<'g>,
 }
 
 impl<'a, 'g> Prover<'a, 'g> {
@@ -117,7 +117,7 @@ impl<'a, 'g> Prover<'a, 'g> {
             let back = back.returning(&kernel.output).or(values).or(kernel.plain());
             Ok::<_, EmittedError>(back.sharing(&kernel.sections, self.chain.graph, cuts))
         };
-        let back = Both {
+        let back = Readings {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
             cut: reading(&constants.prepare.cut, &constants.cuts)?,
         };
@@ -189,14 +189,18 @@ impl<'a, 'g> Prover<'a, 'g> {
         Ok(blocks.chain(pivots.flatten()).chain(stages::all(&self.unknowns)).collect())
     }
 
-    fn prepare(&self, file: &syn::File, cuts: &BTreeSet<String>) -> Result<Both<'g>, EmittedError> {
+    fn prepare(
+        &self,
+        file: &syn::File,
+        cuts: &BTreeSet<String>,
+    ) -> Result<Readings<'g>, EmittedError> {
         let text = function(file, "prepare")?;
         let raw = parameters_of(self.chain)
             .fields
             .into_iter()
             .filter_map(|field| Some((format!("p.{}", field.name), self.parameter(&field.name)?)));
         let given = raw.collect();
-        Ok(Both {
+        Ok(Readings {
             expanded: read(self.chain.graph, text, &given, &BTreeSet::new())?,
             cut: read(self.chain.graph, text, &given, cuts)?,
         })
@@ -232,7 +236,7 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     /// Raw parameters pass through `prepare` unchanged, computed fields under their own names. One
     /// that no statement names is read by kernels, whose claims are about its value.
-    fn prepared_row(&self, prepare: &Both<'g>) -> Comparison {
+    fn prepared_row(&self, prepare: &Readings<'g>) -> Comparison {
         let raw = parameters_of(self.chain);
         let mut checked = Vec::new();
         let mut reference = Vec::new();
@@ -249,7 +253,7 @@ impl<'a, 'g> Prover<'a, 'g> {
     }
 
     /// What is cut in `prepare` is claimed by a kernel: there, too, it must be what it is called.
-    fn cut_constants(&self, prepare: &Both<'g>, cuts: &BTreeSet<String>) -> Comparison {
+    fn cut_constants(&self, prepare: &Readings<'g>, cuts: &BTreeSet<String>) -> Comparison {
         let claims = self.kernels.iter().flat_map(|kernel| &kernel.claims);
         let claimed: BTreeMap<_, _> = claims.flat_map(|claim| claim.components.clone()).collect();
         let mut checked = Vec::new();

@@ -45,14 +45,14 @@ pub(crate) fn times<T: Scalar>(m: &Block<T>, v: &Six<T>) -> Six<T> {
 /// A matrix of six rows whose lower left quarter is zero, as what moves the translation and the rotation of
 /// one frame with those of another: the quarters that are not.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Upper<T> {
+pub(crate) struct BlockTriangular<T> {
     /// The first three rows.
     pub(crate) upper: [Six<T>; 3],
     /// The right half of the others.
     pub(crate) lower: [Vec3<T>; 3],
 }
 
-impl<T: Scalar> Upper<T> {
+impl<T: Scalar> BlockTriangular<T> {
     /// `m v`.
     #[inline(always)]
     pub(crate) fn times(&self, v: &Six<T>) -> Six<T> {

@@ -33,18 +33,18 @@ pub(crate) struct MountSums<T> {
 }
 
 /// The joints, and the mount.
-type Placed = (Shared<Joints>, Shared<OnMount>);
+type JointsOnMount = (Shared<Joints>, Shared<OnMount>);
 
 /// Adds energy, momenta and first moments of each device to the sums of its mount.
 struct Addition<'a, T>(&'a mut [MountSums<T>]);
 
-impl<T: Scalar> Visit<T, Placed> for Addition<'_, T> {
+impl<T: Scalar> Visit<T, JointsOnMount> for Addition<'_, T> {
     type Error = Infallible;
 
     fn visit<K: Kind<Scalar = T>>(
         &mut self,
         device: &Device<K>,
-        (joints, mount): <Placed as Bundle<T>>::Of<'_, K>,
+        (joints, mount): <JointsOnMount as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
         self.on(*mount, |sums, moments| {
             let Ok(()) = sums.visit(device, joints);
@@ -55,7 +55,7 @@ impl<T: Scalar> Visit<T, Placed> for Addition<'_, T> {
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
         &mut self,
         isolated: &PreparedIsolated<D>,
-        (joints, mount): <Placed as Bundle<T>>::Of<'_, Isolated<D>>,
+        (joints, mount): <JointsOnMount as Bundle<T>>::Of<'_, Isolated<D>>,
     ) -> Result<(), Infallible> {
         self.on(mount.platform, |sums, moments| {
             let Ok(()) = sums.visit_isolated(isolated, joints);
@@ -107,7 +107,7 @@ impl<D: Devices, M: ModalStorage> Spacecraft<D, Flexible<M>> {
         });
         let data = (&state.devices, &self.structure.on_mount);
         let mut addition = Addition(mounts.as_mut());
-        let Ok(()) = D::visit::<Placed, _>(&self.devices, data, &mut addition);
+        let Ok(()) = D::visit::<JointsOnMount, _>(&self.devices, data, &mut addition);
 
         let (mut sums, mut first_moment) = self.structure_sums(state, r_b_n_dot, omega);
         for (mount, constants) in mounts.as_ref().iter().zip(self.structure.mounts.as_ref()) {

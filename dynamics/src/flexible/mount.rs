@@ -4,7 +4,7 @@
 //! undeformed it is B. Devices on the mount have in K the constants that they have in B on a rigid
 //! hub.
 
-use crate::flexible::block::{Six, Upper, joined, parted};
+use crate::flexible::block::{BlockTriangular, Six, joined, parted};
 use crate::flexible::turn::Turn;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{Columns, Vec3, add, cross, map, rotate, rotate_transposed, scale, sub};
@@ -23,9 +23,9 @@ pub(crate) struct MountMotion<T> {
     /// Inertial angular velocity, expressed in K, rad/s.
     pub(crate) omega: Vec3<T>,
     /// `X`: acceleration of K, expressed in K, for that of B.
-    pub(crate) of_hub: Upper<T>,
+    pub(crate) of_hub: BlockTriangular<T>,
     /// `E`: acceleration of K, expressed in K, for displacement and rotation of the mount.
-    pub(crate) of_shape: Upper<T>,
+    pub(crate) of_shape: BlockTriangular<T>,
     /// Acceleration of K, expressed in K, that velocities require.
     pub(crate) bias: Six<T>,
 }
@@ -73,16 +73,23 @@ impl<T: Scalar> MountMotion<T> {
 }
 
 /// `[Rᵀ, -Rᵀ tilde(origin); 0, Rᵀ]`.
-fn of_hub<T: Scalar>(axes: &Columns<T>, origin: Vec3<T>) -> Upper<T> {
+fn of_hub<T: Scalar>(axes: &Columns<T>, origin: Vec3<T>) -> BlockTriangular<T> {
     // Row i: the axis e_i, and e_i . (omega' x origin) = omega' . (origin x e_i).
-    Upper { upper: axes.map(|e| joined(e, cross(origin, e))), lower: *axes }
+    BlockTriangular { upper: axes.map(|e| joined(e, cross(origin, e))), lower: *axes }
 }
 
 /// `[Rᵀ, tilde(r_0) J; 0, J]`.
-fn of_shape<T: Scalar>(axes: &Columns<T>, jacobian: &Columns<T>, r_0: Vec3<T>) -> Upper<T> {
+fn of_shape<T: Scalar>(
+    axes: &Columns<T>,
+    jacobian: &Columns<T>,
+    r_0: Vec3<T>,
+) -> BlockTriangular<T> {
     let [x, y, z] = *axes;
     let [i, j, k] = transposed(&map(*jacobian, |column| cross(r_0, column)));
-    Upper { upper: [joined(x, i), joined(y, j), joined(z, k)], lower: transposed(jacobian) }
+    BlockTriangular {
+        upper: [joined(x, i), joined(y, j), joined(z, k)],
+        lower: transposed(jacobian),
+    }
 }
 
 fn transposed<T: Copy>([a, b, c]: &Columns<T>) -> Columns<T> {

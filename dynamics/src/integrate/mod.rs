@@ -3,7 +3,7 @@
 //! Both evaluate through [`solve`](crate::solve).
 
 pub(crate) mod energy_lost;
-pub(crate) mod follow;
+pub(crate) mod joint_stages;
 pub(crate) mod longest_step;
 pub(crate) mod rk4;
 pub(crate) mod stability;

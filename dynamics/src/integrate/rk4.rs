@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::stiffness::Stiffness;
-use crate::integrate::follow::{Follow, Followed, Reach, Reached};
+use crate::integrate::joint_stages::{NextStage, StageData, StepEnd, StepEndData};
 use crate::integrate::stability::PassiveStep;
 use crate::integrate::structure::StructureSteps;
 use crate::numbers::real::{Real, Scalar, half, zero};
@@ -204,7 +204,8 @@ impl<D: Devices, A: Attitude<D::Scalar>, S: StructureSteps> State<D, A, S> {
         let modal = (&mut self.modal, &start.modal, &mut sum.modal);
         S::follow(modal, &found.modal, [weight, offset]);
         let data = (&mut self.devices, &start.devices, &mut sum.devices, &found.devices);
-        let Ok(()) = D::visit::<Followed, _>(&craft.devices, data, &mut Follow { weight, offset });
+        let Ok(()) =
+            D::visit::<StageData, _>(&craft.devices, data, &mut NextStage { weight, offset });
     }
 
     /// Becomes `start + sum`, attitude left out.
@@ -215,7 +216,7 @@ impl<D: Devices, A: Attitude<D::Scalar>, S: StructureSteps> State<D, A, S> {
         self.omega = plus(&start.omega, &sum.omega);
         S::add(&mut self.modal, &start.modal, &sum.modal);
         let data = (&mut self.devices, &start.devices, &sum.devices);
-        let Ok(()) = D::visit::<Reached, _>(&craft.devices, data, &mut Reach);
+        let Ok(()) = D::visit::<StepEndData, _>(&craft.devices, data, &mut StepEnd);
     }
 }
 

@@ -6,12 +6,12 @@
 //! the six joints are eliminated into the equations of the base. The equations (I1) to (I9) are in
 //! [`motion`], [`elimination`] and [`suspension`]; they are written by hand, not emitted.
 
-pub(crate) mod carrier;
 pub(crate) mod checks;
 pub(crate) mod elimination;
 pub(crate) mod kernels;
 pub(crate) mod kind;
 pub(crate) mod motion;
 pub(crate) mod parameters;
+pub(crate) mod platform_elimination;
 pub(crate) mod records;
 pub(crate) mod suspension;

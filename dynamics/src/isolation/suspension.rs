@@ -77,7 +77,7 @@ impl<T: Scalar> Suspension<T> {
 }
 
 /// A strut as it is with the platform in some pose.
-struct Stretched<T> {
+struct StrutStretch<T> {
     /// `∂l/∂q`.
     slope: Six<T>,
     /// `l - l_0`.
@@ -113,7 +113,7 @@ impl<T: Scalar> Suspension<T> {
             forces.potential = -(half::<T>() * sum(&forces.springs, &stretch));
         }
         for strut in self.struts.iter().flatten() {
-            let Stretched { slope, stretch } = strut.stretched(pose);
+            let StrutStretch { slope, stretch } = strut.stretched(pose);
             let (spring, damper) = (strut.stiffness * stretch, strut.damping * sum(&slope, &rates));
             add_scaled(&mut forces.springs, -spring, &slope);
             add_scaled(&mut forces.dampers, -damper, &slope);
@@ -168,7 +168,7 @@ impl<T: Scalar> Strut<T> {
     }
 
     /// Length and its slope in a pose.
-    fn stretched(&self, pose: &Pose<T>) -> Stretched<T> {
+    fn stretched(&self, pose: &Pose<T>) -> StrutStretch<T> {
         let (position, direction) = (components(&self.position), components(&self.direction));
         let turned = pose.turned();
         // How far the end on the platform has moved, mount axes.
@@ -182,6 +182,6 @@ impl<T: Scalar> Strut<T> {
         let moment = cross(position, rotate_transposed(&turned, along));
         let [alpha, beta, gamma] = pose.turn_axes().map(|axis: Vec3<T>| dot(axis, moment));
         let [x, y, z] = along;
-        Stretched { slope: [x, y, z, alpha, beta, gamma], stretch }
+        StrutStretch { slope: [x, y, z, alpha, beta, gamma], stretch }
     }
 }

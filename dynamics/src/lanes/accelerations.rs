@@ -5,13 +5,13 @@
 use pulp::{Simd, WithSimd};
 
 use super::batch_inputs::BatchInputs;
-use super::crafts::{Crafts, entered};
+use super::batch_spacecraft::{BatchSpacecraft, entered};
 use super::evaluate::evaluate;
 use super::fallback;
 use super::group::Group;
 use super::laned_set::LanedSet;
 use super::motion::at;
-use super::slot::{Leave, each_slot, take_found};
+use super::slot::{StoreAccelerations, each_slot, take_found};
 use crate::equations::error::SolveError;
 use crate::numbers::lane::Lane;
 use crate::numbers::laned::{Number, WIDEST};
@@ -29,7 +29,7 @@ pub(super) struct Evaluation<'a, 'o, D: LanedSet, C> {
     pub(super) out: &'o mut [Result<Accelerations<D>, SolveError<f64>>],
 }
 
-impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
+impl<D: LanedSet, C: BatchSpacecraft<D>> WithSimd for Evaluation<'_, '_, D, C> {
     type Output = ();
 
     #[inline(always)]
@@ -38,7 +38,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
     }
 }
 
-impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
+impl<D: LanedSet, C: BatchSpacecraft<D>> Evaluation<'_, '_, D, C> {
     /// State by state, for a CPU without wide registers, and for spacecraft that lanes do not support.
     pub(super) fn one_by_one(self) {
         for (index, (state, place)) in self.states.iter().zip(self.out).enumerate() {
@@ -73,7 +73,7 @@ impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
                 let acting = group.acting::<false>(&laned, zero, &motion, &mut holds, false);
                 evaluate::<D, T, false>(&laned, &mut group.slots, &acting)
             };
-            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Leave);
+            each_slot::<D, _>(laned.devices, &mut group.slots, &mut StoreAccelerations);
             let holds = zero.like(1.0).or(zero.both(found.holds, holds), zero).store();
             let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
             let omega_dot = map(found.omega_dot, Number::store);

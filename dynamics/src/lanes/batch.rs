@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::vec::Vec;
 
 use super::batch_inputs::BatchInputs;
+use super::batch_spacecraft::{SharedSpacecraft, SpacecraftPerState};
 use super::calls::{accelerations, run};
-use super::crafts::{EachCraft, SameCraft};
 use super::laned_set::LanedSet;
 use super::observers::{Observers, none};
 use super::part::Parts;
@@ -39,7 +39,7 @@ impl<D: LanedSet> Batch<D> {
     ///
     /// As [`Spacecraft::new`].
     pub fn new(hub: &Hub, devices: &D) -> Result<Self, ParameterError<f64>> {
-        Ok(Self::of(Arc::new(SameCraft::new(Spacecraft::new(hub, devices)?))))
+        Ok(Self::of(Arc::new(SharedSpacecraft::new(Spacecraft::new(hub, devices)?))))
     }
 
     /// One spacecraft for each state, in their order: spacecraft of one shape whose parameters
@@ -50,7 +50,7 @@ impl<D: LanedSet> Batch<D> {
     /// batch; others fall back to the scalar path.
     #[must_use]
     pub fn from_spacecraft(spacecraft: Vec<Spacecraft<D>>) -> Self {
-        Self::of(Arc::new(EachCraft::new(spacecraft)))
+        Self::of(Arc::new(SpacecraftPerState::new(spacecraft)))
     }
 
     fn of(crafts: Arc<dyn Parts<D>>) -> Self {

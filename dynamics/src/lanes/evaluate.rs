@@ -22,7 +22,7 @@ use crate::numbers::vec3::{Vec3, add};
 
 /// What acts on the hub, expressed in B.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Acting<T> {
+pub(crate) struct HubInputs<T> {
     pub(crate) omega: Vec3<T>,
     pub(crate) force: Vec3<T>,
     pub(crate) torque_b: Vec3<T>,
@@ -35,7 +35,7 @@ pub(crate) struct Acting<T> {
 /// What an evaluation finds of the hub, and the lanes where it holds; what it finds of the devices
 /// is in their slots.
 #[derive(Clone, Copy)]
-pub(crate) struct Found<T: Number> {
+pub(crate) struct HubResults<T: Number> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
     /// Of springs and friction.
@@ -59,8 +59,8 @@ pub(crate) struct LanedCraft<'a, D: LanedSet, T> {
 pub(crate) fn evaluate<D: LanedSet, T: Number, const EACH: bool>(
     craft: &LanedCraft<'_, D, T>,
     slots: &mut SlotsOf<D, T>,
-    acting: &Acting<T>,
-) -> Found<T> {
+    acting: &HubInputs<T>,
+) -> HubResults<T> {
     let [like, ..] = acting.omega;
     let body = craft.body;
     let mut elimination = Elimination::<T, EACH> {
@@ -95,7 +95,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number, const EACH: bool>(
     let [x, y, z] = r_b_n_ddot;
     let vanishing = back.vanishing + (x + y + z) * zero;
     let holds = like.both(holds, vanishing.same(zero));
-    Found { r_b_n_ddot, omega_dot: solution.omega_dot, stiffness, holds }
+    HubResults { r_b_n_ddot, omega_dot: solution.omega_dot, stiffness, holds }
 }
 
 /// Where each pivot exceeds a share of its scale.

@@ -6,7 +6,7 @@ use std::vec::Vec;
 use nalgebra::{Matrix3, Vector3};
 
 use super::accelerations::Evaluation;
-use super::crafts::SameCraft;
+use super::batch_spacecraft::SharedSpacecraft;
 use super::run::Runs;
 use super::{Batch, Observers};
 use crate::equations::side_by_side::fallbacks::FALLBACKS;
@@ -184,7 +184,7 @@ fn a_cpu_without_wide_registers_gives_the_same_bits() {
     batch.accelerations(&start, &inputs, &mut laned).unwrap();
     let craft = Spacecraft::new(&hub(), &devices()).unwrap();
     let mut scalar = vec![Ok(craft.no_accelerations()); start.len()];
-    let (crafts, out) = (&SameCraft::new(craft), &mut scalar[..]);
+    let (crafts, out) = (&SharedSpacecraft::new(craft), &mut scalar[..]);
     Evaluation { crafts, start: 0, states: &start, inputs: (&inputs).into(), out }.one_by_one();
     assert_eq!(laned, scalar);
     // Seen after two and four of five steps.

@@ -3,14 +3,14 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::batch_inputs::BatchInputs;
+use super::batch_spacecraft::BatchSpacecraft;
 use super::constants::OwnLoads;
-use super::crafts::Crafts;
-use super::evaluate::{Acting, LanedCraft};
+use super::evaluate::{HubInputs, LanedCraft};
 use super::laned_set::{LanedSet, fit_inputs};
 use super::loads::AddLoads;
 use super::motion::{Forces, Motion};
 use super::scratch;
-use super::slot::{Enter, SlotsOf, each_slot, load_joints, put_given};
+use super::slot::{LoadDrives, SlotsOf, each_slot, load_joints, put_given};
 use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
 use crate::equations::gravity::Gravity;
 use crate::equations::hub::HubConstants;
@@ -114,7 +114,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
     /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm
     /// nothing.
     #[inline(always)]
-    pub(super) fn gather<C: Crafts<D>>(
+    pub(super) fn gather<C: BatchSpacecraft<D>>(
         &mut self,
         zero: T,
         (crafts, start): (&C, usize),
@@ -145,7 +145,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             return;
         }
         self.put_inputs((crafts, start), states, all);
-        each_slot::<D, _>(&first.devices, &mut self.slots, &mut Enter(zero));
+        each_slot::<D, _>(&first.devices, &mut self.slots, &mut LoadDrives(zero));
         // A locked joint is looked at in each state.
         self.given = match all {
             BatchInputs::Same(inputs) => {
@@ -160,7 +160,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
     /// Puts what acts on each state into its lane. Never inlined: no number is computed, and what is
     /// entered once is not to be in the way of what is evaluated often.
     #[inline(never)]
-    fn put_inputs<C: Crafts<D>>(
+    fn put_inputs<C: BatchSpacecraft<D>>(
         &mut self,
         (crafts, start): (&C, usize),
         states: &[State<D>],
@@ -201,11 +201,11 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         motion: &Motion<T>,
         holds: &mut T::Holds,
         in_step: bool,
-    ) -> Acting<T> {
+    ) -> HubInputs<T> {
         let Forces { force, torque_b, field, none } = self.forces.map(|block| zero.load(&block));
         let at_b = add(rotate(&bn(motion.q), field), [none; 3]);
         let with_loads = self.loads.any();
-        let mut acting = Acting { omega: motion.omega, force, torque_b, at_b, with_loads };
+        let mut acting = HubInputs { omega: motion.omega, force, torque_b, at_b, with_loads };
         if with_loads {
             // Copies: numbers whose place another function knows do not stay in registers.
             let (mut with, mut holding, motion) = (acting, *holds, *motion);

@@ -8,7 +8,7 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::evaluate::Acting;
+use super::evaluate::HubInputs;
 use super::group::GroupLoads;
 use super::laned_set::LanedSet;
 use super::motion::Motion;
@@ -51,7 +51,7 @@ pub(super) struct AddLoads<'a, D: LanedSet, T: Number, const EACH: bool> {
     pub(super) slots: &'a mut SlotsOf<D, T>,
     pub(super) loads: &'a GroupLoads,
     pub(super) motion: &'a Motion<T>,
-    pub(super) acting: &'a mut Acting<T>,
+    pub(super) acting: &'a mut HubInputs<T>,
     /// Cleared where this evaluation, or a step that it is part of, is the scalar path's.
     pub(super) holds: &'a mut T::Holds,
     /// Whether it is part of a step, which began at the start of the slots.

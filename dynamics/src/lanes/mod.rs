@@ -36,9 +36,9 @@
 mod accelerations;
 mod batch;
 mod batch_inputs;
+mod batch_spacecraft;
 mod calls;
 mod constants;
-mod crafts;
 mod evaluate;
 mod fallback;
 #[cfg(test)]

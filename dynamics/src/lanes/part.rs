@@ -7,7 +7,7 @@ use core::fmt::Debug;
 
 use super::accelerations::Evaluation;
 use super::batch_inputs::BatchInputs;
-use super::crafts::Crafts;
+use super::batch_spacecraft::BatchSpacecraft;
 use super::laned_set::LanedSet;
 use super::run::Runs;
 use crate::equations::error::SolveError;
@@ -58,7 +58,7 @@ pub(super) trait Parts<D: LanedSet>: Debug + Send + Sync {
     );
 }
 
-impl<D: LanedSet, C: Crafts<D>> Parts<D> for C {
+impl<D: LanedSet, C: BatchSpacecraft<D>> Parts<D> for C {
     fn spacecraft(&self) -> &[Spacecraft<D>] {
         self.all()
     }

@@ -6,7 +6,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::batch_inputs::BatchInputs;
-use super::crafts::{Crafts, entered};
+use super::batch_spacecraft::{BatchSpacecraft, entered};
 use super::evaluate::{LanedCraft, evaluate};
 use super::fallback;
 use super::group::{Group, NEAR_ONE};
@@ -47,7 +47,7 @@ pub(super) struct Runs<'a, 's, 'o, D: LanedSet, C> {
 /// back only for the steps since then.
 const STRETCH: usize = 32;
 
-impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
+impl<D: LanedSet, C: BatchSpacecraft<D>> WithSimd for Runs<'_, '_, '_, D, C> {
     type Output = ();
 
     #[inline(always)]
@@ -56,7 +56,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
     }
 }
 
-impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
+impl<D: LanedSet, C: BatchSpacecraft<D>> Runs<'_, '_, '_, D, C> {
     /// State by state, for a CPU without wide registers, and for spacecraft that lanes do not support.
     pub(super) fn one_by_one(self) {
         let Self { crafts, start, states, inputs, dt, steps, every, see, out } = self;

@@ -176,24 +176,24 @@ pub(crate) fn put_given<D: LanedSet, T: Value>(
     given: SetInputs<'_, D>,
 ) -> bool {
     let data = (slots, joints, given);
-    D::visit::<PutData<T>, _>(devices, data, &mut Put { lane }).is_ok()
+    D::visit::<InputData<T>, _>(devices, data, &mut WriteInputs { lane }).is_ok()
 }
 
-type PutData<T> = (Unique<Slots<T>>, Shared<data::Joints>, Given);
+type InputData<T> = (Unique<Slots<T>>, Shared<data::Joints>, Given);
 
 /// Puts what is given into a lane.
-struct Put {
+struct WriteInputs {
     lane: usize,
 }
 
-impl<T: Value> Visit<f64, PutData<T>> for Put {
+impl<T: Value> Visit<f64, InputData<T>> for WriteInputs {
     type Error = Rejected;
 
     #[inline(always)]
     fn visit<K: Kind<Scalar = f64>>(
         &mut self,
         _: &Device<K>,
-        (slot, joints, given): <PutData<T> as Bundle<f64>>::Of<'_, K>,
+        (slot, joints, given): <InputData<T> as Bundle<f64>>::Of<'_, K>,
     ) -> Result<(), Rejected> {
         let drives = Device::<K>::given_drives(joints, given).ok_or(Rejected)?;
         put_drives::<K>(&mut slot.given, self.lane, &drives);
@@ -324,9 +324,9 @@ impl<T: Value> Visit<f64, (Unique<Slots<T>>, Unique<data::Accelerations>)> for T
 }
 
 /// Takes the torques and modes that were put into blocks into lanes.
-pub(crate) struct Enter<T>(pub(crate) T);
+pub(crate) struct LoadDrives<T>(pub(crate) T);
 
-impl<T: Number> EachSlot<T> for Enter<T> {
+impl<T: Number> EachSlot<T> for LoadDrives<T> {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.drives =
@@ -335,9 +335,9 @@ impl<T: Number> EachSlot<T> for Enter<T> {
 }
 
 /// Brings accelerations from lanes into blocks.
-pub(crate) struct Leave;
+pub(crate) struct StoreAccelerations;
 
-impl<T: Number> EachSlot<T> for Leave {
+impl<T: Number> EachSlot<T> for StoreAccelerations {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());

@@ -177,14 +177,14 @@ impl<S: Simd> Number for Lane<S> {
     // Entered by a function without the instructions, which is not inlined: so neither is this.
     #[inline(never)]
     fn apart(self, work: impl Work) {
-        self.simd.vectorize(Apart(work));
+        self.simd.vectorize(SeparateFunction(work));
     }
 }
 
 /// Work in a function of its own.
-struct Apart<W>(W);
+struct SeparateFunction<W>(W);
 
-impl<W: Work> WithSimd for Apart<W> {
+impl<W: Work> WithSimd for SeparateFunction<W> {
     type Output = ();
 
     #[inline(always)]

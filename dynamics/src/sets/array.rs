@@ -1,7 +1,7 @@
 //! Members in a row: arrays and, with the feature `alloc`, vectors.
 
 use crate::model::kind::JointInfo;
-use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::bundle::{Bundle, MemberIndex, Part};
 use crate::sets::devices::{DeviceSet, FixedSet, List, Visit, compare};
 use crate::sets::per_device::PerDevice;
 use crate::validation::parameter_error::ParameterError;
@@ -24,7 +24,7 @@ macro_rules! array_of {
 /// is known when the program is compiled.
 macro_rules! row {
     ($row:ident, $map:ident, $data:ident => $count:expr $(, $n:ident)?) => {
-        impl<D: DeviceSet $(, const $n: usize)?> Part<$row!(D)> for At {
+        impl<D: DeviceSet $(, const $n: usize)?> Part<$row!(D)> for MemberIndex {
             type Of = D;
 
             #[inline(always)]
@@ -86,7 +86,7 @@ macro_rules! row {
                     return Ok(());
                 }
                 for (index, device) in devices.iter().enumerate() {
-                    let Some(data) = B::part::<Self, At>(&mut data, At(index)) else { break };
+                    let Some(data) = B::part::<Self, MemberIndex>(&mut data, MemberIndex(index)) else { break };
                     D::visit::<B, V>(device, data, visitor)?;
                 }
                 Ok(())

@@ -9,7 +9,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::sets::devices::{DeviceSet, SetInputs};
 use crate::sets::enumeration::{DeviceEnum, Variant};
-use crate::sets::held::{Held, HeldMut};
+use crate::sets::kind_data::{KindData, KindDataMut};
 use crate::sets::per_device::{Motors, PerDevice, PerJoint};
 
 /// Where a member is in a set `W`.
@@ -30,7 +30,7 @@ pub trait Part<W: DeviceSet>: Copy {
 
 /// A member in a row by its number.
 #[derive(Clone, Copy, Debug)]
-pub struct At(pub(crate) usize);
+pub struct MemberIndex(pub(crate) usize);
 
 /// Which data of a set a visitor gets, and by which reference: [`Shared`], [`Unique`], [`Maybe`],
 /// [`Given`], or a tuple of these. A bundle names the references and holds none itself.
@@ -78,7 +78,7 @@ pub struct Given;
 
 impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Shared<F> {
     type Of<'a, D: DeviceSet<Scalar = T>> = &'a D::Per<F>;
-    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = Held<'a, F::Of<K>>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = KindData<'a, F::Of<K>>;
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -113,7 +113,8 @@ impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Shared<F> {
 
 impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Unique<F> {
     type Of<'a, D: DeviceSet<Scalar = T>> = &'a mut D::Per<F>;
-    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = HeldMut<'a, F::Of<K>, F::OfEnum<E>>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> =
+        KindDataMut<'a, F::Of<K>, F::OfEnum<E>>;
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -144,7 +145,7 @@ impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Unique<F> {
     }
 
     fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: Self::Typed<'_, K, E>) {
-        if let HeldMut::Copied(copy, to) = typed {
+        if let KindDataMut::Copied(copy, to) = typed {
             F::put::<K, E>(&copy, to);
         }
     }
@@ -198,9 +199,9 @@ impl<T: Scalar, B: Bundle<T>> Bundle<T> for Maybe<B> {
 impl<T: Scalar> Bundle<T> for Given {
     type Of<'a, D: DeviceSet<Scalar = T>> = SetInputs<'a, D>;
     type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = (
-        Held<'a, K::Motors>,
-        Held<'a, K::PerJoint<Mode<T>>>,
-        Option<Held<'a, K::PerJoint<Wrench<T>>>>,
+        KindData<'a, K::Motors>,
+        KindData<'a, K::PerJoint<Mode<T>>>,
+        Option<KindData<'a, K::PerJoint<Wrench<T>>>>,
     );
 
     #[inline(always)]
@@ -250,7 +251,7 @@ impl<T: Scalar> Bundle<T> for Given {
         JointInputs {
             motors: motors.refer(),
             modes: modes.refer(),
-            bodies: bodies.as_ref().map(Held::refer),
+            bodies: bodies.as_ref().map(KindData::refer),
         }
     }
 

@@ -13,14 +13,14 @@ use core::fmt::Debug;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
-use crate::isolation::carrier::Carrier;
+use crate::isolation::platform_elimination::PlatformConstants;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
-use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::bundle::{Bundle, MemberIndex, Part};
 use crate::sets::enumeration::{DeviceEnum, Visited};
 use crate::sets::isolated::{Isolated, PreparedIsolated, only_mass};
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, OnMount, PerDevice, PerJoint};
@@ -80,9 +80,11 @@ pub trait DeviceSet: Clone + Debug + PartialEq + 'static {
         W: DeviceSet<Scalar = Self::Scalar>,
         B: Bundle<Self::Scalar>,
         V: Visit<Self::Scalar, B>,
-        At: Part<W, Of = Self>,
+        MemberIndex: Part<W, Of = Self>,
     {
-        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+        if let (Some(device), Some(data)) =
+            (devices.first(), B::part::<W, MemberIndex>(data, MemberIndex(first)))
+        {
             Self::visit::<B, V>(device, data, visitor)?;
         }
         Ok(1)
@@ -146,9 +148,11 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
         first: usize,
     ) -> Result<usize, Self::Error>
     where
-        At: Part<W, Of = K>,
+        MemberIndex: Part<W, Of = K>,
     {
-        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+        if let (Some(device), Some(data)) =
+            (devices.first(), B::part::<W, MemberIndex>(data, MemberIndex(first)))
+        {
             self.visit(device, data)?;
         }
         Ok(1)
@@ -165,9 +169,11 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
     ) -> Result<usize, Self::Error>
     where
         Self: Sized,
-        At: Part<W, Of = E>,
+        MemberIndex: Part<W, Of = E>,
     {
-        if let (Some(device), Some(data)) = (devices.first(), B::part::<W, At>(data, At(first))) {
+        if let (Some(device), Some(data)) =
+            (devices.first(), B::part::<W, MemberIndex>(data, MemberIndex(first)))
+        {
             self.visit_enum::<E>(device, data)?;
         }
         Ok(1)
@@ -188,7 +194,7 @@ pub trait List<T: Scalar> {
     /// The entries of one device.
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Self::Item>;
     /// The entries of a platform, without what it carries.
-    fn of_platform(platform: &Carrier<T>) -> impl Iterator<Item = Self::Item> {
+    fn of_platform(platform: &PlatformConstants<T>) -> impl Iterator<Item = Self::Item> {
         Self::of(&platform.device)
     }
     /// What the entry of a device is for the base of the platform that carries it.
@@ -320,7 +326,7 @@ impl<T: Scalar> List<T> for Passives {
     }
 
     /// With the diagonals that bound its suspension.
-    fn of_platform(platform: &Carrier<T>) -> impl Iterator<Item = Passive<T>> {
+    fn of_platform(platform: &PlatformConstants<T>) -> impl Iterator<Item = Passive<T>> {
         let [damping, stiffness] = platform.suspension.diagonals(None);
         let joints = platform.device.passive.values().zip(damping.into_iter().zip(stiffness));
         joints.map(|(passive, (c, k))| Passive {

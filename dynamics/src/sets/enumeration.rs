@@ -9,7 +9,7 @@ use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::Kind;
 use crate::sets::bundle::Bundle;
 use crate::sets::devices::{DeviceSet, List, Visit, compare};
-use crate::sets::held::{Held, HeldMut};
+use crate::sets::kind_data::{KindData, KindDataMut};
 use crate::sets::per_device::PerDevice;
 
 /// An enumeration of kinds. Written by [`device_enum`](crate::device_enum).
@@ -22,11 +22,11 @@ pub trait DeviceEnum: DeviceSet {
     /// [`PerDevice::held`] of this enumeration.
     fn held<F: PerDevice<Self::Scalar>, K: Variant<Self>>(
         of: &Self::Per<F>,
-    ) -> Option<Held<'_, F::Of<K>>>;
+    ) -> Option<KindData<'_, F::Of<K>>>;
     /// [`PerDevice::held_mut`] of this enumeration.
     fn held_mut<F: PerDevice<Self::Scalar>, K: Variant<Self>>(
         of: &mut Self::Per<F>,
-    ) -> Option<HeldMut<'_, F::Of<K>, F::OfEnum<Self>>>;
+    ) -> Option<KindDataMut<'_, F::Of<K>, F::OfEnum<Self>>>;
 }
 
 /// What is done with the device of an enumeration.
@@ -220,7 +220,7 @@ macro_rules! device_enum {
                 W: $crate::DeviceSet<Scalar = T>,
                 B: $crate::set::Bundle<T>,
                 V: $crate::set::Visit<T, B>,
-                $crate::set::At: $crate::set::Part<W, Of = Self>,
+                $crate::set::MemberIndex: $crate::set::Part<W, Of = Self>,
             {
                 visitor.visit_row_of_enum::<Self, W>(devices, data, first)
             }
@@ -269,13 +269,13 @@ macro_rules! device_enum {
 
             fn held<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
                 of: &F::OfEnum<Self>,
-            ) -> Option<$crate::set::Held<'_, F::Of<K>>> {
+            ) -> Option<$crate::set::KindData<'_, F::Of<K>>> {
                 F::held::<K, Self>(of)
             }
 
             fn held_mut<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
                 of: &mut F::OfEnum<Self>,
-            ) -> Option<$crate::set::HeldMut<'_, F::Of<K>, F::OfEnum<Self>>> {
+            ) -> Option<$crate::set::KindDataMut<'_, F::Of<K>, F::OfEnum<Self>>> {
                 F::held_mut::<K, Self>(of)
             }
         }

@@ -6,9 +6,9 @@
 
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
-use crate::isolation::carrier::Carrier;
 use crate::isolation::checks::check_suspension;
 use crate::isolation::parameters::Platform;
+use crate::isolation::platform_elimination::PlatformConstants;
 use crate::isolation::records::Data;
 use crate::isolation::suspension::Suspension;
 use crate::model::kind::{JointInfo, Kind};
@@ -41,7 +41,7 @@ pub struct Isolated<D: DeviceSet> {
 /// [`Isolated`], precomputed.
 #[derive(Clone, Debug)]
 pub struct PreparedIsolated<D: DeviceSet> {
-    pub(crate) carrier: Carrier<D::Scalar>,
+    pub(crate) carrier: PlatformConstants<D::Scalar>,
     pub(crate) carried: D::Prepared,
 }
 
@@ -124,7 +124,7 @@ impl<D: DeviceSet> DeviceSet for Isolated<D> {
         let carried_mass =
             shares().fold(crate::numbers::real::zero(), |mass, share| mass + share.constant_m);
         let body = device.constants.body.with_constant_shares(shares());
-        let carrier = Carrier { device, suspension: self.suspension, body, carried_mass };
+        let carrier = PlatformConstants { device, suspension: self.suspension, body, carried_mass };
         PreparedIsolated { carrier, carried }
     }
 

@@ -1,7 +1,7 @@
 //! [`WithNumbers`] of an isolated set: platform and suspension in other numbers, then what is carried.
 
-use crate::isolation::carrier::Carrier;
 use crate::isolation::parameters::Platform;
+use crate::isolation::platform_elimination::PlatformConstants;
 use crate::isolation::suspension::{Coupled, Strut, Suspension};
 use crate::numbers::real::Scalar;
 use crate::sets::devices::DeviceSet;
@@ -45,8 +45,8 @@ impl<D: WithNumbers> WithNumbers for Isolated<D> {
         devices: &PreparedIsolated<D>,
         number: impl Fn(D::Scalar) -> U + Copy,
     ) -> <Self::With<U> as DeviceSet>::Prepared {
-        let Carrier { device, suspension, body, carried_mass } = &devices.carrier;
-        let carrier = Carrier {
+        let PlatformConstants { device, suspension, body, carried_mass } = &devices.carrier;
+        let carrier = PlatformConstants {
             device: Platform::convert(device, number),
             suspension: suspension.map(number),
             body: body.map(number),

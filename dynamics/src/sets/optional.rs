@@ -32,9 +32,9 @@ impl<T: Value, J: JointStates<T>> JointStates<T> for Option<J> {
 
 /// The member that there may be.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Present;
+pub(crate) struct OptionMember;
 
-impl<D: DeviceSet> Part<Option<D>> for Present {
+impl<D: DeviceSet> Part<Option<D>> for OptionMember {
     type Of = D;
 
     #[inline(always)]
@@ -80,7 +80,9 @@ impl<D: DeviceSet> DeviceSet for Option<D> {
     ) -> Result<(), V::Error> {
         compare::<Self, B, V>(usize::from(devices.is_some()), &data, visitor)?;
         let Some(member) = devices else { return Ok(()) };
-        let Some(data) = B::part::<Self, Present>(&mut data, Present) else { return Ok(()) };
+        let Some(data) = B::part::<Self, OptionMember>(&mut data, OptionMember) else {
+            return Ok(());
+        };
         D::visit::<B, V>(member, data, visitor)
     }
 

@@ -11,7 +11,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value, filled};
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::enumeration::{DeviceEnum, Variant};
-use crate::sets::held::{Held, HeldMut};
+use crate::sets::kind_data::{KindData, KindDataMut};
 
 /// Data with one type for each kind of device; a value of the family is what new data begin with.
 pub trait PerDevice<T: Scalar>: 'static {
@@ -31,14 +31,14 @@ pub trait PerDevice<T: Scalar>: 'static {
     /// A kind's data out of an enumeration's, to be read: here a copy.
     fn held<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
         of: &Self::OfEnum<E>,
-    ) -> Option<Held<'_, Self::Of<K>>> {
-        Self::get::<K, E>(of).map(Held::Copied)
+    ) -> Option<KindData<'_, Self::Of<K>>> {
+        Self::get::<K, E>(of).map(KindData::Copied)
     }
     /// A kind's data out of an enumeration's, to be changed: here a copy that is put back.
     fn held_mut<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
         of: &mut Self::OfEnum<E>,
-    ) -> Option<HeldMut<'_, Self::Of<K>, Self::OfEnum<E>>> {
-        Some(HeldMut::Copied(Self::get::<K, E>(of)?, of))
+    ) -> Option<KindDataMut<'_, Self::Of<K>, Self::OfEnum<E>>> {
+        Some(KindDataMut::Copied(Self::get::<K, E>(of)?, of))
     }
     /// The number of joints that an enumeration's data are of; none where they do not say.
     fn count<E: DeviceEnum<Scalar = T>>(of: &Self::OfEnum<E>) -> Option<usize>;
@@ -234,14 +234,14 @@ impl<T: Scalar> PerDevice<T> for Gains {
 
     fn held<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
         of: &E::Gains,
-    ) -> Option<Held<'_, Option<K::Gains<T>>>> {
-        K::gains_in_enum(of).map(Held::InPlace)
+    ) -> Option<KindData<'_, Option<K::Gains<T>>>> {
+        K::gains_in_enum(of).map(KindData::InPlace)
     }
 
     fn held_mut<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
         of: &mut E::Gains,
-    ) -> Option<HeldMut<'_, Option<K::Gains<T>>, E::Gains>> {
-        K::gains_in_enum_mut(of).map(HeldMut::InPlace)
+    ) -> Option<KindDataMut<'_, Option<K::Gains<T>>, E::Gains>> {
+        K::gains_in_enum_mut(of).map(KindDataMut::InPlace)
     }
 
     fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &Option<K::Gains<T>>, to: &mut E::Gains) {

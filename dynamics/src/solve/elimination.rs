@@ -15,13 +15,13 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::side_by_side::gains::GroupGains;
 use crate::equations::system::Solution;
 use crate::generated::hub::BodyAcceleration;
-use crate::isolation::carrier::Carrying;
+use crate::isolation::platform_elimination::PlatformElimination;
 use crate::model::kind::Kind;
 use crate::numbers::each::Each;
 use crate::numbers::real::Scalar;
-#[cfg(feature = "lanes")]
-use crate::sets::bundle::{At, Part};
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+#[cfg(feature = "lanes")]
+use crate::sets::bundle::{MemberIndex, Part};
 use crate::sets::counts::compare_counts;
 #[cfg(feature = "lanes")]
 use crate::sets::devices::Devices;
@@ -119,7 +119,7 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         first: usize,
     ) -> Result<usize, SolveError<T>>
     where
-        At: Part<W, Of = K>,
+        MemberIndex: Part<W, Of = K>,
     {
         rows::visit(self, devices, data, first)
     }
@@ -133,7 +133,7 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         first: usize,
     ) -> Result<usize, SolveError<T>>
     where
-        At: Part<W, Of = N>,
+        MemberIndex: Part<W, Of = N>,
     {
         rows::visit_enum::<T, E, N, W>(self, devices, data, first)
     }
@@ -150,8 +150,12 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, Isolated<D>>,
     ) -> Result<(), SolveError<T>> {
         let index = self.device;
-        let mut carrying =
-            Carrying::start(&isolated.carrier, index, &joints.platform, self.environment);
+        let mut carrying = PlatformElimination::start(
+            &isolated.carrier,
+            index,
+            &joints.platform,
+            self.environment,
+        );
         let mut outboard = Elimination {
             environment: &carrying.environment,
             assembly: &mut carrying.assembly,
@@ -238,7 +242,7 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
         first: usize,
     ) -> Result<usize, Infallible>
     where
-        At: Part<W, Of = K>,
+        MemberIndex: Part<W, Of = K>,
     {
         row_substitution::visit(self, devices, data, first)
     }
@@ -252,7 +256,7 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
         first: usize,
     ) -> Result<usize, Infallible>
     where
-        At: Part<W, Of = N>,
+        MemberIndex: Part<W, Of = N>,
     {
         row_substitution::visit_enum::<T, N, W>(self, devices, data, first)
     }

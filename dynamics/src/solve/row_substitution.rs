@@ -11,10 +11,10 @@ use crate::model::kind::Kind;
 use crate::numbers::each::Each;
 use crate::numbers::laned::Block;
 use crate::numbers::real::Scalar;
-use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::bundle::{Bundle, MemberIndex, Part};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
-use crate::sets::held::HeldMut;
+use crate::sets::kind_data::KindDataMut;
 use crate::sets::per_device::{Accelerations, Gains, PerDevice};
 use crate::solve::elimination::{BackSubstitution, Substituted};
 
@@ -31,23 +31,24 @@ pub(crate) fn visit<K: Kind<Scalar = T>, T: Scalar, W: DeviceSet<Scalar = T>>(
     first: usize,
 ) -> Result<usize, Infallible>
 where
-    At: Part<W, Of = K>,
+    MemberIndex: Part<W, Of = K>,
 {
     let Some(device) = devices.first() else { return Ok(1) };
     let (gains, out) = &mut *data;
     // A group that fell back has the gains of each device.
     if let Some(group) = device.group.as_deref()
-        && At(first).of::<Gains>(gains).is_some_and(Option::is_none)
+        && MemberIndex(first).of::<Gains>(gains).is_some_and(Option::is_none)
         && let Some(mut found) = substitution.group(group)
     {
         for lane in 0..group.devices {
-            if let Some(out) = At(first.saturating_add(lane)).of_mut::<Accelerations>(out) {
+            if let Some(out) = MemberIndex(first.saturating_add(lane)).of_mut::<Accelerations>(out)
+            {
                 substitution.take::<K>(&mut found, lane, out);
             }
         }
         return Ok(group.devices);
     }
-    if let Some(data) = Substituted::part::<W, At>(data, At(first)) {
+    if let Some(data) = Substituted::part::<W, MemberIndex>(data, MemberIndex(first)) {
         substitution.visit(device, data)?;
     }
     Ok(1)
@@ -65,14 +66,14 @@ where
     T: Scalar,
     N: DeviceEnum<Scalar = T> + Devices,
     W: DeviceSet<Scalar = T>,
-    At: Part<W, Of = N>,
+    MemberIndex: Part<W, Of = N>,
 {
     let Some(device) = devices.first() else { return Ok(1) };
     let row = Row::<'_, '_, '_, T, W> { substitution: &mut *substitution, data: &mut *data, first };
     if let Some(count) = N::with(device, row) {
         return Ok(count);
     }
-    if let Some(data) = Substituted::part::<W, At>(data, At(first)) {
+    if let Some(data) = Substituted::part::<W, MemberIndex>(data, MemberIndex(first)) {
         substitution.visit_enum::<N>(device, data)?;
     }
     Ok(1)
@@ -90,7 +91,7 @@ where
     T: Scalar,
     N: DeviceEnum<Scalar = T>,
     W: DeviceSet<Scalar = T>,
-    At: Part<W, Of = N>,
+    MemberIndex: Part<W, Of = N>,
 {
     /// How many devices the group has; none where there is none, or it fell back.
     type Output = Option<usize>;
@@ -98,13 +99,16 @@ where
     fn with<K: Variant<N>>(self, device: &Device<K>) -> Option<usize> {
         let Self { substitution, data: (gains, out), first } = self;
         let group = device.group.as_deref()?;
-        N::held::<Gains, K>(At(first).of::<Gains>(gains)?)?.refer().is_none().then_some(())?;
+        N::held::<Gains, K>(MemberIndex(first).of::<Gains>(gains)?)?
+            .refer()
+            .is_none()
+            .then_some(())?;
         let mut found = substitution.group(group)?;
         for lane in 0..group.devices {
-            let out = At(first.saturating_add(lane)).of_mut::<Accelerations>(out);
+            let out = MemberIndex(first.saturating_add(lane)).of_mut::<Accelerations>(out);
             if let Some(mut out) = out.and_then(N::held_mut::<Accelerations, K>) {
                 substitution.take::<K>(&mut found, lane, out.refer());
-                if let HeldMut::Copied(copy, to) = out {
+                if let KindDataMut::Copied(copy, to) = out {
                     <Accelerations as PerDevice<T>>::put::<K, N>(&copy, to);
                 }
             }

@@ -13,7 +13,7 @@ use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
 use crate::numbers::laned::WIDEST;
 use crate::numbers::real::Scalar;
-use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::bundle::{Bundle, MemberIndex, Part};
 use crate::sets::devices::{DeviceSet, Devices, SetInputs, Visit};
 use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
 use crate::sets::per_device::{Joints, Motors, PerDevice, PerJoint};
@@ -35,7 +35,7 @@ pub(crate) fn visit<K: Kind<Scalar = T>, T: Scalar, E: Eliminate<T>, W: DeviceSe
     first: usize,
 ) -> Result<usize, SolveError<T>>
 where
-    At: Part<W, Of = K>,
+    MemberIndex: Part<W, Of = K>,
 {
     let mut count = 1;
     if let Some(group) = devices.first().and_then(|device| device.group.as_deref())
@@ -49,8 +49,8 @@ where
         }
     }
     for (lane, device) in devices.iter().enumerate().take(count) {
-        let at = At(first.saturating_add(lane));
-        let Some(data) = Eliminated::part::<W, At>(data, at) else { break };
+        let at = MemberIndex(first.saturating_add(lane));
+        let Some(data) = Eliminated::part::<W, MemberIndex>(data, at) else { break };
         elimination.visit(device, data)?;
     }
     Ok(count)
@@ -69,7 +69,7 @@ where
     E: Eliminate<T>,
     N: DeviceEnum<Scalar = T> + Devices,
     W: DeviceSet<Scalar = T>,
-    At: Part<W, Of = N>,
+    MemberIndex: Part<W, Of = N>,
 {
     let mut count = 1;
     if let Some(device) = devices.first()
@@ -82,8 +82,8 @@ where
         }
     }
     for (lane, device) in devices.iter().enumerate().take(count) {
-        let at = At(first.saturating_add(lane));
-        let Some(data) = Eliminated::part::<W, At>(data, at) else { break };
+        let at = MemberIndex(first.saturating_add(lane));
+        let Some(data) = Eliminated::part::<W, MemberIndex>(data, at) else { break };
         elimination.visit_enum::<N>(device, data)?;
     }
     Ok(count)
@@ -109,7 +109,7 @@ where
     E: Eliminate<T>,
     N: DeviceEnum<Scalar = T>,
     W: DeviceSet<Scalar = T>,
-    At: Part<W, Of = N>,
+    MemberIndex: Part<W, Of = N>,
 {
     type Output = Group;
 
@@ -157,12 +157,12 @@ type Member<'a, K> =
 /// Those of a device in a set.
 #[inline(always)]
 fn of_device<'a, K: Kind<Scalar = T>, T: Scalar, W: DeviceSet<Scalar = T>>(
-    at: At,
+    at: MemberIndex,
     joints: &'a W::Per<Joints>,
     inputs: &SetInputs<'a, W>,
 ) -> Option<Member<'a, K>>
 where
-    At: Part<W, Of = K>,
+    MemberIndex: Part<W, Of = K>,
 {
     let bodies: Option<&Wrenches<K>> = match inputs.bodies {
         Some(bodies) => Some(at.of::<Bodies<T>>(bodies)?),
@@ -177,11 +177,11 @@ where
 fn members<M: Copy>(
     first: usize,
     count: usize,
-    of: impl Fn(At) -> Option<M>,
+    of: impl Fn(MemberIndex) -> Option<M>,
 ) -> Option<[M; WIDEST]> {
-    let mut members = [of(At(first))?; WIDEST];
+    let mut members = [of(MemberIndex(first))?; WIDEST];
     for (lane, member) in members.iter_mut().enumerate().skip(1) {
-        *member = of(At(first.saturating_add(lane.min(count.saturating_sub(1)))))?;
+        *member = of(MemberIndex(first.saturating_add(lane.min(count.saturating_sub(1)))))?;
     }
     Some(members)
 }

@@ -6,7 +6,7 @@ use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
 use precess::record::RunError;
 use precess::scenario::Scenario;
 use precess_dynamics::{BuiltIn, Each as _, Hub, ParameterError, SolveError};
-use precess_lanes::{Acting, BatchSupport, Lanes, PART, RunObserver, SEGMENT, Steps, lanes};
+use precess_lanes::{StateInputs, BatchSupport, Lanes, PART, RunObserver, SEGMENT, Steps, lanes};
 use pyo3::PyErr;
 
 use super::reduce::PartHistory;
@@ -194,8 +194,8 @@ fn of_kind(scenarios: &[&Scenario], each: bool, in_lanes: bool) -> Option<Engine
 }
 
 /// Inputs as lanes take them.
-fn acting(inputs: &[CraftInputs]) -> Vec<Acting> {
-    let one = |of: &CraftInputs| Acting {
+fn acting(inputs: &[CraftInputs]) -> Vec<StateInputs> {
+    let one = |of: &CraftInputs| StateInputs {
         force: of.force,
         torque_b: of.torque_b,
         motors: of.motors.values().collect(),

@@ -28,7 +28,7 @@ use crate::scenario::NativeScenario;
 use engine::{Engine, Failure};
 use reduce::{BatchHistory, Reduction};
 use rows::failed_rows;
-pub(crate) use rows::{ActingRows, BatchRows, Linearized, Sizes};
+pub(crate) use rows::{InputRows, BatchRows, Linearized, Sizes};
 use work::{Progress, share, watched};
 
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
@@ -220,7 +220,7 @@ struct BatchArguments {
     count: usize,
     /// Numbers of each.
     size: usize,
-    acting: ActingRows,
+    acting: InputRows,
 }
 
 impl NativeBatch {
@@ -266,8 +266,8 @@ impl NativeBatch {
         base: CraftInputs,
         u: Option<&PyReadonlyArray2<'_, f64>>,
         count: usize,
-    ) -> PyResult<ActingRows> {
-        let Some(u) = u else { return Ok(ActingRows { base, rows: Vec::new(), width: 0 }) };
+    ) -> PyResult<InputRows> {
+        let Some(u) = u else { return Ok(InputRows { base, rows: Vec::new(), width: 0 }) };
         let width = self.rows.input_size();
         if u.shape() != [count, width] {
             let message = format!(
@@ -276,7 +276,7 @@ impl NativeBatch {
             );
             return Err(PyValueError::new_err(message));
         }
-        Ok(ActingRows { base, rows: u.as_array().iter().copied().collect(), width })
+        Ok(InputRows { base, rows: u.as_array().iter().copied().collect(), width })
     }
 }
 

@@ -69,7 +69,7 @@ impl BatchRows {
     /// Accelerations of the states, one row each.
     pub(crate) fn accelerations(
         &self,
-        (y, acting): (&[f64], &ActingRows),
+        (y, acting): (&[f64], &InputRows),
         out: &mut [f64],
         threads: usize,
         look: ProgressCheck<'_>,
@@ -101,7 +101,7 @@ impl BatchRows {
     /// Derivatives of the accelerations of each state by states, C, and by inputs, D, rows first.
     pub(crate) fn linearize(
         &self,
-        (y, acting): (&[f64], &ActingRows),
+        (y, acting): (&[f64], &InputRows),
         Sizes { rows, states, inputs }: Sizes,
         (c, d): (&mut [f64], &mut [f64]),
         threads: usize,
@@ -139,13 +139,13 @@ impl BatchRows {
 }
 
 /// Inputs, row by row; no rows where they are the same for all.
-pub(crate) struct ActingRows {
+pub(crate) struct InputRows {
     pub(crate) base: CraftInputs,
     pub(crate) rows: Vec<f64>,
     pub(crate) width: usize,
 }
 
-impl ActingRows {
+impl InputRows {
     /// Those of a part of so many states: one for all, or one for each.
     pub(super) fn of_part(&self, part: usize, count: usize) -> Vec<CraftInputs> {
         if self.width == 0 {

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use precess::evaluation::{CraftInputs, EvaluationError};
 use pyo3::prelude::*;
 
-use crate::batch::{ActingRows, BatchRows, Linearized, NativeBatch};
+use crate::batch::{InputRows, BatchRows, Linearized, NativeBatch};
 use crate::errors;
 use crate::inputs::NativeInputs;
 use abi::{Buffer, CallFrame, Error, ScalarAttribute};
@@ -135,7 +135,7 @@ unsafe extern "C" fn linearize(frame: *mut CallFrame) -> Error {
 
 impl Function {
     /// The rows of inputs, where all buffers have as many rows as there are states.
-    fn acting(&self, y: &[f64], u: &[f64], out: &[(usize, usize)]) -> Result<ActingRows, String> {
+    fn acting(&self, y: &[f64], u: &[f64], out: &[(usize, usize)]) -> Result<InputRows, String> {
         let (size, width) = (self.batch.state_size(), self.batch.input_size());
         let count = y.len() / size;
         let fits = |&(numbers, of_one): &(usize, usize)| numbers == count * of_one;
@@ -146,7 +146,7 @@ impl Function {
                 u.len()
             ));
         }
-        Ok(ActingRows { base: self.base.clone(), rows: u.to_vec(), width })
+        Ok(InputRows { base: self.base.clone(), rows: u.to_vec(), width })
     }
 }
 

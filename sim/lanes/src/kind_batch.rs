@@ -8,7 +8,7 @@ use precess_dynamics::{
     SolveError, Spacecraft, State,
 };
 
-use crate::{Acting, BatchSupport, Lanes, PART, RunObserver, SEGMENT, StateResults, Steps};
+use crate::{BatchSupport, Lanes, PART, RunObserver, SEGMENT, StateInputs, StateResults, Steps};
 
 /// Numbers of the hub in a flat state.
 const HUB: usize = 13;
@@ -55,7 +55,7 @@ fn failed(errors: Vec<Option<ParameterError<f64>>>) -> BatchSupport {
 struct EmptyBatch;
 
 impl Lanes for EmptyBatch {
-    fn accelerations(&self, _: usize, _: &[f64], _: &[Acting], _: &mut [f64]) -> StateResults {
+    fn accelerations(&self, _: usize, _: &[f64], _: &[StateInputs], _: &mut [f64]) -> StateResults {
         Vec::new()
     }
 
@@ -63,7 +63,7 @@ impl Lanes for EmptyBatch {
         &self,
         _: usize,
         _: &mut [f64],
-        _: &[Acting],
+        _: &[StateInputs],
         _: Steps,
         _: RunObserver<'_>,
     ) -> StateResults {
@@ -88,7 +88,7 @@ impl<K: Kind<Scalar = f64>> Lanes for KindBatch<K> {
         &self,
         part: usize,
         y: &[f64],
-        inputs: &[Acting],
+        inputs: &[StateInputs],
         out: &mut [f64],
     ) -> StateResults {
         let Some(shape) = self.shape() else { return Vec::new() };
@@ -116,7 +116,7 @@ impl<K: Kind<Scalar = f64>> Lanes for KindBatch<K> {
         &self,
         part: usize,
         y: &mut [f64],
-        inputs: &[Acting],
+        inputs: &[StateInputs],
         steps: Steps,
         watch: RunObserver<'_>,
     ) -> StateResults {
@@ -242,10 +242,10 @@ fn pack<K: Kind<Scalar = f64>>(state: &State<Set<K>>, row: &mut [f64]) {
 /// Inputs of the set.
 fn inputs_of<K: Kind<Scalar = f64>>(
     shape: &Spacecraft<Set<K>>,
-    inputs: &[Acting],
+    inputs: &[StateInputs],
 ) -> Vec<Inputs<Set<K>>> {
     let none = Inputs::none_for(shape);
-    let one = |of: &Acting| {
+    let one = |of: &StateInputs| {
         let mut inputs = none.clone();
         write_inputs(shape, of, &mut inputs);
         inputs
@@ -256,7 +256,7 @@ fn inputs_of<K: Kind<Scalar = f64>>(
 /// Writes what acts into inputs of the set.
 pub(crate) fn write_inputs<K: Kind<Scalar = f64>>(
     shape: &Spacecraft<Set<K>>,
-    of: &Acting,
+    of: &StateInputs,
     inputs: &mut Inputs<Set<K>>,
 ) {
     (inputs.force, inputs.torque_b) = (of.force, of.torque_b);

@@ -22,7 +22,7 @@ pub const PART: usize = 64;
 
 /// What acts on every state, joints in order.
 #[derive(Clone, Debug)]
-pub struct Acting {
+pub struct StateInputs {
     /// External force through B, in B, N.
     pub force: Vector3<f64>,
     /// External torque about B, in B, N m.
@@ -74,7 +74,7 @@ pub trait Lanes: Send + Sync {
         &self,
         part: usize,
         y: &[f64],
-        inputs: &[Acting],
+        inputs: &[StateInputs],
         out: &mut [f64],
     ) -> StateResults;
     /// Steps of RK4, inputs held, while `go` says so. A state that fails is left as it was before the
@@ -83,7 +83,7 @@ pub trait Lanes: Send + Sync {
         &self,
         part: usize,
         y: &mut [f64],
-        inputs: &[Acting],
+        inputs: &[StateInputs],
         steps: Steps,
         watch: RunObserver<'_>,
     ) -> StateResults;

@@ -9,7 +9,7 @@ use precess_dynamics::{
 };
 
 use crate::kind_batch::{Set, write_inputs};
-use crate::{Acting, StateResults, devices_of, in_lanes, one_kind};
+use crate::{StateInputs, StateResults, devices_of, in_lanes, one_kind};
 
 /// The state of a spacecraft, of whatever kind its devices are.
 #[derive(Clone, Debug)]
@@ -31,7 +31,12 @@ pub trait SideBySide: Send {
     /// Advances each by so many steps of RK4 of this length, s, inputs held: the bits of
     /// [`Spacecraft::step`] of each by itself. A state that fails is left as it was before the step
     /// that failed. `at` has one entry for each spacecraft.
-    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> StateResults;
+    fn advance(
+        &mut self,
+        at: &mut [(Motion, StateInputs)],
+        length: f64,
+        steps: usize,
+    ) -> StateResults;
 }
 
 /// These spacecraft; none where their devices are of several kinds, of a kind without lanes, of different numbers, or
@@ -72,7 +77,12 @@ struct KindRuns<K: Kind<Scalar = f64>> {
 }
 
 impl<K: Kind<Scalar = f64>> SideBySide for KindRuns<K> {
-    fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> StateResults {
+    fn advance(
+        &mut self,
+        at: &mut [(Motion, StateInputs)],
+        length: f64,
+        steps: usize,
+    ) -> StateResults {
         let Self { batch, states, inputs, ends } = self;
         let Some(shape) = batch.spacecraft().first() else { return Vec::new() };
         if at.len() != states.len() {

@@ -19,7 +19,7 @@ pub(crate) mod tests;
 
 pub(crate) use precess_craft::{Craft, rigid_state};
 
-pub(crate) use equations::inputs::Acting;
+pub(crate) use equations::inputs::SegmentInputs;
 pub(crate) use equations::kinematics::Chain;
 pub(crate) use equations::packing::Layout;
 pub use equations::run_quantities::RunQuantities;

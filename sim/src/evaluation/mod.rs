@@ -44,7 +44,7 @@ pub use names::JointNames;
 pub use parameters::Parameter;
 pub use step::LinearizedStep;
 
-use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, craft_of, rigid_state};
+use crate::engine::{Chain, Craft, Layout, MemberLoads, SegmentInputs, craft_of, rigid_state};
 use crate::record::{Column, Columns, RunError};
 use crate::scenario::Scenario;
 
@@ -130,7 +130,7 @@ impl Evaluator {
     /// wrenches and disturbances.
     #[must_use]
     pub fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
-        let mut acting = Acting::new(&self.scenario, &self.layout.joints);
+        let mut acting = SegmentInputs::new(&self.scenario, &self.layout.joints);
         acting.begin(0.0, f64::INFINITY);
         let mut inputs = acting.inputs(&self.scenario, &self.craft);
         acting.fill(time, state, &mut inputs);

@@ -14,7 +14,7 @@ use super::waterfall::waterfall;
 use crate::fit::device::Rotor;
 use crate::fit::samples::{Layout, Samples, mean_and_slope, read as read_samples, steps};
 use crate::fit::{
-    CHANNELS, Group, Measurement, Mode, ModeGuess, Options, Placement, Record, WaterfallRow,
+    CHANNELS, Group, Measurement, Mode, ModeGuess, Options, Record, TablePose, WaterfallRow,
 };
 use crate::names::column_name_fault;
 use crate::units::{Measure, parse_unit};
@@ -138,7 +138,7 @@ fn read_rotor(rotor: &Keys<'_>) -> Option<Rotor> {
 }
 
 /// `[table]`: where the wheel is on it.
-fn placement(keys: &Keys<'_>) -> Option<Placement> {
+fn placement(keys: &Keys<'_>) -> Option<TablePose> {
     let Some(table) = keys.table("table") else {
         if !keys.has("table") {
             keys.missing("table", "[table]");
@@ -163,7 +163,7 @@ fn placement(keys: &Keys<'_>) -> Option<Placement> {
     let (position, axis) = (position?, axis?);
     // Across the axis: the table's x, or y where the wheel spins about x.
     let across = if axis.x.abs() > 0.9 * axis.norm() { Vector3::y() } else { Vector3::x() };
-    let placement = Placement::new(position, axis, reference.unwrap_or(across), on_wheel);
+    let placement = TablePose::new(position, axis, reference.unwrap_or(across), on_wheel);
     match placement {
         Ok(placement) => Some(placement),
         Err(error) => {
@@ -321,7 +321,7 @@ fn one(
     keys: &Keys<'_>,
     folder: &Path,
     layout: &Layout,
-    placement: &Placement,
+    placement: &TablePose,
     progress: &mut dyn FnMut(&str),
 ) -> Option<Record> {
     if !keys.has("file") {
@@ -361,7 +361,7 @@ fn swept(
     keys: &Keys<'_>,
     path: &Path,
     layout: &Layout,
-    placement: &Placement,
+    placement: &TablePose,
     [tolerance, shortest]: [f64; 2],
 ) -> Option<Vec<Option<Record>>> {
     if layout.speed.is_none() {

@@ -16,7 +16,7 @@ use super::error::FitError;
 use super::lines::{Lines, float};
 use super::lobe::{beside, lobe};
 use super::measurement::{Group, Measurement, Record};
-use super::orders::{Tracked, track};
+use super::orders::{OrderLines, track};
 use super::rotation::Rotation;
 
 /// A statistic above this is a line, standard deviations; 8 because thousands of numbers are tried.
@@ -68,7 +68,7 @@ pub(super) struct Search<'a> {
 pub(super) fn detect(
     search: &Search<'_>,
     progress: &mut dyn FnMut(&str),
-) -> Result<Tracked, FitError> {
+) -> Result<OrderLines, FitError> {
     let failed = FitError::NoLines { highest: 0.0, bound: THRESHOLD };
     let run = |orders: &[f64]| {
         let rotations = search.rotations.clone();
@@ -102,7 +102,7 @@ pub(super) fn detect(
 }
 
 /// Whether the first line is above its noise in some record.
-fn shows(tracked: &Tracked) -> bool {
+fn shows(tracked: &OrderLines) -> bool {
     let first = tracked.lines.iter().filter_map(|found| found.sets.first()?.as_ref());
     first
         .flat_map(|line| line.channels)
@@ -139,7 +139,7 @@ fn whitened(found: &Lines) -> Vec<Vec<f64>> {
 pub(super) fn strongest(
     highest_number: f64,
     durations: &[f64],
-    tracked: &Tracked,
+    tracked: &OrderLines,
 ) -> (Vec<f64>, f64) {
     let turns = |k: usize| tracked.rotations[k].speed.abs() * durations[k] / TAU;
     let fastest = (0..durations.len()).map(turns).fold(0.0, f64::max);
@@ -178,7 +178,7 @@ pub(super) fn strongest(
 }
 
 /// Lines in the residuals of a fit, strongest first, with their sizes: the median over the records that show them.
-pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> Vec<Remainder> {
+pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &OrderLines) -> Vec<Remainder> {
     let (numbers, _) = strongest(highest, durations, tracked);
     let of = |number: f64| {
         let each = Group::ALL.into_iter().filter_map(|group| {
@@ -216,7 +216,7 @@ pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> 
 
 /// A trial number where the sum without a cap is largest near it: the statistic caps what a record counts, so it is flat
 /// about a strong line.
-fn sharpened(h: f64, step: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
+fn sharpened(h: f64, step: f64, tracked: &OrderLines, spectra: &[Vec<Vec<f64>>]) -> f64 {
     let mut best = (strength(h, tracked, spectra), h);
     for place in (1..=NEAR).flat_map(|k| [-k, k]) {
         let near = h + f64::from(place) * step;
@@ -229,7 +229,7 @@ fn sharpened(h: f64, step: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) ->
 }
 
 /// The sum of a trial number over all records and channels, without a cap.
-fn strength(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
+fn strength(h: f64, tracked: &OrderLines, spectra: &[Vec<Vec<f64>>]) -> f64 {
     let each = tracked.lines.iter().zip(&tracked.rotations).zip(spectra);
     each.map(|((found, rotation), spectra)| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a bin")]
@@ -241,7 +241,7 @@ fn strength(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
 
 /// The statistic of a trial number: of the group that shows it best, standard deviations; not above the threshold
 /// where pure noise reaches it with a probability above `chance`.
-fn statistic(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>], chance: f64) -> f64 {
+fn statistic(h: f64, tracked: &OrderLines, spectra: &[Vec<Vec<f64>>], chance: f64) -> f64 {
     let mut sums = [0.0; 4];
     let mut shown = [0_usize; 4];
     let mut counted = 0_usize;

@@ -54,7 +54,7 @@ pub enum Group {
 
 /// Where the wheel is on the table, and the sign of what is measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placement {
+pub struct TablePose {
     position: Vector3<f64>,
     axes: Matrix3<f64>,
     on_wheel: bool,
@@ -131,7 +131,7 @@ impl fmt::Display for Group {
     }
 }
 
-impl Placement {
+impl TablePose {
     /// A wheel with its centre at `position`, m, from the table's origin, its spin axis and the direction
     /// across it from which its angle counts, all expressed in the table's axes. `on_wheel`: the table
     /// reports what it exerts on the wheel.
@@ -283,14 +283,14 @@ mod tests {
     fn a_force_through_the_wheel_has_no_moment_about_it() {
         let r = Vector3::new(0.02, -0.03, 0.11);
         let axis = Vector3::new(0.0, 0.0, 2.0);
-        let placement = Placement::new(r, axis, Vector3::new(1.0, 1.0, 3.0), false).expect("axes");
+        let placement = TablePose::new(r, axis, Vector3::new(1.0, 1.0, 3.0), false).expect("axes");
         let force = Vector3::new(1.0, -2.0, 0.5);
         let moment = r.cross(&force);
         let table = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
         let found = placement.referred(table);
         assert!((found[0] - 0.5).abs() < ROUNDING, "x is the spin axis: {found:?}");
         assert!(found[3..].iter().all(|t| t.abs() < ROUNDING), "{found:?}");
-        let opposite = Placement::new(r, axis, Vector3::new(1.0, 1.0, 0.0), true).expect("axes");
+        let opposite = TablePose::new(r, axis, Vector3::new(1.0, 1.0, 0.0), true).expect("axes");
         assert!((opposite.referred(table)[0] + 0.5).abs() < ROUNDING);
         // y is (1, 1, 0) / sqrt 2, z is (-1, 1, 0) / sqrt 2.
         let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -300,9 +300,9 @@ mod tests {
     #[test]
     fn parallel_directions_and_bad_records_are_errors() {
         let x = Vector3::x();
-        let parallel = Placement::new(Vector3::zeros(), x, x, false);
+        let parallel = TablePose::new(Vector3::zeros(), x, x, false);
         assert!(matches!(parallel, Err(FitError::Axes { .. })));
-        let nothing = Placement::new(Vector3::zeros(), Vector3::zeros(), x, false);
+        let nothing = TablePose::new(Vector3::zeros(), Vector3::zeros(), x, false);
         assert!(matches!(nothing, Err(FitError::Axes { .. })));
         let good = Record {
             name: "a".into(),

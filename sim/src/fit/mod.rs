@@ -47,7 +47,7 @@ pub use discrepancy::{Discrepancy, SQUARES_MAX, squares_bound};
 pub use error::FitError;
 pub use estimate::{Estimate, student};
 pub use floor::Band;
-pub use measurement::{CHANNEL_NAMES, CHANNELS, Group, Measurement, Placement, Record};
+pub use measurement::{CHANNEL_NAMES, CHANNELS, Group, Measurement, Record, TablePose};
 pub use modes::{Mode, ModeGuess, amplification};
 pub use powers::{FittedMode, GroupFit, Power, Sense};
 pub use rotation::Rotation;
@@ -55,7 +55,7 @@ pub use waterfall::{WaterfallRow, fit_waterfall};
 
 use detect::{LINES_MAX, Search, detect, remainders};
 use discrepancy::Remainder;
-use orders::{Tracked, track};
+use orders::{OrderLines, track};
 
 /// The highest harmonic number that is looked for.
 const HIGHEST: f64 = 20.0;
@@ -236,7 +236,7 @@ fn tracked(
     rotations: Vec<Rotation>,
     options: &Options,
     progress: &mut dyn FnMut(&str),
-) -> Result<Tracked, FitError> {
+) -> Result<OrderLines, FitError> {
     let fixed = &options.interference;
     if options.harmonics.is_empty() {
         let highest = options.highest.clamp(1.0, NUMBERS[1]);
@@ -256,7 +256,7 @@ fn tracked(
 
 /// Puts together what was fitted, of records with these names and with lines that are left in the residuals.
 fn assembled(
-    tracked: Tracked,
+    tracked: OrderLines,
     groups: Vec<GroupFit>,
     left: &[Remainder],
     names: &[String],

@@ -44,7 +44,7 @@ pub(super) const EXACT: f64 = 1e-12;
 
 /// Harmonic numbers, and the lines of all records at them.
 #[derive(Clone, Debug)]
-pub(super) struct Tracked {
+pub(super) struct OrderLines {
     pub(super) orders: Vec<Estimate>,
     pub(super) rotations: Vec<Rotation>,
     pub(super) lines: Vec<Lines>,
@@ -79,7 +79,7 @@ pub(super) fn track(
     guesses: &[f64],
     fixed: &[f64],
     accuracy: f64,
-) -> Option<Tracked> {
+) -> Option<OrderLines> {
     let mut orders = guesses.to_vec();
     let mut rotations = rotations;
     let mut transforms = Transforms::default();
@@ -134,7 +134,7 @@ pub(super) fn track(
             lost.push(record);
         }
     }
-    Some(Tracked { orders: estimates, rotations, lines: all, lost })
+    Some(OrderLines { orders: estimates, rotations, lines: all, lost })
 }
 
 /// The channels' steps of a line as one.

@@ -14,7 +14,7 @@ use super::estimate::Estimate;
 use super::lines::{Lines, float};
 use super::lobe::{CLEAR, LINE_NOISE, LOBE, beside, centroid_variance, lobe, noise_variance};
 use super::measurement::{CHANNELS, Group, RECORDS_MIN, twice};
-use super::orders::Tracked;
+use super::orders::OrderLines;
 use super::powers::{self, Power, Sense};
 use super::rotation::Rotation;
 use super::search;
@@ -90,7 +90,7 @@ pub fn fit_waterfall(rows: &[WaterfallRow], options: &Options) -> Result<Fitted,
         noise_bins: Vec::new(),
     };
     let lines = rows.iter().map(spectra).collect();
-    let mut tracked = Tracked { orders: Vec::new(), rotations, lines, lost: Vec::new() };
+    let mut tracked = OrderLines { orders: Vec::new(), rotations, lines, lost: Vec::new() };
     let mut numbers = options.harmonics.clone();
     numbers.push(1.0);
     if options.harmonics.is_empty() {
@@ -136,7 +136,7 @@ fn bin_of(row: &WaterfallRow, number: f64) -> usize {
 }
 
 /// Takes the bins near lines out of the noise.
-fn mask(tracked: &mut Tracked, rows: &[WaterfallRow], numbers: &[f64]) {
+fn mask(tracked: &mut OrderLines, rows: &[WaterfallRow], numbers: &[f64]) {
     for (found, row) in tracked.lines.iter_mut().zip(rows) {
         for number in numbers {
             let bin = bin_of(row, *number);

@@ -15,7 +15,7 @@ use std::io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::holder;
+use super::file_lock;
 
 /// What is kept in memory at most.
 const BUFFER: usize = 64 * 1024;
@@ -69,7 +69,7 @@ impl Reservation {
                 Err(TryLockError::Error(error)) => return Err(error),
             }
             // The program that had the lock may have renamed the file in the meantime.
-            if holder::is_at(&file, &beside) {
+            if file_lock::is_at(&file, &beside) {
                 return Ok(Self { file: Some(file), beside, path: path.to_owned() });
             }
         }
@@ -115,7 +115,7 @@ pub(super) fn begin(reserved: Option<Reservation>, path: &Path) -> io::Result<Pa
 
 /// The error of a file that another program has locked.
 pub(crate) fn in_use(file: &File) -> io::Error {
-    let who = holder::lock_holder(file).unwrap_or_else(|| "another program".to_owned());
+    let who = file_lock::lock_holder(file).unwrap_or_else(|| "another program".to_owned());
     let text = format!("in use by {who}; wait for its end, or choose another folder");
     io::Error::new(ErrorKind::ResourceBusy, text)
 }

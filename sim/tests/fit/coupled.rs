@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use nalgebra::Vector3;
-use precess::fit::{Group, Measurement, Mode, ModeGuess, Options, Placement, Record, fit};
+use precess::fit::{Group, Measurement, Mode, ModeGuess, Options, Record, TablePose, fit};
 
 use super::scene::{SEED, rpm};
 use super::synthetic::Random;
@@ -93,7 +93,7 @@ fn a_rotor_on_soft_bearings_is_found_by_its_loads() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fit-coupled");
     fs::create_dir_all(&folder).expect("a folder");
     // The moment is about the bearing centre, the mount's origin; the hub's load is on the wheel.
-    let placement = Placement::new(Vector3::zeros(), Vector3::z(), Vector3::x(), true);
+    let placement = TablePose::new(Vector3::zeros(), Vector3::z(), Vector3::x(), true);
     let placement = placement.expect("axes");
     let mut random = Random::new(SEED);
     let records = SPEEDS.map(|speed| {

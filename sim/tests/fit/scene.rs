@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
-use precess::fit::{Group, Measurement, Mode, ModeGuess, Options, Placement, Record};
+use precess::fit::{Group, Measurement, Mode, ModeGuess, Options, Record, TablePose};
 
 use super::synthetic::{Bearing, Random, Source, Step, Wheel};
 
@@ -104,10 +104,10 @@ pub(crate) struct Variant {
     pub(crate) speeds: f64,
 }
 
-pub(crate) fn placement(wheel: &Wheel) -> Placement {
+pub(crate) fn placement(wheel: &Wheel) -> TablePose {
     let axis = wheel.axes.column(0).into_owned();
     let reference = wheel.axes.column(1).into_owned();
-    Placement::new(wheel.position, axis, reference, false).expect("axes")
+    TablePose::new(wheel.position, axis, reference, false).expect("axes")
 }
 
 /// A measurement of the wheel.

@@ -6,7 +6,7 @@ use precess_dynamics::{
     Spacecraft, State, Wrench, set,
 };
 
-use super::Placed;
+use super::PreparedCase;
 
 /// Numbers, or the error.
 pub type CallResult<T = f64> = Result<Vec<T>, SolveError<T>>;
@@ -133,8 +133,8 @@ pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Option<Acceleratio
 
 /// Accelerations for which loads are computed: those of the state, or, if there are none, the
 /// numbers of motors and forces.
-fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
-    let Placed { craft, state, inputs } = placed;
+fn wished<D: Devices>(placed: &PreparedCase<D>) -> Option<Accelerations<D>> {
+    let PreparedCase { craft, state, inputs } = placed;
     if let Ok(found) = craft.accelerations(state, inputs) {
         return Some(found);
     }
@@ -148,10 +148,10 @@ fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
 
 /// The result of every call.
 pub fn call_results<D: Devices<Per<set::Loads>: Numbers<<D as DeviceSet>::Scalar>>>(
-    placed: &Placed<D>,
+    placed: &PreparedCase<D>,
     dt: D::Scalar,
 ) -> Vec<(&'static str, CallResult<D::Scalar>)> {
-    let Placed { craft, state, inputs } = placed;
+    let PreparedCase { craft, state, inputs } = placed;
     let numbers = |numbers: &dyn Numbers<D::Scalar>| {
         let mut all = Vec::new();
         numbers.add_to(&mut all);

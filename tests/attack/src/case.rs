@@ -32,7 +32,7 @@ pub struct Case {
 
 /// A case made ready in one shape and number.
 #[derive(Clone, Debug)]
-pub struct Placed<D: Devices> {
+pub struct PreparedCase<D: Devices> {
     /// The spacecraft.
     pub craft: Spacecraft<D>,
     /// Its state.
@@ -69,20 +69,23 @@ impl Case {
     ///
     /// # Errors
     /// Of [`Spacecraft::new`].
-    pub fn list(&self) -> Result<Placed<List>, ParameterError> {
+    pub fn list(&self) -> Result<PreparedCase<List>, ParameterError> {
         let craft = Spacecraft::new(&self.hub, &self.devices)?;
-        Ok(Placed { craft, state: self.state.clone(), inputs: self.inputs.clone() })
+        Ok(PreparedCase { craft, state: self.state.clone(), inputs: self.inputs.clone() })
     }
 
     /// The case in another shape or number, with these devices.
     ///
     /// # Errors
     /// Of [`Spacecraft::new`].
-    pub fn placed<D: Devices>(&self, devices: &D) -> Result<Placed<D>, ParameterError<D::Scalar>> {
+    pub fn placed<D: Devices>(
+        &self,
+        devices: &D,
+    ) -> Result<PreparedCase<D>, ParameterError<D::Scalar>> {
         let craft = Spacecraft::new(&hub(&self.hub), devices)?;
         let state = moved(&self.state, State::at_rest_for(&craft));
         let inputs = given(&self.inputs, &craft);
-        Ok(Placed { craft, state, inputs })
+        Ok(PreparedCase { craft, state, inputs })
     }
 
     /// The devices in another number.

@@ -4,7 +4,7 @@ use precess_dynamics::{
     About, Axis, DerivativeError, Each, JointStates, LoadAxes, Outputs, SolveError, Variable,
 };
 
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::residual::numbers;
 use super::{Checked, Verdict};
 
@@ -28,7 +28,9 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// Where it does not hold.
 pub fn derivatives_or_error(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let expected = craft.accelerations(&state, &inputs);
     let text = |error: &SolveError| error.to_string();
     match (craft.linearize(&state, &inputs, &OUTPUTS), expected) {
@@ -62,8 +64,8 @@ pub fn derivatives_or_error(case: &Case) -> Verdict {
 }
 
 /// Changes a variable; its size, or none of one that is not changed here.
-fn changed(placed: &mut Placed<List>, variable: Variable, by: f64) -> Option<f64> {
-    let Placed { craft, state, inputs } = placed;
+fn changed(placed: &mut PreparedCase<List>, variable: Variable, by: f64) -> Option<f64> {
+    let PreparedCase { craft, state, inputs } = placed;
     let at = |axis: Axis| Axis::ALL.iter().position(|other| *other == axis).unwrap_or_default();
     let (of, size) = match variable {
         Variable::Velocity(axis) => (&mut state.r_b_n_dot[at(axis)], 1.0),
@@ -88,7 +90,7 @@ fn changed(placed: &mut Placed<List>, variable: Variable, by: f64) -> Option<f64
 }
 
 /// Accelerations with a variable changed by a share of its size, and that size.
-fn with(placed: &Placed<List>, variable: Variable, by: f64) -> Option<(Vec<f64>, f64)> {
+fn with(placed: &PreparedCase<List>, variable: Variable, by: f64) -> Option<(Vec<f64>, f64)> {
     let mut placed = placed.clone();
     let size = changed(&mut placed, variable, by)?;
     let found = placed.craft.accelerations(&placed.state, &placed.inputs).ok()?;
@@ -96,7 +98,7 @@ fn with(placed: &Placed<List>, variable: Variable, by: f64) -> Option<(Vec<f64>,
 }
 
 /// The block of each acceleration: of B, of the hub, of each device.
-fn blocks(placed: &Placed<List>) -> Vec<usize> {
+fn blocks(placed: &PreparedCase<List>) -> Vec<usize> {
     let joints = placed.craft.joints().map(|(device, _)| device + 2);
     [0, 0, 0, 1, 1, 1].into_iter().chain(joints).collect()
 }
@@ -113,7 +115,7 @@ pub fn derivatives_are_differences(case: &Case) -> Verdict {
         .devices
         .iter()
         .any(|device| device.parameters().passive.iter().any(|passive| passive.coulomb != 0.0));
-    let Placed { craft, state, inputs } = &placed;
+    let PreparedCase { craft, state, inputs } = &placed;
     let (blocks, mut columns) = (blocks(&placed), Vec::new());
     let variables = craft.state_variables(inputs).chain(craft.input_variables(inputs));
     let variables: Vec<_> =

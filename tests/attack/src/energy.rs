@@ -7,7 +7,7 @@ use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::bodies::rotation;
 use super::call_results::no_accelerations;
-use super::case::{Case, Placed};
+use super::case::{Case, PreparedCase};
 use super::draw::Profile;
 use super::number::Number;
 use super::residual::numbers;
@@ -26,7 +26,9 @@ const STOP: f64 = 200.0;
 /// # Errors
 /// Where it does not hold.
 pub fn ledger_balances(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let Ok(found) = craft.accelerations(&state, &inputs) else { return Ok(Checked::Rejected) };
     let ledger = craft.ledger(&state, &inputs, &found).map_err(|error| error.to_string())?;
     // The magnitude counts sums, not their terms: where terms cancel, rounding is that of the
@@ -102,7 +104,9 @@ fn set(case: &mut Case, joints: &[[f64; 2]]) {
 /// # Errors
 /// Where it does not hold.
 pub fn kinetic_energy_is_not_negative(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let ledger = no_accelerations(&craft)
         .map(|still| craft.ledger(&state, &inputs, &still).map(|ledger| ledger.kinetic));
     let mut checked = Checked::Rejected;
@@ -142,7 +146,9 @@ pub fn moving() -> BoxedStrategy<Case> {
 /// # Errors
 /// Where it does not hold.
 pub fn stop_conserves(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let Ok(stopped) = craft.stop(&state, &inputs) else { return Ok(Checked::Rejected) };
     let next = &stopped.state;
     let modes = inputs.modes.values();
@@ -201,7 +207,9 @@ pub fn stop_conserves(case: &Case) -> Verdict {
 /// # Errors
 /// Where it does not hold.
 pub fn locked_stays_locked(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     if inputs.modes.values().all(|mode| mode != Mode::Locked) {
         return Ok(Checked::Rejected);
     }

@@ -6,7 +6,7 @@ use precess_dynamics::{
 };
 
 use super::call_results::{CallResult, call_results};
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::shapes::{across, batched, in_every_shape};
 use super::variants::batched_variants;
 use super::{Checked, Verdict};
@@ -61,8 +61,8 @@ pub fn result_or_error(case: &Case) -> Verdict {
 }
 
 /// The same by modified Rodrigues parameters, which may be as large as they like.
-fn with_parameters(list: &Placed<List>, dt: f64) -> Verdict {
-    let Placed { craft, state, inputs } = list;
+fn with_parameters(list: &PreparedCase<List>, dt: f64) -> Verdict {
+    let PreparedCase { craft, state, inputs } = list;
     let Quaternion { q1, q2, q3, .. } = state.attitude;
     for attitude in [Mrp::from(state.attitude), Mrp::from_components(q1, q2, q3)] {
         let state = State {
@@ -87,8 +87,8 @@ fn with_parameters(list: &Placed<List>, dt: f64) -> Verdict {
 }
 
 /// Every number of a state in the order in which they are checked.
-fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
-    let Placed { craft, state, .. } = list;
+fn of_state(list: &PreparedCase<List>) -> Vec<(Quantity, f64)> {
+    let PreparedCase { craft, state, .. } = list;
     let mut all = Vec::new();
     all.extend(state.r_b_n.iter().map(|x| (Quantity::Position, *x)));
     all.extend(state.r_b_n_dot.iter().map(|x| (Quantity::Velocity, *x)));
@@ -105,8 +105,8 @@ fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
 }
 
 /// Every number of inputs in the order in which they are checked.
-fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
-    let Placed { craft, inputs, .. } = list;
+fn of_inputs(list: &PreparedCase<List>) -> Vec<(Quantity, f64)> {
+    let PreparedCase { craft, inputs, .. } = list;
     let mut all = Vec::new();
     all.extend(inputs.force.iter().map(|x| (Quantity::Force, *x)));
     all.extend(inputs.torque_b.iter().map(|x| (Quantity::TorqueB, *x)));
@@ -136,7 +136,7 @@ fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
 }
 
 /// What is rejected first; the value of an attitude is what the attitude shows.
-fn first_bad(list: &Placed<List>, all: &[(Quantity, f64)]) -> Option<(Quantity, f64)> {
+fn first_bad(list: &PreparedCase<List>, all: &[(Quantity, f64)]) -> Option<(Quantity, f64)> {
     let (what, value) = *all.iter().find(|(_, value)| !value.is_finite())?;
     let shown = if what == Quantity::Attitude { list.state.attitude.extreme() } else { value };
     Some((what, shown))

@@ -29,7 +29,7 @@ pub mod sizes;
 pub mod typed_errors;
 pub mod variants;
 
-pub use case::{Case, List, Placed};
+pub use case::{Case, List, PreparedCase};
 
 /// What became of a case: whether the property applied to it, or why it does not hold.
 pub type Verdict = Result<Checked, String>;

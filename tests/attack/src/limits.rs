@@ -9,7 +9,7 @@ use precess_tests::double_double::DoubleDouble;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::call_results::of_accelerations;
-use super::case::{Case, Placed};
+use super::case::{Case, PreparedCase};
 use super::number::Number;
 use super::residual::{numbers, wide};
 use super::sizes::sizes;
@@ -50,7 +50,9 @@ pub fn far_and_near() -> BoxedStrategy<Case> {
 /// # Errors
 /// Where it does not hold.
 pub fn central_gravity(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let Gravity::Central { mu } = inputs.gravity else { return Ok(Checked::Rejected) };
     let size = state.r_b_n.amax();
     let unit = state.r_b_n / size;
@@ -112,7 +114,7 @@ pub fn near_lock() -> BoxedStrategy<Case> {
 /// # Errors
 /// Where it does not hold.
 pub fn near_singular(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs: given }) = case.list() else {
+    let Ok(PreparedCase { craft, state, inputs: given }) = case.list() else {
         return Ok(Checked::Rejected);
     };
     let found = match craft.accelerations(&state, &given) {
@@ -123,7 +125,7 @@ pub fn near_singular(case: &Case) -> Verdict {
     let reference = case
         .placed(&case.devices_in::<DoubleDouble>())
         .map_err(|error| format!("in double-double: {error}"))?;
-    let Placed { craft, state: exact, inputs } = &reference;
+    let PreparedCase { craft, state: exact, inputs } = &reference;
     let exact = craft.accelerations(exact, inputs).map_err(|error| error.to_string())?;
     let exact = wide(&of_accelerations(&exact));
     let gamma_i = state.devices.states().nth(1).map_or(0.0, |[q, _]| q);

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use precess_dynamics::{JointStates, SolveError, Spacecraft, State};
 
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::{Checked, Verdict};
 
 /// A step that is too long for any spring and damper of the cases, in steps of the case.
@@ -25,7 +25,9 @@ const GROWTH: f64 = 1e-4;
 /// # Errors
 /// Where it does not hold.
 pub fn longest_step_holds(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let mut start = state;
     (start.omega, start.r_b_n_dot) = (Vector3::zeros(), Vector3::zeros());
     for [coordinate, rate] in start.devices.states_mut() {

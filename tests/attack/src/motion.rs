@@ -7,7 +7,7 @@ use precess_dynamics::{
     Attitude, BuiltIn, Gravity, JointStates, Mrp, Passive, Quaternion, SolveError, State,
 };
 
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::residual::{from_numbers, numbers, solves};
 use super::shapes::wrapped;
 use super::sizes::motion;
@@ -35,7 +35,7 @@ fn passives(list: &List) -> Vec<Passive> {
 /// Where it does not hold.
 pub fn wrapping_changes_nothing(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
-    let after = Placed { state: wrapped(&list), ..list.clone() };
+    let after = PreparedCase { state: wrapped(&list), ..list.clone() };
     let joints = list.state.devices.states().zip(after.state.devices.states());
     for (([q, _], [found, _]), ((device, info), passive)) in
         joints.zip(list.craft.joints().zip(passives(&case.devices)))
@@ -49,7 +49,7 @@ pub fn wrapping_changes_nothing(case: &Case) -> Verdict {
             return Err(what);
         }
     }
-    let Placed { craft, state, inputs } = &list;
+    let PreparedCase { craft, state, inputs } = &list;
     let before = craft.accelerations(state, inputs).map(|found| numbers(&found));
     let found = craft.accelerations(&after.state, inputs).map(|found| numbers(&found));
     let (before, found) = match (&before, &found) {
@@ -59,7 +59,7 @@ pub fn wrapping_changes_nothing(case: &Case) -> Verdict {
     };
     solves(case, &list, found, "accelerations of wrapped angles")?;
     let accelerations = from_numbers(craft, before)?;
-    let ledger = |placed: &Placed<List>| craft.ledger(&placed.state, inputs, &accelerations);
+    let ledger = |placed: &PreparedCase<List>| craft.ledger(&placed.state, inputs, &accelerations);
     let (Ok(old), Ok(new)) = (ledger(&list), ledger(&after)) else {
         return Ok(Checked::Rejected);
     };
@@ -175,20 +175,20 @@ fn with_attitude<A>(state: &State<List>, attitude: A) -> State<List, A> {
 
 fn moves_alike<A: Attitude<f64>>(
     case: &Case,
-    list: &Placed<List>,
+    list: &PreparedCase<List>,
     unit: Quaternion,
     other: A,
     dt: f64,
     what: &str,
 ) -> Verdict {
-    let Placed { craft, state, inputs } = list;
+    let PreparedCase { craft, state, inputs } = list;
     let (state, other) = (with_attitude(state, unit), with_attitude(state, other));
     let of_unit = craft.accelerations(&state, inputs);
     let found = craft.accelerations(&other, inputs);
     match (&of_unit, &found) {
         (Ok(_), Ok(found)) => {
             let case = case.with(&state, inputs);
-            let list = Placed { state: state.clone(), ..list.clone() };
+            let list = PreparedCase { state: state.clone(), ..list.clone() };
             solves(&case, &list, &numbers(found), &format!("accelerations with {what}"))?;
         }
         (Err(unit), Err(found)) if same_kind(unit, found) => return Ok(Checked::Rejected),

@@ -9,7 +9,7 @@ use precess_dynamics::{
 };
 
 use super::call_results::{no_accelerations, of_accelerations};
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::sizes::sizes;
 use super::{Checked, Verdict};
 
@@ -39,10 +39,10 @@ pub fn from_numbers<T: Scalar>(
 /// What inverse dynamics rejects, and a prescribed acceleration that differs from the computed one.
 pub fn residual<T: Scalar>(
     case: &Case,
-    list: &Placed<List<T>>,
+    list: &PreparedCase<List<T>>,
     numbers: &[T],
 ) -> Result<(f64, String), String> {
-    let Placed { craft, state, inputs } = list;
+    let PreparedCase { craft, state, inputs } = list;
     let found = from_numbers(craft, numbers)?;
     let loads = craft
         .loads(state, inputs, &found, LoadAxes::Body)
@@ -99,7 +99,7 @@ pub fn residual<T: Scalar>(
 /// Where they do not.
 pub fn solves<T: Scalar>(
     case: &Case,
-    list: &Placed<List<T>>,
+    list: &PreparedCase<List<T>>,
     numbers: &[T],
     what: &str,
 ) -> Verdict {

@@ -9,7 +9,7 @@ use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::bodies::rotation;
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::number::Number;
 use super::{Checked, Verdict};
 
@@ -176,7 +176,9 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
 /// # Errors
 /// Where it does not hold.
 pub fn runs_conserve_or_refuse(case: &Case) -> Verdict {
-    let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
+    let Ok(PreparedCase { craft, state, inputs }) = case.list() else {
+        return Ok(Checked::Rejected);
+    };
     let energy = |state: &State<List>| -> Result<f64, String> {
         let found = craft.accelerations(state, &inputs).map_err(|error| error.to_string())?;
         let ledger = craft.ledger(state, &inputs, &found).map_err(|error| error.to_string())?;

@@ -3,7 +3,7 @@
 use precess_dynamics::Scalar;
 
 use super::call_results::{CallResult, call_results, of_accelerations, of_state};
-use super::case::{Case, Placed};
+use super::case::{Case, PreparedCase};
 use super::shapes::{Batched, across, batched, in_every_shape};
 use super::variants::{batched_variants, first_inputs, variant};
 use super::{Checked, Verdict};
@@ -73,7 +73,7 @@ fn single(case: &Case, each: bool, varied: bool) -> Option<Batched> {
     let mut all = Batched { accelerations: Vec::new(), runs: Vec::new() };
     for (index, (state, inputs)) in case.all().iter().enumerate() {
         let one = if varied { variant(case, index)? } else { case.with(state, inputs) };
-        let Placed { craft, state, inputs } = one.list().ok()?;
+        let PreparedCase { craft, state, inputs } = one.list().ok()?;
         let inputs = match (each, varied) {
             (true, _) => inputs,
             (false, true) => first_inputs(case)?,
@@ -93,7 +93,7 @@ fn single(case: &Case, each: bool, varied: bool) -> Option<Batched> {
 
 fn across_is_spacecraft(case: &Case) -> Verdict {
     let (Some(found), Ok(list)) = (across(case), case.list()) else { return Ok(Checked::Rejected) };
-    let Placed { craft, state, inputs } = &list;
+    let PreparedCase { craft, state, inputs } = &list;
     for (call, found) in found {
         let alone = match call {
             "accelerations across" | "accelerations one after another" => {

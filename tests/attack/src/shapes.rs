@@ -9,7 +9,7 @@ use precess_dynamics::{
 };
 
 use super::call_results::{CallResult, of_accelerations, of_state};
-use super::case::{Case, Placed, given, moved};
+use super::case::{Case, PreparedCase, given, moved};
 
 /// Six kinds; with [`Others`] all but those with flexible bearings.
 pub type Six<T = f64> =
@@ -144,7 +144,7 @@ impl<K: Kind<Scalar = f64, With<f64> = Self> + Taken<f64>> AcrossKind for K {}
 
 fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
-    let Placed { craft, state, inputs } = case.placed(&devices).ok()?;
+    let PreparedCase { craft, state, inputs } = case.placed(&devices).ok()?;
     let results = |side_by_side: bool| {
         let (found, next) = if side_by_side {
             (craft.accelerations(&state, &inputs), craft.step(&state, &inputs, case.dt))
@@ -256,6 +256,6 @@ pub(crate) use in_every_shape;
 
 /// The state with its angles wrapped.
 #[must_use]
-pub fn wrapped<D: precess_dynamics::Devices>(placed: &Placed<D>) -> State<D> {
+pub fn wrapped<D: precess_dynamics::Devices>(placed: &PreparedCase<D>) -> State<D> {
     placed.state.clone().wrapped(&placed.craft)
 }

@@ -11,7 +11,7 @@ use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::bodies::rotation;
 use super::call_results::CallResult;
-use super::case::{Case, List, Placed};
+use super::case::{Case, List, PreparedCase};
 use super::number::Number;
 use super::residual::numbers;
 use super::shapes::{ABREAST, across, batched, in_every_shape};
@@ -134,7 +134,7 @@ pub fn singular_is_refused(case: &Case) -> Verdict {
         other => Err(format!("{what} gives {other:?}")),
     };
     in_every_shape!(case, f64, |shape, placed| {
-        let Placed { craft, state, inputs } =
+        let PreparedCase { craft, state, inputs } =
             placed.map_err(|error| format!("parameters are rejected: {error}"))?;
         refused(&craft.accelerations(&state, &inputs).map(|f| numbers(&f)), shape)?;
         let step = craft.step(&state, &inputs, case.dt);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use precess_dynamics::{Each, Gravity, HubMode, JointStates, Mode, SolveError};
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::case::{Case, Placed};
+use super::case::{Case, PreparedCase};
 use super::draw::Profile;
 use super::residual::numbers;
 use super::shapes::across;
@@ -48,7 +48,10 @@ pub fn cases() -> BoxedStrategy<Case> {
 }
 
 /// What is to be rejected, in the order hub, joints, field.
-fn expected(case: &Case, Placed { craft, state, inputs }: &Placed<super::List>) -> Vec<SolveError> {
+fn expected(
+    case: &Case,
+    PreparedCase { craft, state, inputs }: &PreparedCase<super::List>,
+) -> Vec<SolveError> {
     let _ = case;
     let mut all = Vec::new();
     if inputs.hub == HubMode::Fixed {
@@ -82,7 +85,7 @@ fn expected(case: &Case, Placed { craft, state, inputs }: &Placed<super::List>) 
 pub fn errors_are_typed(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
     let all = expected(case, &list);
-    let Placed { craft, state, inputs } = &list;
+    let PreparedCase { craft, state, inputs } = &list;
     let right = |error: Option<SolveError>, call: &str| match (error, &all[..]) {
         (Some(error), [first, ..]) if error == *first || all.contains(&error) && all.len() > 1 => {
             Ok(())
@@ -110,8 +113,8 @@ pub fn errors_are_typed(case: &Case) -> Verdict {
     Ok(if all.is_empty() { Checked::Rejected } else { Checked::Holds })
 }
 
-fn lists_of_another_length(list: &Placed<super::List>) -> Result<(), String> {
-    let Placed { craft, state, inputs } = list;
+fn lists_of_another_length(list: &PreparedCase<super::List>) -> Result<(), String> {
+    let PreparedCase { craft, state, inputs } = list;
     let expected = state.devices.len();
     let Some(found) = expected.checked_sub(1) else { return Ok(()) };
     let count = SolveError::Count { expected, found };

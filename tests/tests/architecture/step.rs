@@ -234,7 +234,7 @@ fn a_call_that_is_not_there_is_seen() {
                   impl X { fn i() {} }";
     let faults = |tree: &str| faults(&functions(tree), |_| source.to_owned());
     let right = "f  a.rs\n├ g  a.rs\n│ └ closure c of f:\n│   └ h  a.rs\n└ X::i  a.rs\n";
-    assert_eq!(faults(right), [String::new(); 0]);
+    assert!(faults(right).is_empty());
     assert_eq!(faults("f  a.rs\n└ h  a.rs\n  └ X::i  a.rs\n"), ["h does not call i"]);
     assert_eq!(faults("f  a.rs\n└ g  a.rs\n  └ h  a.rs\n"), ["g does not call h"]);
     let wrong = "f  a.rs\n└ g  a.rs\n  └ closure d of g:\n    └ h  a.rs\n";

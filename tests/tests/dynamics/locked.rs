@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    BuiltIn, FixedModes, Flexible, Hub, Inputs, Isolated, JointStates, ModalMount, ModalPoint,
-    Mode, Modes, Platform, Quaternion, Scalar, Sgcmg, Spacecraft, State, Suspension,
+    BuiltIn, FixedModes, Flexible, Inputs, Isolated, JointStates, ModalMount, ModalPoint, Mode,
+    Modes, Platform, Quaternion, Scalar, Spacecraft, State, Suspension,
 };
 
 use super::locked_gyros::{DT, STEPS, Set, devices, hub, inputs, kept, state};

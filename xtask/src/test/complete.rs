@@ -8,7 +8,7 @@ use std::process::Command;
 
 use xtask::run::{output, program, root};
 
-use super::says;
+use super::description;
 use super::suites::{How, SUITES, Suite, UNTESTED};
 
 /// Package and target of every test program that cargo knows of.
@@ -69,7 +69,7 @@ fn every_test_program_has_a_row() {
     let missing: Vec<_> = missing.into_iter().filter(|(_, target)| target != "bin").collect();
     assert!(missing.is_empty(), "without a row in xtask/src/test/suites.rs: {missing:?}");
     for (package, target) in rows.iter().filter(|(_, target)| target != "lib" && target != "bin") {
-        assert!(says::file(package, target).is_some(), "{package} has no test {target}");
+        assert!(description::file(package, target).is_some(), "{package} has no test {target}");
     }
 }
 

@@ -5,10 +5,10 @@
 //! end.
 
 mod cost;
+mod description;
 mod outcome;
 mod programs;
 mod queue;
-mod says;
 mod suites;
 mod table;
 

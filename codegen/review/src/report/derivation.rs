@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::errata::tag_and_case;
 use crate::notation::{Accent, Balance, aligned, equation, expression, frame, symbol, terms, unit};
 use precess_codegen::derivation::chain::Chain;
-use precess_codegen::derivation::chain::placed::Placed;
+use precess_codegen::derivation::chain::framed_value::FramedValue;
 use precess_codegen::derivation::quantities::{Quantity, quantities};
 use precess_codegen::graph::Expr;
 use precess_codegen::kernel::{Kernel, kernels, parameters};
@@ -258,7 +258,7 @@ fn unit_of(quantity: &Quantity<'_>) -> Result<String, NotationError> {
     }
 }
 
-fn axes_of(chain: &Chain<'_>, value: Placed<'_>) -> String {
+fn axes_of(chain: &Chain<'_>, value: FramedValue<'_>) -> String {
     value.frame().map(|frame| triad(chain.triad(frame))).unwrap_or_default()
 }
 
@@ -269,9 +269,9 @@ fn written_out<'g>(
     quantity: &Quantity<'g>,
 ) -> Result<(String, usize), NotationError> {
     let labels: Vec<String> = match quantity.value {
-        Placed::Scalar(_) => vec![String::new()],
-        Placed::Vector(_, frame) => chain.triad(frame).map(hat).to_vec(),
-        Placed::Tensor(..) => ENTRIES.map(|entry| format!("{{}}_{{{entry}}}")).to_vec(),
+        FramedValue::Scalar(_) => vec![String::new()],
+        FramedValue::Vector(_, frame) => chain.triad(frame).map(hat).to_vec(),
+        FramedValue::Tensor(..) => ENTRIES.map(|entry| format!("{{}}_{{{entry}}}")).to_vec(),
     };
     let mut shown = Vec::new();
     let mut count = 0;

@@ -1,6 +1,6 @@
 //! A force with its moment, expressed in the current axes, about the current origin.
 
-use super::placed::Placed;
+use super::framed_value::FramedValue;
 use super::{Chain, Coordinate, Link};
 use crate::derivation::script::{pairs, triple};
 use crate::graph::{Expr, Graph};
@@ -82,8 +82,8 @@ fn resolved<'g, F: Frame>(
     chain: &Chain<'g>,
     to: usize,
 ) -> Vector<'g, F> {
-    match Placed::Vector(v, from).along(chain, to) {
-        Placed::Vector(v, _) => Vector::new(v),
+    match FramedValue::Vector(v, from).along(chain, to) {
+        FramedValue::Vector(v, _) => Vector::new(v),
         _ => unreachable!("a vector stays a vector"),
     }
 }

@@ -1,4 +1,4 @@
-//! [`Acting`]: forces, torques and modes at a time, from drives, profiles, wrenches and disturbances.
+//! [`SegmentInputs`]: forces, torques and modes at a time, from drives, profiles, wrenches and disturbances.
 //!
 //! Between two changes no profile jumps, because a segment ends at each of its breaks. At the end
 //! of a segment a profile has its value before the jump, at the start the one after it.
@@ -19,7 +19,7 @@ pub(crate) const LOCKED: &Drive = &Drive::Locked;
 
 /// What acts on the spacecraft during a segment.
 #[derive(Clone, Debug)]
-pub(crate) struct Acting<'a> {
+pub(crate) struct SegmentInputs<'a> {
     /// The present drive of each joint.
     drives: Vec<&'a Drive>,
     /// Whether each joint has a motor as an input; otherwise its kind keeps its rate.
@@ -49,7 +49,7 @@ struct WrenchOnBody<'a> {
     on: WrenchBody,
 }
 
-impl<'a> Acting<'a> {
+impl<'a> SegmentInputs<'a> {
     pub(crate) fn new(scenario: &'a Scenario, joints: &[JointPlace]) -> Self {
         let placed = |wrench: &'a AppliedWrench| {
             let on = match wrench.body {

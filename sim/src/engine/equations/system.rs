@@ -10,7 +10,7 @@ use std::cell::{Cell, RefCell};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
-use super::inputs::Acting;
+use super::inputs::SegmentInputs;
 use super::packing::Layout;
 use super::run_quantities::RunQuantities;
 use crate::scenario::Scenario;
@@ -21,7 +21,7 @@ pub(crate) struct System<'a> {
     scenario: &'a Scenario,
     pub(crate) craft: Craft,
     pub(crate) layout: Layout,
-    pub(crate) acting: Acting<'a>,
+    pub(crate) acting: SegmentInputs<'a>,
     pub(crate) quantities: RunQuantities,
     /// Whether something other than motors and a force on the hub does work, drives aside.
     sources: bool,
@@ -40,7 +40,7 @@ struct Scratch {
 impl<'a> System<'a> {
     pub(crate) fn new(scenario: &'a Scenario, craft: Craft, quantities: RunQuantities) -> Self {
         let layout = Layout::new(scenario);
-        let acting = Acting::new(scenario, &layout.joints);
+        let acting = SegmentInputs::new(scenario, &layout.joints);
         let passive = |is: fn(&Passive) -> bool| {
             scenario.members().any(|(_, member)| member.passive().iter().any(is))
         };

@@ -11,7 +11,7 @@ pub(super) mod segments;
 
 use precess_dynamics::Attitude;
 
-use crate::engine::equations::inputs::Acting;
+use crate::engine::equations::inputs::SegmentInputs;
 use crate::engine::equations::packing::Layout;
 use crate::engine::equations::system::System;
 use crate::engine::integration::{Moment, Stepper};
@@ -142,7 +142,7 @@ impl<'a> Monitors<'a> {
     }
 
     /// The functions that are searched: not those of locked joints.
-    fn functions(&self, acting: &Acting<'_>) -> Vec<Function> {
+    fn functions(&self, acting: &SegmentInputs<'_>) -> Vec<Function> {
         let mut functions = Vec::new();
         for stop in &self.stops {
             if matches!(acting.drive(stop.joint), Drive::Locked) {

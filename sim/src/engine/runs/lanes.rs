@@ -5,7 +5,7 @@
 
 use precess_dynamics::JointStates as _;
 use precess_dynamics::kind::Each as _;
-use precess_lanes::{Acting, Motion, SideBySide, side_by_side};
+use precess_lanes::{Motion, SideBySide, StateInputs, side_by_side};
 
 use super::Run;
 use super::recorded::Recorded;
@@ -21,7 +21,7 @@ const STEPS_MAX: usize = 64;
 pub(crate) struct Lanes {
     crafts: Box<dyn SideBySide>,
     /// State and inputs of each, whether it still runs or not.
-    at: Vec<(Motion, Acting)>,
+    at: Vec<(Motion, StateInputs)>,
 }
 
 impl Lanes {
@@ -107,7 +107,7 @@ impl<'a, 's, 'r> Lane<'a, 's, 'r> {
     }
 
     /// Writes state and inputs, where the coming steps are of this length.
-    fn write(&self, length: Option<f64>, at: &mut (Motion, Acting)) {
+    fn write(&self, length: Option<f64>, at: &mut (Motion, StateInputs)) {
         if let Some(recorded) = self.recorded.as_ref().filter(|_| self.length() == length) {
             *at = (recorded.run.motion(), recorded.run.acting());
         }
@@ -147,9 +147,9 @@ impl Run<'_> {
         }
     }
 
-    fn acting(&self) -> Acting {
+    fn acting(&self) -> StateInputs {
         let inputs = self.system.inputs(self.time, &self.moment.state);
-        Acting {
+        StateInputs {
             force: inputs.force,
             torque_b: inputs.torque_b,
             motors: inputs.motors.values().collect(),

@@ -4,7 +4,7 @@
 
 use crate::equations::device::Device;
 use crate::model::kind::{JointInfo, Kind};
-use crate::sets::bundle::{At, Bundle, Part};
+use crate::sets::bundle::{Bundle, MemberIndex, Part};
 use crate::sets::devices::{DeviceSet, FixedSet, List, Visit};
 use crate::sets::per_device::PerDevice;
 use crate::validation::check::check_device;
@@ -62,7 +62,7 @@ impl<K: Kind> DeviceSet for K {
         W: DeviceSet<Scalar = K::Scalar>,
         B: Bundle<K::Scalar>,
         V: Visit<K::Scalar, B>,
-        At: Part<W, Of = K>,
+        MemberIndex: Part<W, Of = K>,
     {
         visitor.visit_row::<K, W>(devices, data, first)
     }

@@ -1,8 +1,8 @@
-//! [`Held`], [`HeldMut`]: a kind's data out of an enumeration's, during a visit.
+//! [`KindData`], [`KindDataMut`]: a kind's data out of an enumeration's, during a visit.
 
 /// Data to be read: a copy, or the data where they are.
 #[derive(Debug)]
-pub enum Held<'a, O> {
+pub enum KindData<'a, O> {
     /// A copy, converted to the structures of the kind.
     Copied(O),
     /// Not converted.
@@ -11,14 +11,14 @@ pub enum Held<'a, O> {
 
 /// Data to be changed: a copy and where it is put back, or the data where they are.
 #[derive(Debug)]
-pub enum HeldMut<'a, O, M> {
+pub enum KindDataMut<'a, O, M> {
     /// A copy, converted to the structures of the kind, and where it is put back.
     Copied(O, &'a mut M),
     /// Not converted.
     InPlace(&'a mut O),
 }
 
-impl<O> Held<'_, O> {
+impl<O> KindData<'_, O> {
     /// The data.
     #[inline]
     pub(crate) fn refer(&self) -> &O {
@@ -29,7 +29,7 @@ impl<O> Held<'_, O> {
     }
 }
 
-impl<O, M> HeldMut<'_, O, M> {
+impl<O, M> KindDataMut<'_, O, M> {
     /// The data.
     #[inline]
     pub(crate) fn refer(&mut self) -> &mut O {

@@ -1,4 +1,4 @@
-//! [`Carrier`]: a platform in an elimination. What it carries is eliminated into its own equations,
+//! [`PlatformConstants`]: a platform in an elimination. What it carries is eliminated into its own equations,
 //! then its joints, by their modes, into those of its base.
 
 use crate::equations::assembly::Assembly;
@@ -23,7 +23,7 @@ use crate::numbers::vec3::zeros;
 
 /// A platform, precomputed.
 #[derive(Clone, Debug)]
-pub struct Carrier<T: Scalar> {
+pub struct PlatformConstants<T: Scalar> {
     pub(crate) device: Device<Platform<T>>,
     pub(crate) suspension: Suspension<T>,
     /// The platform with the constant shares of what it carries, about P, platform axes.
@@ -33,8 +33,8 @@ pub struct Carrier<T: Scalar> {
 }
 
 /// A platform whose carried devices are to be eliminated.
-pub(crate) struct Carrying<'a, T: Scalar> {
-    pub(crate) carrier: &'a Carrier<T>,
+pub(crate) struct PlatformElimination<'a, T: Scalar> {
+    pub(crate) carrier: &'a PlatformConstants<T>,
     /// Its number among the devices.
     pub(crate) device: usize,
     joints: &'a Joints<T>,
@@ -47,10 +47,10 @@ pub(crate) struct Carrying<'a, T: Scalar> {
     pub(crate) assembly: Assembly<T>,
 }
 
-impl<'a, T: Scalar> Carrying<'a, T> {
+impl<'a, T: Scalar> PlatformElimination<'a, T> {
     /// The platform's motion, and its own equations before those of any carried device are added.
     pub(crate) fn start(
-        carrier: &'a Carrier<T>,
+        carrier: &'a PlatformConstants<T>,
         device: usize,
         joints: &'a Joints<T>,
         base: &'a Environment<T>,

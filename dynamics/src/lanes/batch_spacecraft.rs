@@ -1,5 +1,5 @@
-//! [`Crafts`]: the spacecraft of a batch, one for all states ([`SameCraft`]) or one for each
-//! ([`EachCraft`]).
+//! [`BatchSpacecraft`]: the spacecraft of a batch, one for all states ([`SharedSpacecraft`]) or one for each
+//! ([`SpacecraftPerState`]).
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -16,7 +16,7 @@ use crate::numbers::laned::Number;
 use crate::solve::spacecraft::Spacecraft;
 
 /// The spacecraft of a batch.
-pub(super) trait Crafts<D: LanedSet>: Debug + Send + Sync {
+pub(super) trait BatchSpacecraft<D: LanedSet>: Debug + Send + Sync {
     /// Whether each state has its own.
     const EACH: bool;
 
@@ -37,18 +37,18 @@ pub(super) trait Crafts<D: LanedSet>: Debug + Send + Sync {
 
 /// One spacecraft for all states.
 #[derive(Debug)]
-pub(super) struct SameCraft<D: LanedSet> {
+pub(super) struct SharedSpacecraft<D: LanedSet> {
     craft: Spacecraft<D>,
     own: OwnLoads,
 }
 
-impl<D: LanedSet> SameCraft<D> {
+impl<D: LanedSet> SharedSpacecraft<D> {
     pub(super) fn new(craft: Spacecraft<D>) -> Self {
         Self { own: OwnLoads::of(&craft), craft }
     }
 }
 
-impl<D: LanedSet> Crafts<D> for SameCraft<D> {
+impl<D: LanedSet> BatchSpacecraft<D> for SharedSpacecraft<D> {
     const EACH: bool = false;
 
     fn all(&self) -> &[Spacecraft<D>] {
@@ -73,13 +73,13 @@ impl<D: LanedSet> Crafts<D> for SameCraft<D> {
 
 /// One spacecraft for each state.
 #[derive(Debug)]
-pub(super) struct EachCraft<D: LanedSet> {
+pub(super) struct SpacecraftPerState<D: LanedSet> {
     crafts: Vec<Spacecraft<D>>,
     /// As many spacecraft as there are lanes, side by side; none where their lists differ in length.
     groups: Vec<Option<CraftBlocks<D>>>,
 }
 
-impl<D: LanedSet> EachCraft<D> {
+impl<D: LanedSet> SpacecraftPerState<D> {
     pub(super) fn new(crafts: Vec<Spacecraft<D>>) -> Self {
         // The registers that every evaluation chooses.
         let groups = crafts.chunks(Registers::widest().map_or(1, Registers::width));
@@ -88,7 +88,7 @@ impl<D: LanedSet> EachCraft<D> {
     }
 }
 
-impl<D: LanedSet> Crafts<D> for EachCraft<D> {
+impl<D: LanedSet> BatchSpacecraft<D> for SpacecraftPerState<D> {
     const EACH: bool = true;
 
     fn all(&self) -> &[Spacecraft<D>] {
@@ -113,7 +113,7 @@ impl<D: LanedSet> Crafts<D> for EachCraft<D> {
 
 /// The spacecraft of a group of lanes; the constants of their devices are taken into the slots.
 #[inline(always)]
-pub(super) fn entered<'a, D: LanedSet, T: Number, C: Crafts<D>>(
+pub(super) fn entered<'a, D: LanedSet, T: Number, C: BatchSpacecraft<D>>(
     crafts: &'a C,
     group: usize,
     slots: &mut SlotsOf<D, T>,

@@ -17,16 +17,16 @@ use crate::sets::enumeration::DeviceEnum;
 use crate::sets::per_device::{Accelerations, Joints};
 
 /// The stage, the start, the sum of slopes, and the accelerations at the stage.
-pub(crate) type Followed = (Unique<Joints>, Shared<Joints>, Unique<Joints>, Shared<Accelerations>);
+pub(crate) type StageData = (Unique<Joints>, Shared<Joints>, Unique<Joints>, Shared<Accelerations>);
 
 /// Adds `weight` times the slope to the sum, and sets the next stage: the start plus `offset` times
 /// the slope, s both.
-pub(crate) struct Follow<T> {
+pub(crate) struct NextStage<T> {
     pub(crate) weight: T,
     pub(crate) offset: T,
 }
 
-impl<T: Scalar> Follow<T> {
+impl<T: Scalar> NextStage<T> {
     #[inline(always)]
     fn joints<J: JointStates<T>>(
         &self,
@@ -45,14 +45,14 @@ impl<T: Scalar> Follow<T> {
     }
 }
 
-impl<T: Scalar> Visit<T, Followed> for Follow<T> {
+impl<T: Scalar> Visit<T, StageData> for NextStage<T> {
     type Error = Infallible;
 
     #[inline(always)]
     fn visit<K: Kind<Scalar = T>>(
         &mut self,
         _: &Device<K>,
-        data: <Followed as Bundle<T>>::Of<'_, K>,
+        data: <StageData as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
         self.joints(data);
         Ok(())
@@ -62,7 +62,7 @@ impl<T: Scalar> Visit<T, Followed> for Follow<T> {
     fn visit_enum<E: DeviceEnum<Scalar = T> + Devices>(
         &mut self,
         _: &E::Prepared,
-        data: <Followed as Bundle<T>>::Of<'_, E>,
+        data: <StageData as Bundle<T>>::Of<'_, E>,
     ) -> Result<(), Infallible> {
         self.joints(data);
         Ok(())
@@ -70,12 +70,12 @@ impl<T: Scalar> Visit<T, Followed> for Follow<T> {
 }
 
 /// What becomes the end of the step, the start, and the sum of slopes.
-pub(crate) type Reached = (Unique<Joints>, Shared<Joints>, Shared<Joints>);
+pub(crate) type StepEndData = (Unique<Joints>, Shared<Joints>, Shared<Joints>);
 
 /// Sets the start plus the sum of slopes; a joint that does not move, such as a locked one, keeps its bits.
-pub(crate) struct Reach;
+pub(crate) struct StepEnd;
 
-impl Reach {
+impl StepEnd {
     #[inline(always)]
     fn joints<T: Scalar, J: JointStates<T>>((next, start, sum): (&mut J, &J, &J)) {
         let joints = next.states_mut().zip(start.states().zip(sum.states()));
@@ -86,14 +86,14 @@ impl Reach {
     }
 }
 
-impl<T: Scalar> Visit<T, Reached> for Reach {
+impl<T: Scalar> Visit<T, StepEndData> for StepEnd {
     type Error = Infallible;
 
     #[inline(always)]
     fn visit<K: Kind<Scalar = T>>(
         &mut self,
         _: &Device<K>,
-        data: <Reached as Bundle<T>>::Of<'_, K>,
+        data: <StepEndData as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
         Self::joints::<T, _>(data);
         Ok(())
@@ -103,7 +103,7 @@ impl<T: Scalar> Visit<T, Reached> for Reach {
     fn visit_enum<E: DeviceEnum<Scalar = T> + Devices>(
         &mut self,
         _: &E::Prepared,
-        data: <Reached as Bundle<T>>::Of<'_, E>,
+        data: <StepEndData as Bundle<T>>::Of<'_, E>,
     ) -> Result<(), Infallible> {
         Self::joints::<T, _>(data);
         Ok(())

@@ -11,7 +11,7 @@ use crate::space::{BodyFrame, ParentFrame, Symmetric, Vector};
 
 /// Components and the number of their frame.
 #[derive(Clone, Copy)]
-pub enum Placed<'g> {
+pub enum FramedValue<'g> {
     /// A number: the same in every frame.
     Scalar(Expr<'g>),
     /// A vector.
@@ -20,7 +20,7 @@ pub enum Placed<'g> {
     Tensor([Expr<'g>; 6], usize),
 }
 
-impl<'g> Placed<'g> {
+impl<'g> FramedValue<'g> {
     /// The same expressed in frame `target`.
     #[must_use]
     pub fn along(self, chain: &Chain<'g>, target: usize) -> Self {
