@@ -5,8 +5,8 @@ use std::sync::Arc;
 use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
 use precess::record::RunError;
 use precess::scenario::Scenario;
-use precess_dynamics::{BuiltIn, Each as _, Hub, ParameterError, SolveError};
-use precess_lanes::{StateInputs, BatchSupport, Lanes, PART, RunObserver, SEGMENT, Steps, lanes};
+use precess_dynamics::{BuiltIn, Hub, ParameterError, SolveError};
+use precess_lanes::{BatchSupport, Lanes, PART, RunObserver, SEGMENT, StateInputs, Steps, lanes};
 use pyo3::PyErr;
 
 use super::reduce::PartHistory;
@@ -78,7 +78,7 @@ impl Engine {
     ) -> StateResults {
         match self {
             Self::Lanes(lanes, errors) => {
-                let ends = lanes.accelerations(part, y, &acting(inputs), out);
+                let ends = lanes.accelerations(part, y, &state_inputs(inputs), out);
                 joined(ends, errors, part, count)
             }
             Self::Scalar(all, each) => {
@@ -114,7 +114,7 @@ impl Engine {
                 let count = y.len() / size;
                 let mut see = |index: usize, steps: usize, row: &[f64]| kept.see(index, steps, row);
                 let watch = RunObserver { see: &mut see, go };
-                let ends = lanes.run(part, y, &acting(inputs), steps, watch);
+                let ends = lanes.run(part, y, &state_inputs(inputs), steps, watch);
                 joined(ends, errors, part, count)
             }
             Self::Scalar(all, each) => {
@@ -193,16 +193,6 @@ fn of_kind(scenarios: &[&Scenario], each: bool, in_lanes: bool) -> Option<Engine
     }
 }
 
-/// Inputs as lanes take them.
-fn acting(inputs: &[CraftInputs]) -> Vec<StateInputs> {
-    let one = |of: &CraftInputs| StateInputs {
-        force: of.force,
-        torque_b: of.torque_b,
-        motors: of.motors.values().collect(),
-        modes: of.modes.values().collect(),
-        hub: of.hub,
-        gravity: of.gravity,
-        bodies: of.bodies.as_ref().map(|bodies| bodies.values().collect()),
-    };
-    inputs.iter().map(one).collect()
+fn state_inputs(inputs: &[CraftInputs]) -> Vec<StateInputs> {
+    inputs.iter().map(StateInputs::new).collect()
 }

@@ -28,7 +28,7 @@ use crate::scenario::NativeScenario;
 use engine::{Engine, Failure};
 use reduce::{BatchHistory, Reduction};
 use rows::failed_rows;
-pub(crate) use rows::{InputRows, BatchRows, Linearized, Sizes};
+pub(crate) use rows::{BatchRows, InputRows, Linearized, Sizes};
 use work::{Progress, share, watched};
 
 type Rows<'py> = Bound<'py, PyArray2<f64>>;

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use precess::evaluation::{CraftInputs, EvaluationError};
 use pyo3::prelude::*;
 
-use crate::batch::{InputRows, BatchRows, Linearized, NativeBatch};
+use crate::batch::{BatchRows, InputRows, Linearized, NativeBatch};
 use crate::errors;
 use crate::inputs::NativeInputs;
 use abi::{Buffer, CallFrame, Error, ScalarAttribute};

@@ -14,7 +14,8 @@ pub use side_by_side::{Motion, SideBySide, side_by_side};
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    BuiltIn, Gravity, Hub, HubMode, Mode, ParameterError, SolveError, Wrench, every_kind,
+    BuiltIn, Devices, Each as _, Gravity, Hub, HubMode, Inputs, Mode, ParameterError, SolveError,
+    StructureData, Wrench, every_kind,
 };
 
 /// States of a part: whole groups of the widest lanes, and several parts for each thread.
@@ -37,6 +38,22 @@ pub struct StateInputs {
     pub gravity: Gravity<f64>,
     /// Wrenches on the bodies, where there are any.
     pub bodies: Option<Vec<Wrench<f64>>>,
+}
+
+impl StateInputs {
+    /// Those of a spacecraft with any set of devices.
+    #[must_use]
+    pub fn new<D: Devices<Scalar = f64>, S: StructureData>(inputs: &Inputs<D, S>) -> Self {
+        Self {
+            force: inputs.force,
+            torque_b: inputs.torque_b,
+            motors: inputs.motors.values().collect(),
+            modes: inputs.modes.values().collect(),
+            hub: inputs.hub,
+            gravity: inputs.gravity,
+            bodies: inputs.bodies.as_ref().map(|bodies| bodies.values().collect()),
+        }
+    }
 }
 
 /// Sees states on the way: number within the part, steps so far, state.

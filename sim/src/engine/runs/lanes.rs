@@ -4,7 +4,6 @@
 //! another length, or fails, makes it by itself.
 
 use precess_dynamics::JointStates as _;
-use precess_dynamics::kind::Each as _;
 use precess_lanes::{Motion, SideBySide, StateInputs, side_by_side};
 
 use super::Run;
@@ -109,7 +108,7 @@ impl<'a, 's, 'r> Lane<'a, 's, 'r> {
     /// Writes state and inputs, where the coming steps are of this length.
     fn write(&self, length: Option<f64>, at: &mut (Motion, StateInputs)) {
         if let Some(recorded) = self.recorded.as_ref().filter(|_| self.length() == length) {
-            *at = (recorded.run.motion(), recorded.run.acting());
+            *at = (recorded.run.motion(), recorded.run.state_inputs());
         }
     }
 
@@ -147,17 +146,8 @@ impl Run<'_> {
         }
     }
 
-    fn acting(&self) -> StateInputs {
-        let inputs = self.system.inputs(self.time, &self.moment.state);
-        StateInputs {
-            force: inputs.force,
-            torque_b: inputs.torque_b,
-            motors: inputs.motors.values().collect(),
-            modes: inputs.modes.values().collect(),
-            hub: inputs.hub,
-            gravity: inputs.gravity,
-            bodies: inputs.bodies.map(|bodies| bodies.values().collect()),
-        }
+    fn state_inputs(&self) -> StateInputs {
+        StateInputs::new(&self.system.inputs(self.time, &self.moment.state))
     }
 
     /// Takes over the motion after so many steps.

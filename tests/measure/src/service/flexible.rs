@@ -1,17 +1,14 @@
 //! Four reaction wheels on what gives: on flexible bearings, on an isolated platform, on a flexible
 //! structure; and on a rigid hub.
 
-use std::hint::black_box;
-
 use precess_dynamics::{
-    Devices, Flexible, FlexibleReactionWheel, Inputs, Isolated, ListedModes, Quaternion,
-    ReactionWheel, Spacecraft, State, Suspension,
+    Devices, Flexible, FlexibleReactionWheel, Inputs, Isolated, ListedModes, ReactionWheel,
+    Spacecraft, State, Suspension,
 };
 use precess_tests::bending::{WHEELS, structure, swing};
-use serde_json::Value;
 
 use super::listed::Listed;
-use super::single_state::{NUDGE, SingleState, flat};
+use super::single_state::SingleState;
 use super::{Rejected, Service};
 
 /// Opens a case, by what is in its file.
@@ -30,7 +27,7 @@ pub(super) fn open(
     }
     match listed.modes {
         0 => Ok(Box::new(one(listed, &wheels)?)),
-        _ => Ok(Box::new(Bending::open(listed, &wheels)?)),
+        _ => Ok(Box::new(on_mounts(listed, &wheels)?)),
     }
 }
 
@@ -45,39 +42,16 @@ fn one<D: Devices<Scalar = f64>>(listed: &Listed, devices: &D) -> Result<SingleS
 }
 
 /// A structure with a wheel on each of four mounts.
-struct Bending {
-    craft: Spacecraft<[ReactionWheel; WHEELS], Flexible<ListedModes>>,
-    state: State<[ReactionWheel; WHEELS], Quaternion, Flexible<ListedModes>>,
-    inputs: Inputs<[ReactionWheel; WHEELS], Flexible<ListedModes>>,
-}
-
-impl Bending {
-    fn open(listed: &Listed, wheels: &[ReactionWheel; WHEELS]) -> Result<Self, Rejected> {
-        let rigid = one(listed, wheels)?;
-        let modes = structure(listed.modes, &wheels.map(|wheel| wheel.r_w_b));
-        let craft = Spacecraft::flexible(&listed.hub(), &modes, wheels, &[0, 1, 2, 3])?;
-        let mut state = State::at_rest_for(&craft);
-        state = rigid.state.with_modal(state.modal);
-        swing(&mut state.modal.eta);
-        let inputs = rigid.inputs.with_modal(Inputs::none_for(&craft).modal);
-        Ok(Self { craft, state, inputs })
-    }
-}
-
-impl Service for Bending {
-    fn check(&mut self) -> Result<Value, Rejected> {
-        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
-    }
-
-    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
-        for _ in 0..calls {
-            let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
-            self.state.omega += black_box(&found).omega_dot * NUDGE;
-        }
-        Ok(())
-    }
-
-    fn units(&self) -> u32 {
-        1
-    }
+fn on_mounts(
+    listed: &Listed,
+    wheels: &[ReactionWheel; WHEELS],
+) -> Result<SingleState<[ReactionWheel; WHEELS], Flexible<ListedModes>>, Rejected> {
+    let rigid = one(listed, wheels)?;
+    let modes = structure(listed.modes, &wheels.map(|wheel| wheel.r_w_b));
+    let craft = Spacecraft::flexible(&listed.hub(), &modes, wheels, &[0, 1, 2, 3])?;
+    let mut state = State::at_rest_for(&craft);
+    state = rigid.state.with_modal(state.modal);
+    swing(&mut state.modal.eta);
+    let inputs = rigid.inputs.with_modal(Inputs::none_for(&craft).modal);
+    Ok(SingleState { craft, state, inputs })
 }

@@ -3,7 +3,9 @@
 use std::hint::black_box;
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State, StructureData};
+use precess_dynamics::{
+    Accelerations, Devices, Inputs, Quaternion, Rigid, Spacecraft, State, Structure, StructureData,
+};
 use precess_tests::stored::Stored;
 use serde_json::{Value, json};
 
@@ -11,13 +13,13 @@ use super::{Rejected, Service};
 
 /// By what share of its derivative the angular velocity of a call exceeds that of the one before:
 /// enough to make each call wait for the last, not enough to move the state.
-pub(super) const NUDGE: f64 = 1e-15;
+const NUDGE: f64 = 1e-15;
 
-/// A spacecraft in a state.
-pub(crate) struct SingleState<D: Devices> {
-    pub(super) craft: Spacecraft<D>,
-    pub(super) state: State<D>,
-    pub(super) inputs: Inputs<D>,
+/// A spacecraft, its hub rigid or a flexible structure, in a state.
+pub(crate) struct SingleState<D: Devices<Scalar = f64>, S: Structure = Rigid> {
+    pub(super) craft: Spacecraft<D, S>,
+    pub(super) state: State<D, Quaternion, S>,
+    pub(super) inputs: Inputs<D, S>,
 }
 
 impl<D: Devices<Scalar = f64>> SingleState<D> {
@@ -29,7 +31,7 @@ impl<D: Devices<Scalar = f64>> SingleState<D> {
     }
 }
 
-impl<D: Devices<Scalar = f64>> Service for SingleState<D> {
+impl<D: Devices<Scalar = f64>, S: Structure> Service for SingleState<D, S> {
     fn check(&mut self) -> Result<Value, Rejected> {
         Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
