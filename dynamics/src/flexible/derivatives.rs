@@ -4,11 +4,11 @@ use core::convert::Infallible;
 
 use crate::derivatives::structure::StructureDerivatives;
 use crate::equations::device::Device;
-use crate::flexible::inputs::ModalInputs;
-use crate::flexible::spacecraft::{FlexibleConstants, MountConstants};
-use crate::flexible::stability::OwnLimit;
-use crate::flexible::state::{ModalAccelerations, ModalState};
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::equations::spacecraft::{FlexibleConstants, MountConstants};
+use crate::flexible::equations::stability::OwnLimit;
+use crate::flexible::modal::inputs::ModalInputs;
+use crate::flexible::modal::state::{ModalAccelerations, ModalState};
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;

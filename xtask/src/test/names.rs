@@ -67,6 +67,7 @@ const MOVED: &[(&str, &str)] = &[
     ("tests/tests/dynamics/parameter_batch.rs ", "tests/tests/lanes/one_spacecraft_each.rs "),
     ("dynamics/src/attitude/attitude_checks.rs ", "dynamics/src/attitude/attitude_tests.rs "),
     ("dynamics/src/equations/error_checks.rs ", "dynamics/src/equations/error_tests.rs "),
+    ("dynamics/src/flexible/turn.rs ", "dynamics/src/flexible/equations/turn.rs "),
     ("dynamics/src/lanes/fallback_checks.rs ", "dynamics/src/lanes/fallback_tests.rs "),
     ("dynamics/src/model/parameter_info_checks.rs ", "dynamics/src/model/parameter_info_tests.rs "),
     ("dynamics/src/numbers/sincos_checks.rs ", "dynamics/src/numbers/sincos_tests.rs "),

@@ -9,11 +9,13 @@
 use crate::equations::system::{
     Scale, SmallPivot, Solution, System, WELL_SCALED, bound, check_pivot,
 };
-use crate::flexible::basis::Basis;
-use crate::flexible::block::{Block, Six, add_scaled, dot6, joined, parted, sub6, times};
-use crate::flexible::factor::{Right, Rows, back_substitute, factorise};
-use crate::flexible::mount::MountMotion;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::equations::basis::Basis;
+use crate::flexible::equations::block::{
+    Block, Six, add_scaled, dot6, joined, parted, sub6, times,
+};
+use crate::flexible::equations::factor::{Right, Rows, back_substitute, factorise};
+use crate::flexible::equations::mount::MountMotion;
+use crate::flexible::modal::storage::ModalStorage;
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::symmetric::Symmetric;
 

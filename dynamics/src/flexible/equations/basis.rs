@@ -5,9 +5,9 @@
 //! in all directions beside it the mass matrix is the identity. With no more modes than rows, Q is
 //! the identity. Residual coordinates, (F16), are directions of their own, the last ones.
 
-use crate::flexible::block::Six;
-use crate::flexible::factor::inner;
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::equations::block::Six;
+use crate::flexible::equations::factor::inner;
+use crate::flexible::modal::storage::ModalStorage;
 use crate::numbers::real::{Scalar, one, zero};
 
 /// A row whose remainder is below so many epsilons of it depends on those before it.

@@ -5,10 +5,10 @@ use core::fmt::Debug;
 use nalgebra::Vector3;
 
 use crate::equations::hub::HubConstants;
-use crate::flexible::block::{Block, Six, add_scaled};
-use crate::flexible::modes::{ContainedBody, Modes};
-use crate::flexible::modes_error::{ModalQuantity, ModesError};
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::equations::block::{Block, Six, add_scaled};
+use crate::flexible::modal::modes::{ContainedBody, Modes};
+use crate::flexible::modal::modes_error::{ModalQuantity, ModesError};
+use crate::flexible::modal::storage::ModalStorage;
 use crate::model::parameters::Hub;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::components;
@@ -80,7 +80,7 @@ pub(crate) fn check_momenta<T: Scalar>(
 ) -> Result<(), ModesError<T>> {
     let still = [zero(); 3];
     let mut rest: Block<T> =
-        crate::flexible::condense::block(&structure.system(still, still, still));
+        crate::flexible::equations::condense::block(&structure.system(still, still, still));
     let [a, b, c, d, e, f] = &rest;
     let scales = [a[0], b[1], c[2], d[3], e[4], f[5]];
     for column in momenta {

@@ -3,7 +3,7 @@
 
 use core::fmt::Debug;
 
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::modal::storage::ModalStorage;
 
 /// Modal coordinates and their rates: [`State::modal`](crate::State::modal) of a flexible structure.
 #[derive(Clone, Copy, Debug)]

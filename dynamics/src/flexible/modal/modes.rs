@@ -7,7 +7,7 @@ use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::flexible::storage::ModalStorage;
+use crate::flexible::modal::storage::ModalStorage;
 
 /// Modes of a structure: mass-normalised shapes about the floating frame B.
 ///

@@ -4,8 +4,8 @@
 //! undeformed it is B. Devices on the mount have in K the constants that they have in B on a rigid
 //! hub.
 
-use crate::flexible::block::{BlockTriangular, Six, joined, parted};
-use crate::flexible::turn::Turn;
+use crate::flexible::equations::block::{BlockTriangular, Six, joined, parted};
+use crate::flexible::equations::turn::Turn;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{Columns, Vec3, add, cross, map, rotate, rotate_transposed, scale, sub};
 

@@ -2,9 +2,9 @@
 //! (F16) to (F18).
 
 use crate::attitude::quaternion::Quaternion;
-use crate::flexible::modes::Modes;
-use crate::flexible::modes_error::{ModesError, ResidualFault};
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::modal::modes::Modes;
+use crate::flexible::modal::modes_error::{ModesError, ResidualFault};
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::numbers::real::{Scalar, one, two, zero};
 use crate::numbers::vec3::{components, extreme};
 use crate::sets::devices::Devices;
@@ -78,8 +78,8 @@ mod compliance {
     use nalgebra::Vector3;
 
     use super::{ModesError, ResidualFault};
-    use crate::flexible::modes::{ModalPoint, Modes};
-    use crate::flexible::storage::ListedModes;
+    use crate::flexible::modal::modes::{ModalPoint, Modes};
+    use crate::flexible::modal::storage::ListedModes;
     use crate::numbers::real::{Scalar, one, zero};
     use crate::validation::check::rounding;
 

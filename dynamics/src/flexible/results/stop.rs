@@ -8,7 +8,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::gravity::Gravity;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::integrate::energy_lost::{Jump, Jumped, jumped};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;

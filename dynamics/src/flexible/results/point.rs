@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
-use crate::flexible::block::{Six, add_scaled, joined, parted};
-use crate::flexible::modes::ModalPoint;
-use crate::flexible::mount::MountMotion;
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::equations::block::{Six, add_scaled, joined, parted};
+use crate::flexible::equations::mount::MountMotion;
+use crate::flexible::modal::modes::ModalPoint;
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{add, columns, components, cross, finite, rotate, scale, vector, zeros};
 use crate::sets::devices::Devices;

@@ -3,16 +3,16 @@
 
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
-use crate::flexible::basis::Basis;
-use crate::flexible::block::{Six, combined, joined};
-use crate::flexible::check::{check_modes, check_momenta};
-use crate::flexible::devices::Standing;
-use crate::flexible::modes::Modes;
-use crate::flexible::modes_error::ModesError;
-use crate::flexible::mount::MountMotion;
-use crate::flexible::residual::check_residual;
-use crate::flexible::stability::OwnLimit;
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::equations::basis::Basis;
+use crate::flexible::equations::block::{Six, combined, joined};
+use crate::flexible::equations::check::{check_modes, check_momenta};
+use crate::flexible::equations::devices::Standing;
+use crate::flexible::equations::mount::MountMotion;
+use crate::flexible::equations::residual::check_residual;
+use crate::flexible::equations::stability::OwnLimit;
+use crate::flexible::modal::modes::Modes;
+use crate::flexible::modal::modes_error::ModesError;
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::model::parameters::Hub;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};

@@ -4,8 +4,8 @@ use core::fmt::Debug;
 
 use nalgebra::Vector3;
 
-use crate::flexible::modes::ModalPoint;
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::modal::modes::ModalPoint;
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{components, dot};

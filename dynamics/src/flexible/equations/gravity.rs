@@ -6,8 +6,8 @@
 
 use crate::equations::gravity::{Central, gradient_moment};
 use crate::equations::hub::HubConstants;
-use crate::flexible::mount::MountMotion;
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::equations::mount::MountMotion;
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::symmetric::Symmetric;

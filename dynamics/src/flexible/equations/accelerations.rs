@@ -6,16 +6,16 @@ use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::{Scale, Solution, System};
-use crate::flexible::basis::Basis;
-use crate::flexible::block::{Six, combined, finite, joined, parted};
-use crate::flexible::condense::{Condensed, SmallMass};
-use crate::flexible::devices::{
+use crate::flexible::equations::basis::Basis;
+use crate::flexible::equations::block::{Six, combined, finite, joined, parted};
+use crate::flexible::equations::condense::{Condensed, SmallMass};
+use crate::flexible::equations::devices::{
     Eliminated, MountBackSubstitution, MountElimination, MountStage, Substituted,
 };
-use crate::flexible::gravity::on_body;
-use crate::flexible::mount::MountMotion;
-use crate::flexible::spacecraft::{MountConstants, magnitudes};
-use crate::flexible::storage::{Flexible, ModalStorage};
+use crate::flexible::equations::gravity::on_body;
+use crate::flexible::equations::mount::MountMotion;
+use crate::flexible::equations::spacecraft::{MountConstants, magnitudes};
+use crate::flexible::modal::storage::{Flexible, ModalStorage};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
