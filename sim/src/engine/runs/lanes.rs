@@ -43,7 +43,7 @@ impl Lanes {
                 return None;
             }
             crafts.push((scenario.bare_hub().ok()?, devices.clone()));
-            at.push((run.motion(), run.acting()));
+            at.push((run.motion(), run.state_inputs()));
         }
         if crafts.len() < 2 {
             return None;
