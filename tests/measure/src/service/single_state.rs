@@ -13,7 +13,7 @@ use super::{Rejected, Service};
 
 /// By what share of its derivative the angular velocity of a call exceeds that of the one before:
 /// enough to make each call wait for the last, not enough to move the state.
-const NUDGE: f64 = 1e-15;
+pub(super) const NUDGE: f64 = 1e-15;
 
 /// A spacecraft, its hub rigid or a flexible structure, in a state.
 pub(crate) struct SingleState<D: Devices<Scalar = f64>, S: Structure = Rigid> {
