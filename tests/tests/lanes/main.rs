@@ -9,6 +9,5 @@ mod locked_gyros;
 mod one_spacecraft_each;
 #[path = "../isolated/kind.rs"]
 mod platform;
-#[path = "../dynamics/promises/mod.rs"]
 mod promises;
 mod runs;
