@@ -115,39 +115,78 @@ where
 
     fn with<K: Variant<N>>(self, device: &Device<K>) -> Group {
         let Some(group) = device.group.as_deref() else { return Group::Rejected(1) };
-        let Self { elimination, data: (joints, inputs, _), first } = self;
-        let count = group.devices;
-        // Copies in the structures of the kind.
-        let copies = members(first, count, |at| {
-            let joints = of_kind::<K, N, Joints>(at.of::<Joints>(joints)?)?;
-            let motors = of_kind::<K, N, Motors>(at.of::<Motors>(inputs.motors)?)?;
-            let modes = of_kind::<K, N, Modes<T>>(at.of::<Modes<T>>(inputs.modes)?)?;
-            let bodies = match inputs.bodies {
-                Some(bodies) => Some(of_kind::<K, N, Bodies<T>>(at.of::<Bodies<T>>(bodies)?)?),
-                None => None,
-            };
-            Some((joints, motors, modes, bodies))
-        });
-        let Some(copies) = &copies else { return Group::Rejected(count) };
-        let members = copies.each_ref().map(|(joints, motors, modes, bodies)| {
-            (joints, JointInputs { motors, modes, bodies: bodies.as_ref() })
-        });
-        if elimination.group(group, members) {
-            Group::Eliminated(count)
-        } else {
-            Group::Rejected(count)
+        match self.eliminate::<K, N>(group) {
+            Some(true) => Group::Eliminated(group.devices),
+            _ => Group::Rejected(group.devices),
         }
     }
 }
 
-/// A kind's data out of an enumeration's; none where they are of another number of joints.
-fn of_kind<K: Variant<N>, N: DeviceEnum, F: PerDevice<N::Scalar, Of<K>: Copy>>(
-    data: &N::Per<F>,
-) -> Option<F::Of<K>> {
-    if N::count::<F>(data).is_some_and(|count| count != K::JOINTS.len()) {
-        return None;
+impl<T: Scalar, E: Eliminate<T>, W: DeviceSet<Scalar = T>> Row<'_, '_, '_, T, E, W> {
+    /// Eliminates a group; none where its data are not those of its kind.
+    #[inline(always)]
+    fn eliminate<K: Variant<N>, N: DeviceEnum<Scalar = T>>(
+        self,
+        group: &DeviceGroup<K>,
+    ) -> Option<bool>
+    where
+        MemberIndex: Part<W, Of = N>,
+    {
+        let Self { elimination, data: (joints, inputs, _), first } = self;
+        let count = group.devices;
+        // Copies in the structures of the kind, written where they stay.
+        let mut joints_of = [K::at_rest(); WIDEST];
+        copy::<K, N, Joints, W>(joints, first, joints_of.get_mut(..count)?)?;
+        let mut motors_of = [K::motors_off(); WIDEST];
+        copy::<K, N, Motors, W>(inputs.motors, first, motors_of.get_mut(..count)?)?;
+        let mut modes_of = [K::all(Mode::Driven); WIDEST];
+        copy::<K, N, Modes<T>, W>(inputs.modes, first, modes_of.get_mut(..count)?)?;
+        let mut bodies_of = None;
+        if let Some(bodies) = inputs.bodies {
+            let copies = bodies_of.insert([K::all(Wrench::none()); WIDEST]);
+            copy::<K, N, Bodies<T>, W>(bodies, first, copies.get_mut(..count)?)?;
+        }
+        // Lanes without a device repeat the last.
+        let last = count.saturating_sub(1);
+        let (joints, motors, modes) = (&joints_of, &motors_of, &modes_of);
+        let members = core::array::from_fn(
+            #[inline(always)]
+            |lane| {
+                let lane = lane.min(last);
+                let bodies = bodies_of.as_ref().map(|bodies| of_lane(bodies, lane));
+                let (motors, modes) = (of_lane(motors, lane), of_lane(modes, lane));
+                (of_lane(joints, lane), JointInputs { motors, modes, bodies })
+            },
+        );
+        Some(elimination.group(group, members))
     }
-    Some(*N::held::<F, K>(data)?.refer())
+}
+
+/// What a lane has; of no lane there is, the first's.
+#[inline(always)]
+fn of_lane<M>(all: &[M; WIDEST], lane: usize) -> &M {
+    let [first, ..] = all;
+    all.get(lane).unwrap_or(first)
+}
+
+/// Copies of the data of devices in a row in the structures of their kind; none where they are of another.
+#[inline(always)]
+fn copy<K, N, F, W>(of: &W::Per<F>, first: usize, to: &mut [F::Of<K>]) -> Option<()>
+where
+    K: Variant<N>,
+    N: DeviceEnum,
+    F: PerDevice<N::Scalar, Of<K>: Copy>,
+    W: DeviceSet<Scalar = N::Scalar>,
+    MemberIndex: Part<W, Of = N>,
+{
+    for (lane, copy) in to.iter_mut().enumerate() {
+        let data = MemberIndex(first.saturating_add(lane)).of::<F>(of)?;
+        if N::count::<F>(data).is_some_and(|count| count != K::JOINTS.len()) {
+            return None;
+        }
+        *copy = *N::held::<F, K>(data)?.refer();
+    }
+    Some(())
 }
 
 /// Joints of a device, and what is given of them.

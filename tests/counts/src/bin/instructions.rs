@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use precess_dynamics::kind::Kind;
-use precess_dynamics::{Angle, Devices};
+use precess_dynamics::{Angle, BuiltIn, Devices};
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
 
 /// Step of the integrator, s.
@@ -54,6 +54,7 @@ impl Cases {
         self.cases("1", &[dgvscmg(); 1]);
         self.cases("4", &[dgvscmg(); 4]);
         self.cases("16", &[dgvscmg(); 16]);
+        self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
         each_kind(self);
     }
 
