@@ -81,7 +81,7 @@ fn main() {
         row[3 + k] = 1.0;
         Output { name: format!("camera {k}"), terms: vec![("camera".into(), row)] }
     };
-    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
     let start = Instant::now();
     let mut model =
         Model::new(&scenario, &[axis(0), axis(1)], &steady).unwrap_or_else(|e| panic!("{e}"));

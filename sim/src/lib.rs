@@ -61,6 +61,7 @@ pub mod pointing;
 pub mod record;
 #[cfg(feature = "tool")]
 pub mod report;
+mod rotation;
 pub mod scenario;
 pub mod spectra;
 pub mod structure;

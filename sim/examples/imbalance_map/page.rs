@@ -20,7 +20,8 @@ use precess_dynamics::{
     Hub, HubMode, Inputs, LoadAxes, Mode as JointMode, Sgcmg, Spacecraft, State,
 };
 
-const STEADY: Steady<'static> = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+const STEADY: Steady<'static> =
+    Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
 /// The wheel of every row: kg, kg m².
 pub(crate) const MASS: f64 = 6.0;
 pub(crate) const SPIN: f64 = 0.0191;

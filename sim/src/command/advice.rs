@@ -1,5 +1,6 @@
 //! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, or samples for a source, with
-//! what would do; and where B is so far from the centre of mass that a central field about it is not enough.
+//! what would do; where B is so far from the centre of mass that a central field about it is not enough; and where
+//! the start makes the hub drift.
 //!
 //! ```text
 //! samples per turn = 2 pi rate / |omega|        at least 2, the sampling theorem
@@ -21,8 +22,9 @@ use precess_dynamics::{Gravity, JointStates as _};
 
 use super::table::six;
 use crate::file::{Diagnostic, Severity};
+use crate::jitter::settled::settle;
 use crate::scenario::mass::MassProperties;
-use crate::scenario::{IntegratorChoice, Scenario, joint_key};
+use crate::scenario::{IntegratorChoice, Requirement, Scenario, Statistic, joint_key};
 
 /// Fewer, and a figure shows another frequency than the wheel's.
 const SAMPLES_PER_TURN_MIN: f64 = 2.0;
@@ -30,6 +32,9 @@ const SAMPLES_PER_TURN_MIN: f64 = 2.0;
 const SAMPLES_PER_TURN: f64 = 20.0;
 /// Fewer steps of RK4, and the phase of the wheel's force is off by more than 0.5 mrad a turn.
 const STEPS_PER_TURN_MIN: f64 = 20.0;
+
+/// Quantities of the hub that a mean rate or velocity is in.
+const MEAN_QUANTITIES: [&str; 5] = ["omega", "rotation", "sigma", "velocity", "position"];
 
 /// Less, and what a central field about B leaves out is less than two seconds of arc, rad.
 const FIELD_ERROR_MAX: f64 = 1e-5;
@@ -47,6 +52,13 @@ pub(super) enum Advice {
         centre: [f64; 3],
         /// The order of the error of the attitude at the end, rad.
         error: f64,
+    },
+    /// The hub starts at rest, so its vibration begins with a mean rate or velocity, and a requirement has it.
+    Drift {
+        /// The requirement.
+        requirement: String,
+        /// The mean rate, rad/s, and velocity, m/s: magnitudes.
+        mean: [f64; 2],
     },
     /// Samples do not resolve a source.
     Source {
@@ -102,7 +114,29 @@ pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
     let mut advice = advice(scenario, scenario.initial.devices.states().map(|[_, rate]| rate));
     advice.extend(of_sources(scenario));
     advice.extend(of_field(scenario));
+    advice.extend(of_drift(scenario));
     advice
+}
+
+/// The mean rate and velocity of a hub that starts at rest under rotors out of balance, where a requirement has them.
+fn of_drift(scenario: &Scenario) -> Option<Advice> {
+    let state = &scenario.initial;
+    if state.omega.norm() > 0.0 || state.r_b_n_dot.norm() > 0.0 {
+        return None;
+    }
+    let has_mean = |of: &&Requirement| {
+        let stem = of.quantity.trim_end_matches("_x").trim_end_matches("_y").trim_end_matches("_z");
+        let without = matches!(
+            of.statistic,
+            Statistic::BandRms(_) | Statistic::Smear(_) | Statistic::Jitter(_)
+        );
+        MEAN_QUANTITIES.contains(&stem) && !without
+    };
+    let requirement = scenario.requirements.iter().find(has_mean)?.name.clone();
+    let mut settled = scenario.clone();
+    settle(&mut settled).ok()?;
+    let mean = [settled.initial.omega.norm(), settled.initial.r_b_n_dot.norm()];
+    (mean != [0.0; 2]).then_some(Advice::Drift { requirement, mean })
 }
 
 /// What a central field about B leaves out over the run, where it shows.
@@ -157,6 +191,10 @@ impl Advice {
                 "put B at the centre of mass: shift every position, and `initial.position`"
                     .to_owned()
             }
+            Self::Drift { .. } => {
+                "`initial.settled = true` starts in the vibration itself, without the mean"
+                    .to_owned()
+            }
             Self::Source { highest, .. } => {
                 format!("record at more than {} Hz", six(2.0 * highest))
             }
@@ -186,6 +224,13 @@ impl fmt::Display for Advice {
                  and statistics show other frequencies than its own (aliasing)",
                 six(*highest),
                 six(*rate)
+            ),
+            Self::Drift { requirement, mean: [rate, velocity] } => write!(
+                f,
+                "the hub starts at rest while its rotors are out of balance, so it drifts beside its vibration, at \
+                 {} rad/s and {} m/s, and the requirement `{requirement}` counts that",
+                six(*rate),
+                six(*velocity)
             ),
             Self::Field { centre: [x, y, z], error } => write!(
                 f,

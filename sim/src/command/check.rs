@@ -65,13 +65,17 @@ fn properties(scenario: &Scenario) -> String {
     let Ok(spacecraft) = scenario.spacecraft() else { return text };
     let state = &scenario.initial;
     let mut rows = Vec::new();
-    if let Ok(MassProperties { mass, centre_of_mass, inertia_b: i }) =
-        MassProperties::from_spacecraft(scenario, &spacecraft)
-    {
+    if let Ok(properties) = MassProperties::from_spacecraft(scenario, &spacecraft) {
+        let MassProperties { mass, centre_of_mass, inertia_b: i } = properties;
+        let (moments, axes) = properties.principal();
         rows.push(row("total mass", &[mass], "kg"));
         rows.push(row("centre of mass from B, B axes", centre_of_mass.as_slice(), "m"));
         rows.push(row("moments of inertia about B", i.diagonal().as_slice(), "kg m^2"));
         rows.push(row("elements 12, 13, 23 of it", &[i.m12, i.m13, i.m23], "kg m^2"));
+        rows.push(row("principal moments about the centre of mass", moments.as_slice(), "kg m^2"));
+        for (number, axis) in ["first", "second", "third"].into_iter().zip(axes.column_iter()) {
+            rows.push(row(&format!("axis of the {number}, B axes"), axis.as_slice(), ""));
+        }
     }
     if let Ok(momentum) = spacecraft.momentum(state, About::CentreOfMass) {
         rows.push(row("linear momentum, N axes", momentum.linear.as_slice(), "kg m/s"));

@@ -258,7 +258,10 @@ fn summary(budget: &Budget, found: &JitterResults) -> String {
         let (unit, size) = &of.limit.unit;
         rows.push(vec![
             format!("{} ({})", of.limit.name, metric(&of.limit.metric)),
-            of.state().word().to_owned(),
+            match of.violated_by() {
+                Some(by) => format!("{}, but {}", of.state().word(), by.excess()),
+                None => of.state().word().to_owned(),
+            },
         ]);
         let Some(row) = rows.last_mut() else { continue };
         if of.no_data.is_some() {

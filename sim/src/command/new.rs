@@ -15,8 +15,8 @@ use crate::scenario::body_key;
 /// The options of `new`.
 #[derive(Debug, Args)]
 pub(super) struct New {
-    /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, or `wheels` for
-    /// three reaction wheels.
+    /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, `wheels` for three
+    /// reaction wheels, `platform` for a wheel on an isolator.
     #[arg(default_value = "reaction_wheel")]
     what: String,
 }
@@ -26,7 +26,7 @@ impl New {
         let Some(text) = example(&self.what) else {
             let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
             let message = format!(
-                "there is no example of `{}`; there are pyramid, wheels, {}",
+                "there is no example of `{}`; there are platform, pyramid, wheels, {}",
                 self.what,
                 known.join(", ")
             );
@@ -46,15 +46,24 @@ fn example(what: &str) -> Option<String> {
             bodies(&mut text, BuiltInKind::Dgvscmg);
         }
         "wheels" => {
-            for (number, axis) in [(1, "1, 0, 0"), (2, "0, 1, 0"), (3, "0, 0, 1")] {
+            let wheels = [
+                (1, "1, 0, 0", "30, 0, -20 cm"),
+                (2, "0, 1, 0", "0, 30, -20 cm"),
+                (3, "0, 0, 1", "-30, 0, -20 cm"),
+            ];
+            for (number, axis, position) in wheels {
                 let _ = write!(
                     text,
                     "\n[[device]]\nname = \"wheel{number}\"\nkind = \"reaction_wheel\"\n\
-                     position = \"0, 0, 0 cm\"\nmount = {{ spin_axis = [{axis}] }}\n\
+                     position = \"{position}\"\nmount = {{ spin_axis = [{axis}] }}\n\
                      imbalance = {{ static = \"1 g cm\", dynamic = \"20 g cm^2\", phase = \"0 deg\" }}\n"
                 );
                 bodies(&mut text, BuiltInKind::ReactionWheel);
             }
+        }
+        "platform" => {
+            text.push_str(PLATFORM);
+            bodies(&mut text, BuiltInKind::ReactionWheel);
         }
         name => {
             let kind = BuiltInKind::of_name(name)?;
@@ -199,6 +208,8 @@ angular_velocity = "0, 0.06, 0 deg/s"
 # Or: { mrp = [0, 0, 0] }, { axis = [0, 0, 1], angle = "10 deg" },
 # { euler = "0, 0, 10 deg", sequence = "ZYX", direction = "N to B" }.
 attitude = { quaternion = [1, 0, 0, 0], scalar = "first" }
+# The run starts in the vibration of its wheels, about this state: without it a hub at rest drifts.
+settled = true
 "#;
 
 const IMBALANCE: &str = r#"# As the wheel's data sheet states it. The phase is the angle from the force to the torque.
@@ -212,6 +223,32 @@ const PYRAMID: &str = r#"
 name = "cmg"
 kind = "dgvscmg"
 layout.pyramid = { count = 4, half_angle = "54.74 deg", first_azimuth = "0 deg", radius = "30 cm", axis = "z" }
+imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
+"#;
+
+const PLATFORM: &str = r#"
+# An isolator: a body on three slides and three turns, each with a spring and a damper, by its corner frequency with
+# the wheel on it; or by stiffness and damping.
+[[platform]]
+name = "isolator"
+mass = "2 kg"
+inertia = "200, 200, 300 kg cm^2"
+# Of its origin P from B, in the hub's axes.
+position = "0, 0, 50 cm"
+x_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
+y_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
+z_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
+x_turn = { corner_frequency = "25 Hz", damping_ratio = 0.1 }
+y_turn = { corner_frequency = "25 Hz", damping_ratio = 0.1 }
+z_turn = { locked = true }
+
+[[device]]
+name = "wheel1"
+kind = "reaction_wheel"
+# Position and mount are from P, in the platform's axes.
+on = "isolator"
+position = "0, 0, 5 cm"
+mount = { spin_axis = [0, 0, 1] }
 imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
 "#;
 
@@ -274,7 +311,7 @@ mod tests {
     #[test]
     fn every_example_is_a_scenario_without_warning() {
         let kinds = BuiltInKind::ALL.iter().map(|kind| kind.name());
-        for what in kinds.chain(["pyramid", "wheels"]) {
+        for what in kinds.chain(["platform", "pyramid", "wheels"]) {
             let text = example(what).expect("an example");
             let read = from_toml(what, &text, Path::new(""));
             let (_, warnings) = read.unwrap_or_else(|errors| panic!("{what}:\n{errors}\n{text}"));

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Span};
 use super::document::{Entry, Node, Table, Value};
+use super::load::merged;
 use crate::names::{NAME_MAX, name_fault};
 use crate::nearest::nearest;
 
@@ -153,6 +154,12 @@ impl<'a> Keys<'a> {
     /// The table of a key.
     pub(super) fn table(&self, key: &str) -> Option<Keys<'a>> {
         Keys::new(self.node(key)?, &self.path_of(key), self.reports)
+    }
+
+    /// This table with another one's keys over its own.
+    pub(super) fn with(&self, above: &Node) -> Node {
+        let own = Node { value: Value::Table(self.table.clone()), span: self.span.clone() };
+        merged(&own, above)
     }
 
     /// A table without keys, in the place of this one.

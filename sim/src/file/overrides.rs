@@ -4,12 +4,13 @@
 //! |---|---|
 //! | `hub.mass` | a key; a member of a list of tables goes by its name |
 //! | `device.rw*.wheel.rate` | that of all names that match; `*` stands for any letters |
+//! | `device.cmg3.wheel.rate` | that of one device of the layout `cmg` |
 //! | `hub.mass+device.rw.wheel.mass` | each of them |
 //! | `hub.inertia[2]` | the second number of a vector that the file has; also `[x]`, `[y]`, `[z]` |
 //!
 //! Keys with quotation marks are keys as they are.
 
-use super::diagnostic::{Diagnostics, Numbers};
+use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Entry, Node, Table, Value, parse};
 use super::load::{Override, named};
 use crate::units::parse_quantity;
@@ -250,12 +251,47 @@ fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
                 let message = format!("`{key}` is a table, and not {}", other.what());
                 reports.error(&node.span, message, "", "name one of its keys");
             }
-            (None, _) => {
-                let help = format!("there are {}", known.join(", "));
-                reports.error(&key_span, format!("nothing is named `{key}`"), "", &help);
+            (None, value) => {
+                if let (Some(layout), Value::Table(new)) = (layout_of(members, &key), value) {
+                    of_member(layout, &key, &key_span, new, reports);
+                } else {
+                    let help = format!("there are {}", known.join(", "));
+                    reports.error(&key_span, format!("nothing is named `{key}`"), "", &help);
+                }
             }
         }
     }
+}
+
+/// The layout whose devices a name is one of: `cmg3` of the layout `cmg`.
+fn layout_of<'a>(members: &'a mut [Node], name: &str) -> Option<&'a mut Table> {
+    members.iter_mut().find_map(|member| {
+        let number = name.strip_prefix(member.name()?)?;
+        let is_number = number.parse::<u32>().is_ok() && !number.starts_with(['0', '+']);
+        match &mut member.value {
+            Value::Table(table) if is_number && table.get("layout").is_some() => Some(table),
+            _ => None,
+        }
+    })
+}
+
+/// Keys of one device of a layout, as `[[device.member]]` with its name has them.
+fn of_member(layout: &mut Table, name: &str, span: &Span, new: Table, reports: &mut Diagnostics) {
+    let node = |value: Value| Node { value, span: span.clone() };
+    let entry = |key: &str, node: Node| {
+        let (key, key_span) = (key.to_owned(), span.clone());
+        Table { entries: vec![Entry { key, key_span, node }] }
+    };
+    let named = node(Value::Table(entry("name", node(Value::Text(name.to_owned())))));
+    match layout.get_mut("member").map(|entry| &mut entry.node.value) {
+        Some(Value::List(list)) if list.iter().all(|member| member.name() != Some(name)) => {
+            list.push(named);
+        }
+        Some(_) => {}
+        None => layout.entries.extend(entry("member", node(Value::List(vec![named]))).entries),
+    }
+    let of_name = entry(name, node(Value::Table(new)));
+    over(layout, entry("member", node(Value::Table(of_name))), reports);
 }
 
 #[cfg(test)]

@@ -304,6 +304,9 @@ fn requirements(out: &mut String, s: &Scenario) -> Written {
     for requirement in &s.requirements {
         writeln!(out, "\n[[requirement]]\nname = {}", quoted(&requirement.name))?;
         writeln!(out, "quantity = {}", quoted(&requirement.quantity))?;
+        if let Some((key, n)) = requirement.projection.key() {
+            writeln!(out, "{key} = [{:?}, {:?}, {:?}]", n.x, n.y, n.z)?;
+        }
         let statistic = match requirement.statistic {
             Statistic::Peak => "\"peak\"".to_owned(),
             Statistic::Rms => "\"rms\"".to_owned(),

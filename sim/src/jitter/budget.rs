@@ -81,11 +81,28 @@ pub struct ByPhases {
     pub margin: Margin,
 }
 
+impl ByPhases {
+    /// By how much a limit is violated, in words.
+    #[must_use]
+    pub fn excess(&self) -> String {
+        format!("violated by {:.1} dB with {}", -self.margin.decibels(), self.phases.words())
+    }
+}
+
 impl Assessed {
     /// What became of the limit, by the budget's assumption about phases.
     #[must_use]
     pub fn state(&self) -> RequirementState {
         self.state_of(&self.margin)
+    }
+
+    /// Of a limit that is met by the budget's assumption about phases, the other one that violates it by most.
+    #[must_use]
+    pub fn violated_by(&self) -> Option<ByPhases> {
+        let violated = |of: &&ByPhases| self.state_of(&of.margin).is_violated();
+        let others = self.by_phases.iter().skip(1).filter(violated);
+        let worst = others.max_by(|a, b| a.margin.value.total_cmp(&b.margin.value));
+        worst.copied().filter(|_| self.state().is_met())
     }
 
     /// The same by a margin of another assumption.

@@ -13,11 +13,12 @@ use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Quaternion};
 
 use super::budget::Budget;
 use super::device::Steady;
-use super::model::{HUB, Line, Model};
+use super::model::{HUB, Model};
+use super::settled::add_vibration;
 use crate::engine;
 use crate::record::{End, Header, Outcome, RecordError, Recorder, RunError};
 use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
-use crate::structure::{COORDINATES, Fault};
+use crate::structure::Fault;
 
 /// Samples of the fastest line's period.
 const SAMPLES: f64 = 16.0;
@@ -117,7 +118,7 @@ impl Compared {
 /// # Errors
 /// [`CoupledError`].
 pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compared, CoupledError> {
-    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
+    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: Some(&budget.swept) };
     // Only imbalance: the run has no sources, whose noise would be among the lines.
     let model = Model::new(scenario, &budget.outputs(), &steady)?;
     let lines = model.lines(speed)?;
@@ -137,7 +138,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
     let window = wanted.min(LONGEST).min(SAMPLES_MAX / rate);
     let mut run = scenario.clone();
     steady_spin(&mut run, scenario, &model, &steady, speed)?;
-    predicted_start(&mut run, &model, speed, &lines)?;
+    add_vibration(&mut run, &model, speed)?;
     run.settings.duration = window;
     run.settings.integrator = IntegratorChoice::Dop853 { tolerance: TOLERANCE };
     run.output.rate = rate;
@@ -215,67 +216,6 @@ fn steady_spin(
     (run.initial.r_b_n, run.initial.r_b_n_dot, run.initial.omega) = (none, none, none);
     run.initial.attitude = Quaternion::identity();
     Ok(())
-}
-
-/// Adds the motion of all lines at the start.
-fn predicted_start(
-    run: &mut Scenario,
-    model: &Model,
-    speed: f64,
-    lines: &[Line],
-) -> Result<(), CoupledError> {
-    for (contributor, line) in model.contributors().iter().zip(lines) {
-        let w = line.frequency;
-        let mounted = model.mounted(speed, w, &[contributor.place])?;
-        let [frame, modal] = model.accelerance().motion(w, &mounted.force)?;
-        let by_rate = Complex::new(0.0, w).inv();
-        let part = |row: usize| frame[(row, 0)];
-        let at = |first: usize, by: Complex<f64>| {
-            Vector3::from_fn(|axis, _| (part(first + axis) * by).re)
-        };
-        run.initial.r_b_n += at(0, by_rate * by_rate);
-        run.initial.r_b_n_dot += at(0, by_rate);
-        run.initial.omega += at(3, by_rate);
-        let turn = at(3, by_rate * by_rate) * 0.5;
-        let small = Quaternion { q0: 1.0, q1: turn.x, q2: turn.y, q3: turn.z };
-        run.initial.attitude = product(run.initial.attitude, small);
-        if let Some(structure) = &mut run.structure {
-            let modes = structure.coordinates.iter_mut().zip(&mut structure.rates);
-            for ((eta, eta_dot), value) in modes.zip(modal.column(0).iter()) {
-                *eta += value.re;
-                *eta_dot += (value * Complex::new(0.0, w)).re;
-            }
-        }
-        let of_mounts = COORDINATES * model.mounts.len();
-        let moved = mounted.accelerance.rows(0, of_mounts) * &mounted.force;
-        for (number, ((mount, device), condensed)) in
-            model.devices.iter().zip(&mounted.devices).enumerate()
-        {
-            let joints = device.free.len();
-            let mut cause = DVector::zeros(COORDINATES + joints);
-            cause.rows_mut(0, COORDINATES).copy_from(&moved.rows(COORDINATES * mount, COORDINATES));
-            let [of, tone] = contributor.place;
-            if let (true, Some(tone)) = (of == number, device.tones.get(tone)) {
-                cause.rows_mut(COORDINATES, joints).copy_from(&device.joint_loads(tone, speed));
-            }
-            let accelerations = &condensed.joints * cause;
-            for (joint, value) in device.free.iter().zip(accelerations.iter()) {
-                let joint = device.first_joint + joint;
-                if let Some([x, x_dot]) = run.initial.devices.states_mut().nth(joint) {
-                    *x += (value * by_rate * by_rate).re;
-                    *x_dot += (value * by_rate).re;
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// `a` then `b`, of unit length.
-fn product(a: Quaternion, b: Quaternion) -> Quaternion {
-    let of = |q: Quaternion| nalgebra::Quaternion::new(q.q0, q.q1, q.q2, q.q3);
-    let q = (of(a) * of(b)).normalize();
-    Quaternion { q0: q.w, q1: q.i, q2: q.j, q3: q.k }
 }
 
 /// Nodes of the lines of sight, with the columns of their acceleration and angular velocity.

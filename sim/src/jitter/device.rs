@@ -87,8 +87,8 @@ pub struct Steady<'a> {
     pub motor: Motor,
     /// Whether the other joints are free on their springs.
     pub sprung: bool,
-    /// Names of the rotors whose speed is swept; empty for all.
-    pub swept: &'a [String],
+    /// Names of the rotors whose speed is swept, empty for all; none where each keeps its initial rate.
+    pub swept: Option<&'a [String]>,
 }
 
 impl SweptDevice {
@@ -109,7 +109,7 @@ impl SweptDevice {
         let turning = joints.states.iter().zip(&joints.names).enumerate();
         let turning = turning.filter(|(_, ([_, rate], _))| *rate != 0.0);
         let rotor = |(joint, ([_, rate], name)): (usize, (&[f64; 2], &String))| {
-            let swept = steady.swept.is_empty() || steady.swept.contains(name);
+            let swept = steady.swept.is_some_and(|of| of.is_empty() || of.contains(name));
             let rate = if swept { [rate.signum(), 0.0] } else { [0.0, *rate] };
             Rotor { name: name.clone(), joint, rate }
         };

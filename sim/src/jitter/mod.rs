@@ -29,6 +29,7 @@
 //! | lines of sight, limits, and what a sweep says of them | [`budget`] |
 //! | what a limit is sensitive to | [`sensitivity`] |
 //! | the same by a run of the coupled equations | [`coupled`] |
+//! | the start of a run in the vibration of its rotors | [`settled`] |
 //! | the usual `U_s Omega^2` on rigid devices, and its error | [`simplified`] |
 
 pub mod budget;
@@ -42,6 +43,7 @@ pub mod model;
 pub mod noise;
 pub mod prepared;
 pub mod sensitivity;
+pub mod settled;
 pub mod simplified;
 pub mod sources;
 pub mod sweep;

@@ -77,7 +77,8 @@ impl Prepared {
     /// [`PrepareError::Rotor`]; a model that cannot be made; one without tones and noise.
     pub fn new(scenario: &Scenario, budget: &Budget) -> Result<Self, PrepareError> {
         check_rotors(scenario, budget)?;
-        let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
+        let steady =
+            Steady { motor: budget.motor, sprung: budget.sprung, swept: Some(&budget.swept) };
         let mut model = Model::new(scenario, &budget.outputs(), &steady)?;
         let has_imbalance = !model.contributors().is_empty();
         let left_out = model.add_sources(scenario)?;

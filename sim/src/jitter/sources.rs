@@ -56,7 +56,7 @@ impl Model {
                 },
             };
             if let Some(reason) = refused {
-                left_out.push(format!("source `{}` is left out of the sweep: {reason}", of.name));
+                left_out.push(format!("source `{}` is left out: {reason}", of.name));
             }
         }
         Ok(left_out)

@@ -2,8 +2,8 @@
 //! those that are recorded.
 //!
 //! A name in a selection is that of a column (`omega_x`), of a vector (`omega`), of a device
-//! (`cmg1`: all but its loads) or of a group (`position`, `loads`, `cmg1.loads`). Loads are recorded
-//! only where they are selected. `time` always comes first; the others keep their order here,
+//! (`cmg1`: all but its loads) or of a group (`position`, `loads`, `cmg1.loads`). Loads, and the rotation
+//! since the start, are recorded only where they are selected. `time` always comes first; the others keep their order here,
 //! whatever the order of the selection.
 
 mod disturbances;
@@ -71,16 +71,17 @@ impl Columns {
         Self(columns)
     }
 
-    /// The groups that a scenario records if it selects no columns: all but the loads.
+    /// The groups that a scenario records if it selects no columns.
     pub(crate) fn default_groups(scenario: &Scenario) -> Vec<String> {
         let Self(all) = Self::all(scenario);
-        let own = all.into_iter().filter(|c| c.quantity != Quantity::Time && !c.quantity.is_load());
+        let own =
+            all.into_iter().filter(|c| c.quantity != Quantity::Time && c.quantity.is_default());
         let mut groups: Vec<_> = own.map(|column| column.group).collect();
         groups.dedup();
         groups
     }
 
-    /// The columns that a scenario records: those it selects, or all but the loads, and the
+    /// The columns that a scenario records: those it selects, or all that are recorded by default, and the
     /// quantities of its requirements.
     ///
     /// # Errors
@@ -90,7 +91,7 @@ impl Columns {
         let Self(all) = Self::all(scenario);
         let selected = &scenario.output.columns;
         let mut taken: Vec<bool> =
-            all.iter().map(|column| selected.is_empty() && !column.quantity.is_load()).collect();
+            all.iter().map(|column| selected.is_empty() && column.quantity.is_default()).collect();
         let required = scenario.requirements.iter().map(|requirement| &requirement.quantity);
         for name in selected.iter().chain(required) {
             let mut known = false;
@@ -209,6 +210,8 @@ fn hub(columns: &mut Vec<Column>) {
             quantity: Quantity::Sigma(axis),
         });
     }
+    let rotation = "rotation vector of B from its attitude at the start";
+    vector(columns, "rotation", "rotation", "rad", "B", rotation, Quantity::HubRotation);
     let b = [
         (Quantity::Omega as fn(usize) -> Quantity, "omega", "rad/s", "angular velocity of the hub"),
         (Quantity::OmegaDot, "omega_dot", "rad/s²", "angular acceleration of the hub"),

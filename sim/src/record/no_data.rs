@@ -60,11 +60,13 @@ fn samples_within([from, to]: [f64; 2], rate: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::Projection;
 
     fn reason(statistic: Statistic, window: [f64; 2]) -> Option<NoData> {
         let requirement = Requirement {
             name: "a".to_owned(),
             quantity: "omega".to_owned(),
+            projection: Projection::None,
             statistic,
             window,
             limit: 1.0,

@@ -1,6 +1,6 @@
 //! [`Statistics`]: the numbers that requirements limit, from the samples as they come.
 //!
-//! The quantity is a column or the magnitude of a vector; the RMS in a band of a vector is that of
+//! The quantity is a column, or the magnitude of a vector or of its components along or across a direction; the RMS in a band of a vector is that of
 //! its components together. Means over time are by the trapezoidal rule, so a last sample that is
 //! not evenly spaced has its own weight; the band, exposures and indices of ECSS use only samples
 //! that are. Memory does not grow with the run: levels are found in buckets, at most 0.1 % above.
@@ -12,7 +12,7 @@ use crate::pointing::{
     EXPOSURE_SAMPLES_MIN, ExposureHistory, IndexStream, Margin, NoData, PointingError, Quantile,
     RequirementState, WindowSums, samples_of,
 };
-use crate::scenario::{Requirement, Statistic};
+use crate::scenario::{Projection, Requirement, Statistic};
 
 /// Computes what requirements limit.
 pub struct Statistics {
@@ -46,6 +46,7 @@ pub struct Verdict {
 /// What is kept of a quantity.
 struct History {
     columns: Vec<usize>,
+    projection: Projection,
     window: [f64; 2],
     statistic: Statistic,
     /// The samples before the end of the run are this far apart, s.
@@ -105,6 +106,7 @@ impl Recorder for Statistics {
         (self.rate, self.duration) = (header.rate, header.duration);
         for requirement in &self.requirements {
             let columns = header.quantity(&requirement.quantity)?;
+            let components = requirement.projection.components(columns.len());
             let [from, to] = requirement.window;
             let mut bands = Vec::new();
             if let Statistic::BandRms(band) = requirement.statistic {
@@ -114,15 +116,16 @@ impl Recorder for Statistics {
                     return Err(RecordError::Band { requirement, band, highest });
                 }
                 let count = (to - from) * header.rate;
-                bands.extend(columns.iter().map(|_| Welch::new(band, header.rate, count)));
+                bands.extend((0..components).map(|_| Welch::new(band, header.rate, count)));
             }
-            let pointing = Pointing::new(requirement.statistic, columns.len(), header.rate);
+            let pointing = Pointing::new(requirement.statistic, components, header.rate);
             let pointing = pointing.map_err(|source| RecordError::Metric {
                 requirement: requirement.name.clone(),
                 source,
             })?;
             self.histories.push(History {
                 columns,
+                projection: requirement.projection,
                 window: requirement.window,
                 statistic: requirement.statistic,
                 spacing: 1.0 / header.rate,
@@ -192,7 +195,8 @@ impl History {
             return;
         }
         let values = || self.columns.iter().map(|column| row.get(*column).copied());
-        let values: Vec<f64> = values().map(|value| value.unwrap_or(f64::NAN)).collect();
+        let values = values().map(|value| value.unwrap_or(f64::NAN)).collect();
+        let values: Vec<f64> = self.projection.of(values);
         let magnitude = norm(values.iter().copied());
         let of_most = if self.statistic == Statistic::Drift {
             let first = self.first.get_or_insert_with(|| values.clone());

@@ -12,7 +12,7 @@ use super::{
 use crate::engine::run;
 use crate::engine::tests::turning_panel;
 use crate::pointing::{ExposureWeights, Index};
-use crate::scenario::{Requirement, Scenario, Source, Statistic};
+use crate::scenario::{Projection, Requirement, Scenario, Source, Statistic};
 
 /// A run into recorders; all its samples.
 fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Samples) {
@@ -227,6 +227,7 @@ fn statistics_are_those_of_the_samples_in_the_window() {
     let requirement = |name: &str, statistic, window| Requirement {
         name: name.to_owned(),
         quantity: "omega".to_owned(),
+        projection: Projection::None,
         statistic,
         window,
         limit: 0.9,
@@ -275,6 +276,7 @@ fn a_requirement_of_a_band_beyond_half_the_rate_is_rejected_with_the_remedy() {
     let requirement = Requirement {
         name: "jitter".to_owned(),
         quantity: "omega_x".to_owned(),
+        projection: Projection::None,
         statistic: Statistic::BandRms([10.0, 80.0]),
         window: [0.0, 1.0],
         limit: 1.0,
@@ -297,6 +299,7 @@ fn exposures_and_indices_of_a_requirement_are_those_of_known_histories() {
     let requirement = |quantity: &str, statistic| Requirement {
         name: quantity.to_owned(),
         quantity: quantity.to_owned(),
+        projection: Projection::None,
         statistic,
         window: [0.0, 10.0],
         limit: 1.0,

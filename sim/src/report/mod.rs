@@ -12,6 +12,7 @@
 //! The contract with the page's script is sim/report/DATA.md.
 
 mod blocks;
+pub(crate) mod campaign;
 mod data;
 mod draw;
 mod error;
@@ -27,6 +28,7 @@ mod tests;
 mod unit;
 
 pub use draw::cells;
+pub(crate) use draw::picture::Picture;
 pub(crate) use draw::{mode_shapes, response, spectrum};
 pub use error::{DrawError, ReportError};
 

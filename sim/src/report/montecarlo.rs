@@ -1,7 +1,7 @@
 //! Picture of a Monte Carlo campaign: the empirical distribution of a number.
 
+use super::draw::picture::Picture;
 use super::draw::plane::Plane;
-use super::error::DrawError;
 use super::sweep::scaled;
 use crate::spectra::float;
 
@@ -11,7 +11,7 @@ pub(crate) fn distribution(
     unit: (&str, f64),
     sorted: &[f64],
     limit: Option<f64>,
-) -> Result<String, DrawError> {
+) -> Picture {
     let (unit, size) = scaled(unit, sorted.iter().copied());
     let count = float(sorted.len().max(1));
     let mut steps = Vec::new();
@@ -23,7 +23,7 @@ pub(crate) fn distribution(
     if let Some(limit) = limit {
         curves.push(("limit".to_owned(), vec![[limit / size, 0.0], [limit / size, 1.0]]));
     }
-    Plane {
+    Picture::Plane(Plane {
         description: format!("Share of samples over {name}, in {unit}."),
         title: format!("{name}: distribution of {} samples", sorted.len()),
         axes: [format!("{name} ({unit})"), "Share of samples".to_owned()],
@@ -33,6 +33,5 @@ pub(crate) fn distribution(
         marks: Vec::new(),
         large: false,
         ranges: [None, Some([0.0, 1.02])],
-    }
-    .file()
+    })
 }

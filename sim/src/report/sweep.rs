@@ -1,8 +1,8 @@
 //! Pictures of a sweep: a number over a key, a map over two keys, lines over a key and frequency.
 
 use super::draw::cells::{CellMap, MapAxis};
+use super::draw::picture::Picture;
 use super::draw::plane::Plane;
-use super::error::DrawError;
 use super::number::{power_of_ten, short, with_unit};
 use crate::campaign::{Axis, Spacing};
 use crate::jitter::campbell::{Branch, Crossing, Oscillation};
@@ -71,8 +71,8 @@ pub(super) fn scaled(
 }
 
 /// A number over the values of a key, with its limit.
-pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Result<String, DrawError> {
-    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied());
+pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Picture {
+    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied().chain(of.limit));
     let points = axis.values.iter().zip(of.values);
     let mut points: Vec<[f64; 2]> = points
         .map(|(value, number)| [place(axis, *value), number.unwrap_or(f64::NAN) / size])
@@ -92,12 +92,11 @@ pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Result<String, DrawError> 
         [ends(axis), y],
         |plane| plane.curves = curves,
     )
-    .file()
 }
 
 /// A number over the values of two keys, the second one fastest: filled cells, the limit as a contour; crosses are samples
 /// that failed.
-pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawError> {
+pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Picture {
     let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied());
     let [first, second] = axes;
     let map_axis = |axis: &Axis| MapAxis {
@@ -106,7 +105,7 @@ pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawErro
         logarithmic: axis.spacing == Spacing::Logarithmic,
     };
     let shown = if unit.is_empty() { "number".to_owned() } else { unit.clone() };
-    CellMap {
+    Picture::Cells(CellMap {
         description: format!(
             "{} in {shown} over {} and {}; crosses are samples that failed.",
             of.name,
@@ -119,8 +118,7 @@ pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawErro
         scale: unit,
         logarithmic: false,
         contours: of.limit.iter().map(|limit| ("limit".to_owned(), limit / size)).collect(),
-    }
-    .file()
+    })
 }
 
 /// Lines, `[value of the key, frequency in Hz, amplitude in SI]`, and straight lines of the orders of a rate.
@@ -130,7 +128,7 @@ pub(crate) fn waterfall(
     unit: &str,
     lines: &[[f64; 3]],
     orders: &[f64],
-) -> Result<String, DrawError> {
+) -> Picture {
     let largest = lines.iter().map(|line| line[2]).fold(0.0, f64::max);
     let mut dots: Vec<[f64; 3]> = Vec::new();
     for [value, frequency, amplitude] in lines {
@@ -163,7 +161,6 @@ pub(crate) fn waterfall(
         [ends(axis), (top > 0.0).then_some([0.0, ABOVE * top])],
         |plane| (plane.dots, plane.lines) = (dots, straight),
     )
-    .file()
 }
 
 /// Natural frequencies over the values of a key, rising, with the orders of a rate and where they cross.
@@ -173,7 +170,7 @@ pub(crate) fn campbell(
     branches: &[Branch],
     orders: &[f64],
     crossings: &[Crossing],
-) -> Result<String, DrawError> {
+) -> Picture {
     let hertz = |frequency: f64| frequency / std::f64::consts::TAU;
     let curve = |branch: &Branch| {
         let point = |(value, of): (&f64, &Option<Oscillation>)| {
@@ -212,7 +209,6 @@ pub(crate) fn campbell(
         [ends(axis), (top > 0.0).then_some([0.0, top])],
         |plane| (plane.curves, plane.lines, plane.marks) = (curves, lines, marks),
     )
-    .file()
 }
 
 fn plane(
@@ -221,10 +217,10 @@ fn plane(
     axes: [String; 2],
     ranges: [Option<[f64; 2]>; 2],
     fill: impl FnOnce(&mut Plane),
-) -> Plane {
+) -> Picture {
     let (curves, lines, dots, marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let large = false;
     let mut plane = Plane { description, title, axes, curves, lines, dots, marks, large, ranges };
     fill(&mut plane);
-    plane
+    Picture::Plane(plane)
 }

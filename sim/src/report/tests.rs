@@ -19,7 +19,7 @@ use crate::engine::run;
 use crate::file::from_toml;
 use crate::record::columns::Quantity;
 use crate::record::{Columns, Drift, End, Event, Header, Outcome, Recorder, Steps, sha256};
-use crate::scenario::{Requirement, Scenario, Source, Statistic};
+use crate::scenario::{Projection, Requirement, Scenario, Source, Statistic};
 
 /// Largest page of ten minutes with four double-gimbal devices at the default columns.
 const PAGE_MAX: usize = 1_500_000;
@@ -107,6 +107,7 @@ fn requirement(limit: f64) -> Requirement {
     Requirement {
         name: "rate".to_owned(),
         quantity: "omega".to_owned(),
+        projection: Projection::None,
         statistic: Statistic::Peak,
         window: [0.0, 1.0],
         limit,

@@ -78,6 +78,26 @@ impl MassProperties {
     }
 }
 
+impl MassProperties {
+    /// Principal moments of inertia about the centre of mass, kg m², the least first; and their axes, columns in B axes, right-handed.
+    #[must_use]
+    pub fn principal(&self) -> (Vector3<f64>, Matrix3<f64>) {
+        let c = self.centre_of_mass.cross_matrix();
+        let about_centre = self.inertia_b + self.mass * c * c;
+        let eigen = (0.5 * (about_centre + about_centre.transpose())).symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let axis = |k: usize| {
+            let axis: Vector3<f64> = eigen.eigenvectors.column(order[k]).into();
+            // Either sense is one: that of the largest component.
+            axis * axis[axis.iamax()].signum()
+        };
+        let (first, second) = (axis(0), axis(1));
+        let axes = Matrix3::from_columns(&[first, second, first.cross(&second)]);
+        (Vector3::from(order.map(|k| eigen.eigenvalues[k])), axes)
+    }
+}
+
 impl MassMatrix {
     /// That of a scenario's spacecraft.
     ///

@@ -13,6 +13,7 @@ mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
+mod projection;
 mod reserved;
 mod residual;
 mod source_place;
@@ -30,7 +31,8 @@ pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members, set_of};
 pub(crate) use member::{body_key, joint_key};
-pub use profile::{Interpolation, Profile, Table};
+pub use profile::{Interpolation, NoDerivative, Profile, Table};
+pub use projection::Projection;
 #[cfg(test)]
 pub(crate) use reserved::RESERVED_NAMES;
 pub use source_place::{SourceBody, SourcePlace};
@@ -254,6 +256,8 @@ pub struct Requirement {
     pub name: String,
     /// The name of a column, or of a group of three, whose magnitude counts.
     pub quantity: String,
+    /// Which components of a vector count.
+    pub projection: Projection,
     /// Which number of its history.
     pub statistic: Statistic,
     /// The part of the run that counts, s.

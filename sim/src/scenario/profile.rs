@@ -78,6 +78,25 @@ pub enum Interpolation {
     Linear,
 }
 
+/// A jump that is smaller than this part of the largest value is rounding.
+const JUMP_MAX: f64 = 1e-9;
+
+/// Why a profile has no derivative that is a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoDerivative {
+    /// It jumps.
+    Jump {
+        /// When, s.
+        time: f64,
+        /// Its value before.
+        before: f64,
+        /// Its value after.
+        after: f64,
+    },
+    /// It is a chirp.
+    Chirp,
+}
+
 impl Profile {
     /// Zero at any time.
     pub const ZERO: Self = Self::Constant(0.0);
@@ -130,6 +149,56 @@ impl Profile {
             Self::During { between: [start, end], profile } => {
                 if reached(*start) && !reached(*end) { profile.at(time, from_below) } else { 0.0 }
             }
+        }
+    }
+
+    /// Its derivative by time from the start of the run on.
+    ///
+    /// # Errors
+    ///
+    /// It jumps, or is a chirp, whose derivative is no profile.
+    pub fn derivative(&self) -> Result<Self, NoDerivative> {
+        let jump = |time: &f64| {
+            let [before, after] = [true, false].map(|from_below| self.at(*time, from_below));
+            (*time > 0.0 && (after - before).abs() > JUMP_MAX * self.size())
+                .then_some(NoDerivative::Jump { time: *time, before, after })
+        };
+        let mut breaks = self.breaks();
+        breaks.sort_by(f64::total_cmp);
+        if let Some(jump) = breaks.iter().find_map(jump) {
+            return Err(jump);
+        }
+        Ok(match self {
+            Self::Constant(_) | Self::Step { .. } => Self::ZERO,
+            Self::Ramp { between: [start, end], values: [first, last] } => {
+                let slope = Self::Constant((last - first) / (end - start));
+                Self::During { between: [*start, *end], profile: Box::new(slope) }
+            }
+            Self::Sine { amplitude, frequency, phase, .. } => {
+                let amplitude = amplitude * TAU * frequency;
+                let phase = phase + 0.25 * TAU;
+                Self::Sine { mean: 0.0, amplitude, frequency: *frequency, phase }
+            }
+            Self::Chirp { .. } => return Err(NoDerivative::Chirp),
+            Self::Table(table) => table.slopes(),
+            Self::During { between, profile } => {
+                let profile = Box::new(profile.derivative()?);
+                Self::During { between: *between, profile }
+            }
+        })
+    }
+
+    /// The largest magnitude of its numbers: a jump is judged by it.
+    fn size(&self) -> f64 {
+        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        match self {
+            Self::Constant(value) => value.abs(),
+            Self::Step { before, after, .. } => largest(&[*before, *after]),
+            Self::Ramp { values, .. } => largest(values),
+            Self::Sine { mean, amplitude, .. } => largest(&[*mean, *amplitude]),
+            Self::Chirp { amplitude, .. } => amplitude.abs(),
+            Self::Table(table) => largest(&table.values),
+            Self::During { profile, .. } => profile.size(),
         }
     }
 
@@ -191,6 +260,25 @@ impl Table {
         Some(format!("time {} s of a table does not come after {} s", pair[1], pair[0]))
     }
 
+    /// The slopes between its times, zero outside; the table has no jump.
+    fn slopes(&self) -> Profile {
+        let pairs = self.times.windows(2).zip(self.values.windows(2));
+        let slope = |(t, v): (&[f64], &[f64])| (v[1] - v[0]) / (t[1] - t[0]);
+        let values: Vec<f64> = match self.interpolation {
+            Interpolation::Hold => Vec::new(),
+            Interpolation::Linear => pairs.map(slope).collect(),
+        };
+        let (Some(first), Some(last), false) =
+            (self.times.first(), self.times.last(), values.is_empty())
+        else {
+            return Profile::ZERO;
+        };
+        let times = self.times.iter().take(values.len()).copied().collect();
+        let table = Self { times, values, interpolation: Interpolation::Hold };
+        let profile = Box::new(Profile::Table(table));
+        Profile::During { between: [*first, *last], profile }
+    }
+
     fn at(&self, time: f64, from_below: bool) -> f64 {
         let after = if from_below {
             self.times.partition_point(|t| *t < time)
@@ -222,6 +310,49 @@ mod tests {
         assert_eq!([held.at(1.0, true), held.at(1.0, false), held.at(9.0, false)], [1.0, 2.0, 4.0]);
         assert_eq!([linear.at(-1.0, false), linear.at(2.0, false)], [1.0, 3.0]);
         assert_eq!(linear.at(1.0, true), 2.0);
+    }
+
+    #[test]
+    fn a_derivative_is_that_of_differences() {
+        let times = vec![-1.0, 1.0, 3.0, 3.5];
+        let values = vec![1.0, 2.0, 4.0, 0.5];
+        let sine = Profile::Sine { mean: 2.0, amplitude: 3.0, frequency: 0.5, phase: 0.3 };
+        let whole = Profile::Sine { mean: 0.0, amplitude: 3.0, frequency: 0.5, phase: 0.0 };
+        for profile in [
+            Profile::Constant(2.0),
+            Profile::Step { at: 0.0, before: 1.0, after: 5.0 },
+            Profile::Ramp { between: [0.5, 2.5], values: [1.0, -3.0] },
+            Profile::Table(Table { times, values, interpolation: Interpolation::Linear }),
+            Profile::During { between: [0.0, 4.0], profile: Box::new(whole) },
+            sine,
+        ] {
+            let derivative = profile.derivative().expect("it has no jump");
+            for k in 0..50 {
+                let (time, h) = (0.013 + 0.1 * f64::from(k), 1e-6);
+                let difference = profile.at(time + h, false) - profile.at(time - h, false);
+                let found = derivative.at(time, false);
+                assert!((found - difference / (2.0 * h)).abs() < 1e-7, "{profile:?} at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_jump_has_no_derivative_and_is_named_with_its_time() {
+        let held = Table {
+            times: vec![0.0, 2.0],
+            values: vec![1.0, 3.0],
+            interpolation: Interpolation::Hold,
+        };
+        let jump = |time, before, after| Err(NoDerivative::Jump { time, before, after });
+        assert_eq!(Profile::Table(held).derivative(), jump(2.0, 1.0, 3.0));
+        let step = Profile::Step { at: 1.0, before: 0.0, after: 5.0 };
+        assert_eq!(step.derivative(), jump(1.0, 0.0, 5.0));
+        // The slope of a ramp jumps at both of its ends.
+        let ramp = Profile::Ramp { between: [0.5, 2.5], values: [1.0, 5.0] };
+        let slope = ramp.derivative().expect("a ramp has no jump");
+        assert_eq!(slope.derivative(), jump(0.5, 0.0, 2.0));
+        let chirp = Profile::Chirp { amplitude: 1.0, between: [1.0, 3.0], frequencies: [2.0, 4.0] };
+        assert_eq!(chirp.derivative(), Err(NoDerivative::Chirp));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 /// Names of columns, vectors and groups that a result has whatever devices, points and sources a scenario has. A test of
 /// the columns compares them.
-pub(crate) const RESERVED_NAMES: [&str; 46] = [
+pub(crate) const RESERVED_NAMES: [&str; 50] = [
     "time",
     "position_x",
     "position_y",
@@ -25,6 +25,10 @@ pub(crate) const RESERVED_NAMES: [&str; 46] = [
     "sigma_2",
     "sigma_3",
     "sigma",
+    "rotation_x",
+    "rotation_y",
+    "rotation_z",
+    "rotation",
     "omega_x",
     "omega_y",
     "omega_z",

@@ -103,7 +103,7 @@ fn two_springs_in_series_swing_as_their_closed_form() {
 #[test]
 fn a_wheel_on_an_isolator_shakes_the_mode_as_two_masses_in_series() {
     let scenario = text(&panel(1.0, "", 100.0, ""));
-    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
     let along_z = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let outputs = [Output { name: "tip z".to_owned(), terms: vec![("tip".to_owned(), along_z)] }];
     let model = Model::new(&scenario, &outputs, &steady).expect("valid");

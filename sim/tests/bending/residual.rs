@@ -86,7 +86,7 @@ fn a_constant_force_bends_one_mode_with_the_rest_as_it_bends_all() {
 /// Far below the modes left out, what they miss falls with the square of the frequency.
 #[test]
 fn lines_below_the_modes_left_out_are_those_of_all_modes() {
-    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
     let along_z = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let line = |keys: &str, speed: f64| {
         let outputs =

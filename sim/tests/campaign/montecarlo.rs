@@ -66,6 +66,12 @@ fn a_near_linear_number_has_the_derivatives_of_its_closed_form_and_of_the_sample
     let files = results(&out);
     let table = rows(&files["wheel-montecarlo.csv"]);
     assert_eq!(table.len(), 200);
+    let page = text(&files["wheel-montecarlo.html"]);
+    for part in
+        ["Percentiles", "Rank correlations", "Derivatives about the middle", "Latin hypercube"]
+    {
+        assert!(page.contains(part), "{part} in the page");
+    }
     for row in &table {
         let share = number(row, NUMBER) / expected(row);
         assert!((share - 1.0).abs() < CLOSED_FORM, "{row:?}");

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fs;
+use std::path::Path;
 
 use super::shared::{folder, number, path, precess, results, rows, text};
 
@@ -52,6 +53,18 @@ fn acceleration_and_line_follow_the_square_of_the_rate() {
     let waterfall = text(&files["wheel-sweep-lines-acceleration.svg"]);
     assert!(waterfall.contains("1\u{d7}") && waterfall.contains("2\u{d7}"));
     assert_eq!(&files["wheel-sweep.npz"][..2], b"PK");
+    // The page has the verdict, the worst sample, the speeds to keep out of and every picture.
+    let page = text(&files["wheel-sweep.html"]);
+    for part in ["The requirement is violated:", "requirement micro-g", "4228.", "violated by 2"] {
+        assert!(page.contains(part), "{part} in the page");
+    }
+    let is_picture = |name: &&String| Path::new(name).extension().is_some_and(|of| of == "svg");
+    let pictures = files.keys().filter(is_picture).count();
+    assert_eq!(
+        page.matches("<figcaption").count(),
+        pictures,
+        "all files but the page are pictures"
+    );
 }
 
 #[test]

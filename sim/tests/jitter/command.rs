@@ -94,6 +94,53 @@ fn noise_of_a_data_sheet_is_in_the_budget_of_a_rigid_hub() {
     std::fs::remove_dir_all(out).expect("it was made");
 }
 
+/// A limit between the expected value and the worst: both are in the first line.
+#[test]
+fn a_verdict_that_worst_phases_violate_says_by_how_much() {
+    let out = folder("phases");
+    let wheel = |name: &str, x: &str| {
+        format!(
+            "[[device]]\nname = \"{name}\"\nkind = \"reaction_wheel\"\nposition = \"{x}, 0, 5 cm\"\n\
+             mount = {{ spin_axis = [0, 0, 1] }}\nimbalance.static = \"1 g mm\"\n\
+             wheel = {{ mass = \"0.2 kg\", inertia = \"7e-5, 4e-5, 4e-5 kg m^2\", rate = \"900 rpm\" }}\n"
+        )
+    };
+    let scenario = format!(
+        "format = 1\n[hub]\nmass = \"12 kg\"\ninertia = \"0.1, 0.1, 0.1 kg m^2\"\n{}{}[run]\nduration = \"1 s\"\n",
+        wheel("rw1", "5"),
+        wheel("rw2", "-5")
+    );
+    std::fs::write(out.join("two.toml"), scenario).expect("it is written");
+    let budget = |limit: f64| {
+        let text = format!(
+            "format = 1\nscenario = \"two.toml\"\nphases = \"unknown\"\n\
+             [speed]\nfrom = \"900 rpm\"\nto = \"3000 rpm\"\ncount = 11\n\
+             [[line_of_sight]]\nname = \"camera\"\nnode = \"hub\"\nboresight = [0, 0, 1]\nacross = [1, 0, 0]\n\
+             [[requirement]]\nname = \"jitter\"\nmetric = \"rms\"\nlimit = \"{limit} urad\"\n"
+        );
+        let path = out.join("budget.toml");
+        std::fs::write(&path, text).expect("it is written");
+        let found = jitter(&path, &out, &["--force", "--no-compare"]);
+        let page = std::fs::read_to_string(out.join("budget.html")).expect("a page");
+        (found.status.code(), String::from_utf8_lossy(&found.stdout).into_owned(), page)
+    };
+    // Two equal tones: the worst is the square root of two, 3.0 dB, above the expected value.
+    let (_, text, _) = budget(1e-3);
+    let value = text.lines().find_map(|line| line.strip_prefix("jitter (RMS)")).expect("a row");
+    let words: Vec<&str> = value.split_whitespace().collect();
+    let expected: f64 = words[1].parse().expect("a number");
+    let (code, text, page) = budget(1.2 * expected);
+    assert_eq!(code, Some(0), "{text}");
+    let excess =
+        format!("violated by {:.1} dB with worst phases", 20.0 * (2.0_f64.sqrt() / 1.2).log10());
+    let row = text.lines().find(|line| line.starts_with("jitter (")).expect("a row");
+    assert!(row.contains(&format!("met, but {excess}")), "{text}");
+    assert!(page.contains(&format!("; jitter {excess}")), "in the page: {excess}");
+    let (_, text, page) = budget(1.5 * expected);
+    assert!(!text.contains("but violated") && !page.contains("; jitter violated"), "{text}");
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
 #[test]
 fn what_is_wrong_is_said_with_its_remedy() {
     let out = folder("wrong");

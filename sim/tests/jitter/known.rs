@@ -19,7 +19,7 @@ use precess::structure::dynamic_mass::Motor;
 const ROUNDING: f64 = 1e-12;
 
 pub(crate) const STEADY: Steady<'static> =
-    Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+    Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
 
 fn scenario(text: &str) -> Scenario {
     let text = format!("format = 1\n{text}\n[run]\nduration = \"1 s\"\n");

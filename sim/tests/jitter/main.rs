@@ -5,6 +5,7 @@ mod errors;
 mod known;
 mod map;
 mod run;
+mod settled;
 mod sources;
 
 #[path = "../../examples/imbalance_map/page.rs"]

@@ -44,7 +44,7 @@ fn read(name: &str) -> Scenario {
 fn the_satellite_with_twenty_modes_off_resonance_and_at_it() {
     let scenario = read("imaging-satellite-flexible.toml");
     let budget = budget("camera");
-    let steady = Steady { motor: budget.motor, sprung: true, swept: &[] };
+    let steady = Steady { motor: budget.motor, sprung: true, swept: Some(&[]) };
     let model = Model::new(&scenario, &budget.outputs(), &steady).expect("valid");
     let size = |speed: f64| -> f64 {
         let lines = model.lines(speed).expect("damped");
@@ -157,7 +157,7 @@ fn sensitivities_are_shares_and_the_damping_of_the_mode_at_resonance() {
     let (budget, scenario) =
         budget_from_toml(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
     let (scenario, _) = from_file(&scenario, &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &[] };
+    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: Some(&[]) };
     let model = Model::new(&scenario, &budget.outputs(), &steady).expect("valid");
     let speeds = speeds(budget.speeds, budget.count);
     let found = sweep(&model, &speeds, 2, &|_| {}).expect("damped");

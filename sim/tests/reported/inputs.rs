@@ -278,3 +278,69 @@ fn tables_whose_keys_all_have_defaults_are_not_required() {
     }
     assert!(left_out > 1, "{left_out}");
 }
+
+/// One tensor in four ways: its elements, its integrals, its principal moments with their axes.
+#[test]
+fn an_inertia_is_written_as_its_table_has_it() {
+    let tensor = |keys: &str| {
+        let text = HEAD.replace("inertia = \"9, 8, 7 kg m^2\"", keys);
+        let (scenario, _) =
+            from_toml("hub", &text, Path::new("")).unwrap_or_else(|e| panic!("{e}"));
+        scenario.hub.i_b_bc
+    };
+    let elements =
+        tensor("inertia = \"9, 8, 7 kg m^2\"\nproducts_of_inertia = \"0.5, -0.25, 0.125 kg m^2\"");
+    let integrals =
+        tensor("inertia = \"9, 8, 7 kg m^2\"\ninertia_integrals = \"-0.5, 0.25, -0.125 kg m^2\"");
+    assert_eq!(elements, integrals);
+    // Moments of 9 and 8 about axes that are turned by 30 degrees about z.
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let expected =
+        [9.0 * cos * cos + 8.0 * sin * sin, 9.0 * sin * sin + 8.0 * cos * cos, 7.0, sin * cos];
+    for axes in [
+        "{ axis = [0, 0, 1], angle = \"30 deg\" }",
+        "{ euler = \"30, 0, 0 deg\", sequence = \"ZYX\", direction = \"body to axes\" }",
+        "{ euler = \"-30, 0, 0 deg\", sequence = \"ZYX\", direction = \"axes to body\" }",
+    ] {
+        let found = tensor(&format!("inertia = \"9, 8, 7 kg m^2\"\ninertia_axes = {axes}"));
+        let found = [found.m11, found.m22, found.m33, found.m12];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-14, "{axes}: {found} {expected}");
+        }
+    }
+    // `check` has the moments and axes back.
+    let folder = folder("principal");
+    let path = folder.join("hub.toml");
+    let axes =
+        "inertia = \"9, 8, 7 kg m^2\"\ninertia_axes = { axis = [0, 0, 1], angle = \"30 deg\" }";
+    fs::write(&path, HEAD.replace("inertia = \"9, 8, 7 kg m^2\"", axes)).expect("it is written");
+    let shown = super::precess(&["check", path.to_str().expect("text")]).out;
+    for part in [
+        "principal moments about the centre of mass",
+        "7, 8, 9 kg m^2",
+        "axis of the third, B axes",
+        "-0.866025, -0.5, 0",
+    ] {
+        assert!(shown.contains(part), "{part} in\n{shown}");
+    }
+    for (keys, parts) in [
+        (
+            "products_of_inertia = \"1, 0, 0 kg m^2\"\ninertia_integrals = \"-1, 0, 0 kg m^2\"",
+            ["`products_of_inertia` and `inertia_integrals` are given", "keep one of them"],
+        ),
+        (
+            "inertia_integrals = \"1, 0, 0 kg m^2\"\ninertia_axes = { axis = [0, 0, 1], angle = \"3 deg\" }",
+            ["`inertia_integrals` and `inertia_axes` are given", "^^^"],
+        ),
+        ("inertia_axes = { angle = \"3 deg\" }", ["says no direction", "^^^"]),
+    ] {
+        let text = HEAD.replace(
+            "inertia = \"9, 8, 7 kg m^2\"",
+            &format!("inertia = \"9, 8, 7 kg m^2\"\n{keys}"),
+        );
+        let shown = refused(&text);
+        for part in parts {
+            assert!(shown.contains(part), "{part} in\n{shown}");
+        }
+    }
+}

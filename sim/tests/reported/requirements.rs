@@ -231,3 +231,71 @@ fn a_limit_below_zero_is_refused_by_every_statistic_and_metric() {
         assert!(ended.error.contains("above zero"), "{keys}: {}", ended.error);
     }
 }
+
+/// A hub that turns by 1.2 arcsec in 2 s, about z and half as fast about x, from an attitude of its own.
+const SLOW: &str = r#"format = 1
+[hub]
+mass = "10 kg"
+inertia = "1, 1, 1 kg m^2"
+[initial]
+attitude = { axis = [1, 2, 3], angle = "70 deg" }
+angular_velocity = "0.3, 0, 0.6 arcsec/s"
+[run]
+duration = "2 s"
+[output]
+rate = "100 Hz"
+columns = ["omega"]
+"#;
+
+/// The attitude is limited in seconds of arc: about an axis, in all, across and along a boresight.
+#[test]
+fn pointing_is_limited_in_arcsec() {
+    let folder = folder("arcsec");
+    for (keys, limit) in [
+        ("quantity = \"rotation_z\"", 1.2),
+        ("quantity = \"rotation_y\"", 0.0),
+        ("quantity = \"rotation\"", 1.2 * 1.25_f64.sqrt()),
+        ("quantity = \"rotation\"\nacross = [0, 0, 2]", 0.6),
+        ("quantity = \"rotation\"\nalong = [0, 0, -1]", 1.2),
+        ("quantity = \"rotation\"\nacross = [1, 0, 2]", 0.0),
+        ("quantity = \"omega\"\nalong = [1, 0, 2]", 0.3 * 5.0_f64.sqrt()),
+    ] {
+        let unit = if keys.contains("omega") { "arcsec/s" } else { "arcsec" };
+        for (factor, code) in [(1.0 + 1e-6, 0), (1.0 - 1e-6, 2)] {
+            // Of nothing, a bound on the rounding.
+            let bound = if limit == 0.0 { 1e-9 } else { limit * factor };
+            let text = format!(
+                "{SLOW}[[requirement]]\nname = \"a\"\n{keys}\nstatistic = \"peak\"\nlimit = \"{bound} {unit}\"\n"
+            );
+            let file = write(&folder, "slow.toml", &text);
+            let out = folder.join("out");
+            let ended = precess(&["run", &file, "--force", "--out", out.to_str().expect("text")]);
+            let code = if limit == 0.0 { 0 } else { code };
+            assert_eq!(ended.code, Some(code), "{keys} {bound}: {}{}", ended.out, ended.error);
+            // Recorded where it is limited, and in a figure.
+            let csv = fs::read_to_string(out.join("slow.csv")).expect("a result");
+            assert_eq!(csv.contains("rotation_"), keys.contains("rotation"), "{keys}");
+        }
+    }
+}
+
+#[test]
+fn a_direction_of_what_is_no_vector_is_refused() {
+    for (keys, parts) in [
+        ("quantity = \"omega_x\"\nalong = [0, 0, 1]", ["`omega_x` is no vector", "^^^"]),
+        ("quantity = \"omega\"\nacross = [0, 0, 0]", ["`across` has no direction", "^^^"]),
+        (
+            "quantity = \"omega\"\nalong = [1, 0, 0]\nacross = [0, 0, 1]",
+            ["`along` and `across` are given", "remove one"],
+        ),
+    ] {
+        let text = format!(
+            "{SLOW}[[requirement]]\nname = \"a\"\n{keys}\nstatistic = \"peak\"\nlimit = \"1 rad/s\"\n"
+        );
+        let read = precess::file::from_toml("slow", &text, Path::new(""));
+        let shown = read.expect_err("an error").to_string();
+        for part in parts {
+            assert!(shown.contains(part), "{part} in\n{shown}");
+        }
+    }
+}

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 33] = [
+const OTHERS: [&str; 37] = [
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
     "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
     "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
@@ -32,6 +32,25 @@ const OTHERS: [&str; 33] = [
     "[device.mount]\neuler = \"1, 2, 3 deg\"\nsequence = \"ZYX\"\ndirection = \"hub to device\"",
     "[device.layout.pyramid]\ncount = 3\nhalf_angle = \"30 deg\"",
     "[device.layout.ring]\ncount = 3\nradius = \"30 cm\"",
+    // A layout of each kind with bodies of its own, and keys of its second device.
+    "[device.layout.ring]\ncount = 2\n[[device.member]]\nname = \"rw2\"\nimbalance_model = \"lumped\"\n\
+     imbalance.static = \"1 g mm\"\nwheel.rate = \"1 rpm\"\n\
+     [[device]]\nname = \"v\"\nkind = \"vscmg\"\nlayout.ring.count = 2\n\
+     gimbal = { mass = \"1 kg\", inertia = \"1, 1, 1 g m^2\" }\nwheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }\n\
+     member = [{ name = \"v2\", gimbal = { rate = \"1 deg/s\" } }]\n\
+     [[device]]\nname = \"d\"\nkind = \"dgvscmg\"\nlayout.ring.count = 2\n\
+     outer_gimbal = { mass = \"1 kg\", inertia = \"1, 1, 1 g m^2\" }\n\
+     inner_gimbal = { mass = \"1 kg\", inertia = \"1, 1, 1 g m^2\" }\nwheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }\n\
+     member = [{ name = \"d2\", outer_gimbal = { rate = \"1 deg/s\" } }]\n\
+     [[device]]\nname = \"p\"\nkind = \"hinged_panel\"\nlayout.ring.count = 2\n\
+     panel = { mass = \"1 kg\", inertia = \"1, 1, 1 g m^2\" }\nmember = [{ name = \"p2\", panel = { angle = \"1 deg\" } }]\n\
+     [[device]]\nname = \"s\"\nkind = \"slosh_mass\"\nlayout.ring.count = 2\nslosh_mass = { mass = \"1 kg\" }\n\
+     member = [{ name = \"s2\", slosh_mass = { displacement = \"1 cm\" } }]\n\
+     [[device]]\nname = \"f\"\nkind = \"flexible_reaction_wheel\"\nlayout.ring.count = 2\n\
+     wheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }\nmember = [{ name = \"f2\", tilt_y = { angle = \"1 mrad\" } }]",
+    "inertia_axes = { axis = [0, 0, 1], angle = \"30 deg\" }",
+    "[device.wheel.inertia_axes]\neuler = \"1, 2, 3 deg\"\nsequence = \"ZYX\"\ndirection = \"body to axes\"",
+    "[device.wheel.rate]\nsine = \"1 rad/s\"\nfrequency = \"2 Hz\"\nmean = \"0 rad/s\"",
     "[device.wheel.torque]\nconstant = \"1 mN m\"\nfrom = \"0 s\"\nto = \"1 s\"",
     "[device.wheel.torque]\nstep = \"1 mN m\"\nat = \"1 ms\"\nbefore = \"0 N m\"",
     "[device.wheel.torque]\nramp = \"0, 1 mN m\"\nfrom = \"0 s\"\nto = \"1 s\"",

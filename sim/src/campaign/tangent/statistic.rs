@@ -14,7 +14,7 @@ use super::run::Samples;
 use crate::campaign::Selection;
 use crate::record::welch::band_derivatives;
 use crate::record::{Header, Outcome, Recorder as _, Statistics};
-use crate::scenario::{Requirement, Scenario, Statistic};
+use crate::scenario::{Projection, Requirement, Scenario, Statistic};
 use precess_craft::tangent::{Number, WIDTH};
 
 /// The size of `s d` by that of `x`.
@@ -23,6 +23,7 @@ const SHARE: f64 = 0.1;
 /// A number of a history.
 pub(super) struct Kind {
     columns: Vec<usize>,
+    projection: Projection,
     window: [f64; 2],
     of: StatisticKind,
 }
@@ -65,14 +66,17 @@ pub(super) fn kinds(
         };
         kinds.push(Kind {
             columns: columns(&requirement.quantity)?,
+            projection: requirement.projection,
             window: requirement.window,
             of,
         });
     }
     for name in &selection.columns {
-        let window = [selection.from, f64::INFINITY];
-        kinds.push(Kind { columns: columns(name)?, window, of: StatisticKind::Rms });
-        kinds.push(Kind { columns: columns(name)?, window, of: StatisticKind::Peak });
+        let (columns, window) = (columns(name)?, [selection.from, f64::INFINITY]);
+        let whole =
+            |of| Kind { columns: columns.clone(), projection: Projection::None, window, of };
+        kinds.push(whole(StatisticKind::Rms));
+        kinds.push(whole(StatisticKind::Peak));
     }
     Ok(kinds)
 }
@@ -100,7 +104,8 @@ impl Kind {
     ) -> Option<(f64, Vec<f64>)> {
         let [from, to] = self.window;
         let values = |row: &[Number]| -> Vec<Number> {
-            self.columns.iter().filter_map(|column| row.get(*column).copied()).collect()
+            let of = self.columns.iter().filter_map(|column| row.get(*column).copied());
+            self.projection.of_numbers(of.collect(), Number::constant)
         };
         let history: Vec<(f64, Vec<Number>)> = samples
             .iter()

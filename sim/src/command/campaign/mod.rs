@@ -266,6 +266,12 @@ pub(super) fn failures(plan: &Plan, finished: &Finished) -> String {
     )
 }
 
+/// What a page says beside the numbers: requirements that are not evaluated, samples that failed.
+pub(super) fn warnings(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Vec<String> {
+    let text = not_evaluated(prepared, plan, finished) + &failures(plan, finished);
+    text.lines().map(str::to_owned).collect()
+}
+
 /// Name, place in a row, unit with its size, limit.
 pub(super) type ResultColumn = (String, usize, (String, f64), Option<f64>);
 

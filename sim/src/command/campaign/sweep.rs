@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use clap::Args;
 
-use super::{CampaignOptions, Prepared, failures, not_evaluated, shown, values_of, without_number};
+use super::{
+    CampaignOptions, Prepared, failures, not_evaluated, shown, values_of, warnings, without_number,
+};
 use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
@@ -16,7 +18,8 @@ use crate::jitter::device::Steady;
 use crate::jitter::model::Model;
 use crate::names::file_names;
 use crate::pointing::{Margin, RequirementState};
-use crate::report::DrawError;
+use crate::report::Picture;
+use crate::report::campaign::{CampaignPage, CampaignTable};
 use crate::report::sweep::{Numbers, curve, map, waterfall};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
@@ -60,19 +63,28 @@ impl Sweep {
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
             return Ok(Exit::Violated);
         };
-        let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
-        let count = pictures.len() + 1;
-        self.options.write(&prepared, &plan, &finished, (&stem, pictures), &mut outputs)?;
-        let (text, exit) = self.summary(&prepared, &plan, &finished);
+        let pictures = self.pictures(&prepared, &finished, &stem);
+        let found = self.found(&prepared, &plan, &finished);
+        let mut texts = Vec::new();
+        for (file, (_, picture)) in &pictures {
+            texts.push((file.clone(), picture.file().map_err(|error| other(&error))?));
+        }
+        let pictures: Vec<_> = pictures.into_iter().map(|(_, picture)| picture).collect();
+        let page = self.page(&prepared, &plan, &finished, &found, &pictures);
+        texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
+        let count = texts.len() + 1;
+        self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
+        let (text, exit) = self.summary(&prepared, &plan, &finished, &found);
         print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
+        print(&format!("files: {folder}/{stem}.html and {count} more\n"))?;
         Ok(exit)
     }
 
     /// The files of the result.
     fn names(&self, prepared: &Prepared, stem: &str) -> Vec<String> {
-        let mut names = vec![format!("{stem}.csv"), format!("{stem}.npz")];
+        let mut names: Vec<_> =
+            ["csv", "npz", "html"].map(|ending| format!("{stem}.{ending}")).into();
         names.extend(self.picture_names(prepared, stem));
         names
     }
@@ -87,32 +99,36 @@ impl Sweep {
         file_names(names).into_iter().map(|name| format!("{stem}-{name}.svg")).collect()
     }
 
+    /// The files of the pictures, each with its caption.
     fn pictures(
         &self,
         prepared: &Prepared,
         finished: &Finished,
         stem: &str,
-    ) -> Result<Vec<(String, String)>, DrawError> {
+    ) -> Vec<(String, (String, Picture))> {
         let mut files = Vec::new();
+        let over: Vec<&str> = self.over.iter().map(|axis| axis.key.as_str()).collect();
+        let over = over.join(" and ");
         let mut names = self.picture_names(prepared, stem).into_iter();
         for ((name, field, unit, limit), file) in shown(prepared).zip(names.by_ref()) {
             let values = values_of(finished, field);
             let unit = (unit.0.as_str(), unit.1);
             let numbers = Numbers { name: &name, unit, values: &values, limit };
             let picture = match &self.over[..] {
-                [axis] => curve(axis, &numbers)?,
-                [first, second] => map([first, second], &numbers)?,
+                [axis] => curve(axis, &numbers),
+                [first, second] => map([first, second], &numbers),
                 _ => continue,
             };
-            files.push((file, picture));
+            files.push((file, (format!("{name} over {over}."), picture)));
         }
         let ([axis], true) = (&self.over[..], prepared.selection.lines > 0) else {
-            return Ok(files);
+            return files;
         };
         let requirements = prepared.scenario.requirements.len();
         let file = names.next().unwrap_or_default();
-        if let Some(picture) = campbell(prepared, axis)? {
-            files.push((file, picture));
+        if let Some(picture) = campbell(prepared, axis) {
+            let caption = format!("Natural frequencies over {over}, with the orders of its rotor.");
+            files.push((file, (caption, picture)));
         }
         for ((column, name), file) in prepared.selection.columns.iter().enumerate().zip(names) {
             let mut lines = Vec::new();
@@ -123,14 +139,50 @@ impl Sweep {
             }
             let field = prepared.selection.rms_of(column, requirements);
             let unit = prepared.fields.get(field).map_or("", |field| field.unit.as_str());
-            let picture = waterfall(axis, name, unit, &lines, &orders(prepared, axis))?;
-            files.push((file, picture));
+            let picture = waterfall(axis, name, unit, &lines, &orders(prepared, axis));
+            let caption = format!("The strongest lines of {name} over {over} and frequency.");
+            files.push((file, (caption, picture)));
         }
-        Ok(files)
+        files
     }
 
-    /// For the terminal: of each requirement and column the worst sample; and what became of the requirements.
-    fn summary(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> (String, Exit) {
+    /// The page.
+    fn page<'a>(
+        &self,
+        prepared: &'a Prepared,
+        plan: &Plan,
+        finished: &Finished,
+        found: &'a Found,
+        pictures: &'a [(String, Picture)],
+    ) -> CampaignPage<'a> {
+        let mut facts = vec![("Samples", plan.samples.len().to_string())];
+        for axis in &self.over {
+            let ends =
+                |of: fn(f64, f64) -> f64| axis.values.iter().copied().reduce(of).unwrap_or(0.0);
+            let [from, to] = [ends(f64::min), ends(f64::max)].map(six);
+            let count = axis.values.len();
+            let unit = &axis.unit;
+            facts.push(("Key", format!("{}: {count} values, {from} to {to} {unit}", axis.key)));
+        }
+        CampaignPage {
+            subject: "sweep",
+            scenario: &prepared.scenario,
+            states: &found.states,
+            facts,
+            tables: vec![found.table.clone()],
+            pictures,
+            warnings: warnings(prepared, plan, finished),
+        }
+    }
+
+    /// For the terminal; and what became of the requirements.
+    fn summary(
+        &self,
+        prepared: &Prepared,
+        plan: &Plan,
+        finished: &Finished,
+        found: &Found,
+    ) -> (String, Exit) {
         let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
         for axis in &self.over {
             let keys = prepared.template.keys_of(&axis.key).unwrap_or_default();
@@ -138,9 +190,24 @@ impl Sweep {
                 let _ = writeln!(text, "{} is {}", axis.key, keys.join(", "));
             }
         }
-        let mut exit = Exit::Success;
-        let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
-        let mut rows = vec![heads.map(str::to_owned).to_vec()];
+        text.push_str(&aligned(&found.table.text()));
+        let mut exit = Exit::of_states(found.states.iter().map(|(_, state)| state));
+        text.push_str(&not_evaluated(prepared, plan, finished));
+        let failures = failures(plan, finished);
+        if !failures.is_empty() {
+            exit = exit.max(Exit::Violated);
+        }
+        text.push_str(&failures);
+        if finished.resumed > 0 {
+            let _ = writeln!(text, "{} samples were in the journal", digits_of(finished.resumed));
+        }
+        (text, exit)
+    }
+
+    /// Of each requirement and column the worst sample.
+    fn found(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> Found {
+        let mut states = Vec::new();
+        let mut rows = Vec::new();
         for (name, field, (unit, size), limit) in shown(prepared) {
             let values = values_of(finished, field);
             let known =
@@ -153,7 +220,8 @@ impl Sweep {
                     pairs.map(|(axis, value)| format!("{} {}", six(*value), axis.unit)).collect();
                 words.join(", ").trim_end().to_owned()
             };
-            let mut row = vec![name, String::new()];
+            let mut row = vec![name.clone(), String::new()];
+            let mut state = "";
             row.push(
                 worst.map_or_else(
                     || "none".to_owned(),
@@ -161,7 +229,9 @@ impl Sweep {
                 ),
             );
             if let Some(limit) = limit {
-                exit = exit.max(Exit::of_states([&RequirementState::from_numbers(&values, limit)]));
+                let of_all = RequirementState::from_numbers(&values, limit);
+                state = if of_all.reason().is_some() { "" } else { of_all.word() };
+                states.push((name, of_all));
                 let violated = values.iter().flatten().filter(|value| **value > limit).count();
                 let missing = without_number(finished, field).len();
                 let failed = values.iter().filter(|value| value.is_none()).count() - missing;
@@ -187,20 +257,19 @@ impl Sweep {
             let bands =
                 bands.iter().map(|[from, to]| format!("{} to {} {unit}", six(*from), six(*to)));
             row.push(bands.collect::<Vec<_>>().join("; ").trim_end().to_owned());
-            rows.push(row);
+            rows.push((state, row));
         }
-        text.push_str(&aligned(&rows));
-        text.push_str(&not_evaluated(prepared, plan, finished));
-        let failures = failures(plan, finished);
-        if !failures.is_empty() {
-            exit = exit.max(Exit::Violated);
-        }
-        text.push_str(&failures);
-        if finished.resumed > 0 {
-            let _ = writeln!(text, "{} samples were in the journal", digits_of(finished.resumed));
-        }
-        (text, exit)
+        let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
+        let caption = "Requirements and columns, and the worst sample of each";
+        let heads = heads.map(str::to_owned).into();
+        Found { states, table: CampaignTable { caption, heads, rows, numbers: 2..5 } }
     }
+}
+
+/// What became of the requirements, and the table of them and of the columns.
+struct Found {
+    states: Vec<(String, RequirementState)>,
+    table: CampaignTable,
 }
 
 fn digits_of(count: usize) -> String {
@@ -209,10 +278,9 @@ fn digits_of(count: usize) -> String {
 
 /// Natural frequencies of structure and devices over the key, rotors at their initial rates, with the orders of a rate; none
 /// where there are none, or where the spacecraft has no linear model.
-fn campbell(prepared: &Prepared, axis: &Axis) -> Result<Option<String>, DrawError> {
+fn campbell(prepared: &Prepared, axis: &Axis) -> Option<Picture> {
     // No rotor is swept: each keeps the rate of its scenario.
-    let none = [String::new()];
-    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &none };
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: None };
     let mut values: Vec<f64> = axis.values.clone();
     values.sort_by(f64::total_cmp);
     let natural = |value: &f64| -> Option<Vec<Oscillation>> {
@@ -221,17 +289,15 @@ fn campbell(prepared: &Prepared, axis: &Axis) -> Result<Option<String>, DrawErro
         let model = Model::new(&scenario, &[], &steady).ok()?;
         oscillations(&model, 1.0).ok()
     };
-    let Some(found) = values.iter().map(natural).collect::<Option<Vec<_>>>() else {
-        return Ok(None);
-    };
+    let found = values.iter().map(natural).collect::<Option<Vec<_>>>()?;
     let speeds: Vec<f64> = values.iter().map(|value| value * axis.size).collect();
     let branches = branches(&speeds, &found);
     if branches.is_empty() {
-        return Ok(None);
+        return None;
     }
     let orders = orders(prepared, axis);
     let crossings = crossings(&speeds, &branches, &orders);
-    crate::report::sweep::campbell(axis, &values, &branches, &orders, &crossings).map(Some)
+    Some(crate::report::sweep::campbell(axis, &values, &branches, &orders, &crossings))
 }
 
 /// Orders of a wheel whose rate is swept: one, two, and those of its sources; none of another key.

@@ -16,6 +16,7 @@ use crate::disturbance::Six;
 use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
+use crate::rotation::{inverse, product, to_vector};
 use crate::scenario::Scenario;
 use precess_craft::CraftInputs;
 
@@ -31,6 +32,8 @@ pub(crate) struct SampleValues {
     momentum: bool,
     disturbances: bool,
     inputs: Option<CraftInputs>,
+    /// The attitude at the start.
+    start: [f64; 4],
     /// The recorded points of the structure.
     points: Vec<Point>,
 }
@@ -52,6 +55,8 @@ struct Computed<'a> {
     lost: f64,
     energy: f64,
     mrp: Mrp,
+    /// Rotation vector from the attitude at the start.
+    rotation: [f64; 3],
     momentum: Option<Momentum>,
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
@@ -96,6 +101,7 @@ impl SampleValues {
             momentum: any(Source::Momentum),
             disturbances: any(Source::Disturbances),
             inputs: None,
+            start: numbers(&scenario.initial.attitude),
             points,
             quantities,
         }
@@ -157,6 +163,7 @@ impl SampleValues {
             lost,
             energy,
             mrp: Mrp::from(state.attitude),
+            rotation: to_vector(product(inverse(self.start), numbers(&state.attitude))),
             momentum,
             joints: state.devices.states().collect(),
             accelerations: found.map(|found| SampleAccelerations {
@@ -196,8 +203,9 @@ impl Computed<'_> {
             Quantity::Time => Some(self.time),
             Quantity::Position(axis) => Some(state.r_b_n[axis]),
             Quantity::Velocity(axis) => Some(state.r_b_n_dot[axis]),
-            Quantity::Quaternion(index) => Some([q.q0, q.q1, q.q2, q.q3][index]),
+            Quantity::Quaternion(index) => Some(numbers(&q)[index]),
             Quantity::Sigma(axis) => Some(self.mrp.0[axis]),
+            Quantity::HubRotation(axis) => Some(self.rotation[axis]),
             Quantity::Omega(axis) => Some(state.omega[axis]),
             Quantity::Coordinate(index) => Some(joint(index)[0]),
             Quantity::Rate(index) => Some(joint(index)[1]),
@@ -257,4 +265,8 @@ fn pointing(b: &Quaternion, motion: &PointMotion) -> Mrp {
     let q0 = b.q0 * cos - w.dot(&v);
     let [q1, q2, q3] = (b.q0 * v + cos * w + w.cross(&v)).into();
     Mrp::from(Quaternion { q0, q1, q2, q3 }.normalised())
+}
+
+fn numbers(q: &Quaternion) -> [f64; 4] {
+    [q.q0, q.q1, q.q2, q.q3]
 }

@@ -5,6 +5,7 @@ use precess_dynamics::{Hub, HubMode};
 
 use super::super::keys::Keys;
 use super::devices::body;
+use super::devices::inertia::{INERTIA_KEYS, inertia};
 use super::structure::Structure;
 use crate::structure::RigidMass;
 use crate::units::Measure;
@@ -29,16 +30,16 @@ pub(super) fn hub(
         }
         return None;
     };
-    let given = ["mass", "centre_of_mass", "inertia", "products_of_inertia"];
+    let has_mass = ["mass", "centre_of_mass"].iter().chain(&INERTIA_KEYS).any(|key| hub.has(key));
     let (m_b, r_bc_b, i_b_bc) = match structure.and_then(Structure::mass) {
-        Some(of_file) if !given.iter().any(|key| hub.has(key)) => {
+        Some(of_file) if !has_mass => {
             let (mass, centre, inertia) = about_centre(of_file);
             (Some(mass), centre, Some(inertia))
         }
         of_file => {
             let m_b = body::mass(&hub);
             let centre = hub.vector("centre_of_mass", Measure::LENGTH);
-            let i_b_bc = body::inertia(&hub, true);
+            let i_b_bc = inertia(&hub);
             let centre = centre.unwrap_or_else(Vector3::zeros);
             if let (Some(of_file), Some(mass), Some(inertia)) = (of_file, m_b, i_b_bc) {
                 compare(&hub, of_file, mass, &centre, &inertia);

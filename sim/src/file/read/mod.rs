@@ -18,7 +18,7 @@ use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
-pub(crate) use devices::device::{has_inertia, has_mass, has_origin};
+pub(crate) use devices::device_bodies::{has_inertia, has_mass, has_origin};
 
 use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};
@@ -118,6 +118,12 @@ pub(super) fn scenario(
             if reports.has_errors() {
                 return Err(reports);
             }
+            let cell = RefCell::new(reports);
+            settle(&node, &mut scenario, &cell);
+            let reports = cell.into_inner();
+            if reports.has_errors() {
+                return Err(reports);
+            }
             scenario.source.filled = super::write::to_toml(&scenario);
             Ok((scenario, reports))
         }
@@ -126,6 +132,22 @@ pub(super) fn scenario(
                 reports.error_anywhere(format!("{path} is no scenario"), "");
             }
             Err(reports)
+        }
+    }
+}
+
+/// Starts a scenario in the vibration of its rotors, where its file says so.
+fn settle(node: &Node, scenario: &mut Scenario, reports: &Reports) {
+    let Some(keys) = Keys::new(node, "", reports) else { return };
+    if !devices::initial::is_settled(&keys) {
+        return;
+    }
+    let Some(initial) = keys.table("initial") else { return };
+    match crate::jitter::settled::settle(scenario) {
+        Ok(left_out) => left_out.iter().for_each(|reason| initial.warn("settled", reason, "")),
+        Err(fault) => {
+            let message = format!("the vibration of the rotors cannot be computed: {fault}");
+            initial.error("settled", message, "remove `settled`, or give the state itself");
         }
     }
 }

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::diagnostic::Diagnostics;
 use super::document::Value;
 use super::keys::Keys;
-use super::read::devices::body;
+use super::read::devices::{body, inertia::inertia};
 use super::read_file::{folder_of, read_file};
 use crate::structure::{
     COORDINATES, Fault, MOST, Node, RigidMass, Structure, StructureError, bytes_of, flex42, op4,
@@ -53,7 +53,7 @@ fn read(keys: &Keys<'_>, folder: &Path) -> Option<Structure> {
     let rigid = keys.table("rigid").and_then(|rigid| {
         let mass = body::mass(&rigid);
         let centre = rigid.vector("centre_of_mass", Measure::LENGTH);
-        let inertia = body::inertia(&rigid, true);
+        let inertia = inertia(&rigid);
         rigid.finish();
         Some(RigidMass::about_centre(mass?, centre.unwrap_or_else(Vector3::zeros), inertia?))
     });

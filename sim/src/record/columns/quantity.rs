@@ -9,6 +9,8 @@ pub(crate) enum Quantity {
     HubAcceleration(usize),
     Quaternion(usize),
     Sigma(usize),
+    /// Rotation vector from the attitude at the start.
+    HubRotation(usize),
     Omega(usize),
     OmegaDot(usize),
     Coordinate(usize),
@@ -62,6 +64,7 @@ impl Quantity {
             | Self::Velocity(_)
             | Self::Quaternion(_)
             | Self::Sigma(_)
+            | Self::HubRotation(_)
             | Self::Omega(_)
             | Self::Coordinate(_)
             | Self::Rate(_)
@@ -92,6 +95,11 @@ impl Quantity {
 
     pub(crate) fn is_load(&self) -> bool {
         self.source() == Source::Loads
+    }
+
+    /// Whether it is recorded where a scenario selects nothing.
+    pub(super) fn is_default(&self) -> bool {
+        !self.is_load() && !matches!(self, Self::HubRotation(_))
     }
 
     /// Whether the accelerations of the spacecraft are needed.

@@ -8,6 +8,7 @@ pub(super) mod figure;
 pub(super) mod fitted_lines;
 pub(super) mod log_panel;
 pub(crate) mod mode_shapes;
+pub(crate) mod picture;
 pub(crate) mod plane;
 pub(crate) mod response;
 mod scale_bar;

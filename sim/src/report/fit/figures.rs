@@ -4,10 +4,10 @@
 use std::f64::consts::TAU;
 
 use super::super::draw::fitted_lines::{FittedLine, FittedLines};
+use super::super::draw::picture::Picture;
 use super::super::draw::plane::Plane;
 use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::super::draw::waterfall::Waterfall;
-use super::super::error::DrawError;
 use crate::fit::{Coefficient, Fitted, Group, GroupFit, Harmonic, Power, Sense};
 use crate::spectra::float;
 
@@ -32,37 +32,7 @@ pub(super) struct Drawing {
     pub(super) slug: String,
     /// Below it on a page.
     pub(super) caption: String,
-    pub(super) figure: FitDrawing,
-}
-
-/// What is drawn.
-pub(super) enum FitDrawing {
-    Waterfall(Waterfall),
-    Lines(FittedLines),
-    Plane(Plane),
-    Spectrum(SpectrumFigure),
-}
-
-impl FitDrawing {
-    /// As an SVG file of its own.
-    pub(super) fn file(&self) -> Result<String, DrawError> {
-        match self {
-            Self::Waterfall(figure) => figure.file(),
-            Self::Lines(figure) => figure.file(),
-            Self::Plane(figure) => figure.file(),
-            Self::Spectrum(figure) => figure.file(),
-        }
-    }
-
-    /// As a part of a page.
-    pub(super) fn inline(&self) -> Result<String, DrawError> {
-        match self {
-            Self::Waterfall(figure) => figure.inline(),
-            Self::Lines(figure) => figure.inline(),
-            Self::Plane(figure) => figure.inline(),
-            Self::Spectrum(figure) => figure.inline(),
-        }
-    }
+    pub(super) figure: Picture,
 }
 
 /// The pictures of each group.
@@ -79,25 +49,21 @@ pub(super) fn drawings(title: &str, fitted: &Fitted) -> Vec<Drawing> {
         };
         let caption =
             format!("{group}: amplitudes over the speed, crosses as measured, curves as fitted.");
-        add("lines", caption, FitDrawing::Lines(lines(title, fitted, fit, &shown)));
+        add("lines", caption, Picture::Lines(lines(title, fitted, fit, &shown)));
         if let Some((rpm, figure)) = spectrum(title, fitted, fit, index) {
             let caption = format!(
                 "{group}: spectrum at {rpm:.0} rpm with the fitted lines and noise; below, the RMS of all lower frequencies."
             );
-            add("spectrum", caption, FitDrawing::Spectrum(figure));
+            add("spectrum", caption, Picture::Spectrum(figure));
         }
         let caption = format!(
             "{group}: residuals of powers by their standard deviation; 95 % are within 2 where the model holds."
         );
-        add("residuals", caption, FitDrawing::Plane(residuals(title, fitted, fit, &shown)));
+        add("residuals", caption, Picture::Plane(residuals(title, fitted, fit, &shown)));
         let caption = format!(
             "{group}: density of each axis over speed and frequency, by its scale; where nothing is drawn it is below the scale. Curves: orders and modes."
         );
-        add(
-            "waterfall",
-            caption,
-            FitDrawing::Waterfall(waterfall(title, fitted, fit, index, &shown)),
-        );
+        add("waterfall", caption, Picture::Waterfall(waterfall(title, fitted, fit, index, &shown)));
     }
     all
 }

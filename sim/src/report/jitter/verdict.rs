@@ -30,15 +30,20 @@ impl JitterReport<'_> {
         }
         if unmet.is_empty() {
             let word = format!("All {all} requirements are met");
-            let text = format!("at all {speeds} speeds, {}. {beside}", self.budget.phases.words());
+            let text = format!(
+                "at all {speeds} speeds, {}{}. {beside}",
+                self.budget.phases.words(),
+                self.excesses()
+            );
             return Verdict { state: "met", word, text };
         }
         let one = |of: &&Assessed| format!("{} out of {}", of.limit.name, intervals(&of.keep_out));
         let word = format!("{} of {all} requirements violated:", unmet.len());
         let text = format!(
-            "{}, {}. {beside} Keep the rotors out of these speeds, or change the design.",
+            "{}, {}{}. {beside} Keep the rotors out of these speeds, or change the design.",
             unmet.iter().map(one).collect::<Vec<_>>().join("; ").replace(" out of ", " at "),
-            self.budget.phases.words()
+            self.budget.phases.words(),
+            self.excesses()
         );
         let text = if missing.is_empty() {
             text
@@ -46,6 +51,13 @@ impl JitterReport<'_> {
             format!("{text} Not evaluated: {}.", missing.join("; "))
         };
         Verdict { state: "violated", word, text }
+    }
+
+    /// What violates limits that are met by the budget's assumption about phases.
+    fn excesses(&self) -> String {
+        let one =
+            |of: &Assessed| Some(format!("; {} {}", of.limit.name, of.violated_by()?.excess()));
+        self.assessed.iter().filter_map(one).collect()
     }
 
     /// The verdicts by the other assumptions about phases, in a sentence each.

@@ -98,37 +98,41 @@ fn found(
         Quantity::Time => return None,
         Quantity::Omega(axis) => {
             let texts = ["angular-velocity", "Angular velocity of the hub", "Angular velocity"];
-            of_hub(0, texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
+            of_hub((0, 0), texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
         }
         Quantity::Sigma(axis) => {
             let title = "Attitude of B relative to N, modified Rodrigues parameters";
             let texts = ["attitude", title, "Attitude σ"];
-            of_hub(1, texts, unit::NUMBER, ["σ", ["1", "2", "3"][axis]])
+            of_hub((1, 0), texts, unit::NUMBER, ["σ", ["1", "2", "3"][axis]])
         }
         Quantity::Quaternion(index) => {
             let title = "Attitude of B relative to N, Euler parameters";
             let texts = ["attitude", title, "Attitude q"];
-            of_hub(1, texts, unit::NUMBER, ["q", ["0", "1", "2", "3"][index]])
+            of_hub((1, 0), texts, unit::NUMBER, ["q", ["0", "1", "2", "3"][index]])
+        }
+        Quantity::HubRotation(axis) => {
+            let texts = ["rotation", "Rotation of the hub since the start", "Rotation"];
+            of_hub((1, 1), texts, unit::SMALL_ANGLE, ["θ", AXES[axis]])
         }
         Quantity::Rate(joint) => return of_joint(2, &RATE, joint, joints),
         Quantity::Coordinate(joint) => return of_joint(3, &COORDINATE, joint, joints),
         Quantity::Torque(joint) => return of_joint(4, &MOTOR, joint, joints),
         Quantity::Position(axis) => {
             let texts = ["position", "Inertial position of B", "Position"];
-            of_hub(5, texts, unit::LENGTH, ["r", AXES[axis]])
+            of_hub((5, 0), texts, unit::LENGTH, ["r", AXES[axis]])
         }
         Quantity::Velocity(axis) => {
             let texts = ["velocity", "Inertial velocity of B", "Velocity"];
-            of_hub(6, texts, unit::VELOCITY, ["v", AXES[axis]])
+            of_hub((6, 0), texts, unit::VELOCITY, ["v", AXES[axis]])
         }
         Quantity::OmegaDot(axis) => {
             let texts =
                 ["angular-acceleration", "Angular acceleration of the hub", "Angular acceleration"];
-            of_hub(7, texts, unit::ANGULAR_ACCELERATION, ["α", AXES[axis]])
+            of_hub((7, 0), texts, unit::ANGULAR_ACCELERATION, ["α", AXES[axis]])
         }
         Quantity::HubAcceleration(axis) => {
             let texts = ["acceleration", "Inertial acceleration of B", "Acceleration"];
-            of_hub(8, texts, unit::ACCELERATION, ["a", AXES[axis]])
+            of_hub((8, 0), texts, unit::ACCELERATION, ["a", AXES[axis]])
         }
         Quantity::JointAcceleration(joint) => return of_joint(9, &ACCELERATION, joint, joints),
         Quantity::Displacement(point, axis) => {
@@ -159,19 +163,19 @@ fn found(
         Quantity::Disturbance(source, component) => of_disturbance(source, component, column),
         Quantity::Energy => {
             let texts = ["energy", "Energy and work since the start", "Energy"];
-            of_hub(20, texts, unit::ENERGY, ["ΔE", ""])
+            of_hub((20, 0), texts, unit::ENERGY, ["ΔE", ""])
         }
-        Quantity::Work => of_hub(20, WORK, unit::ENERGY, ["W", ""]),
-        Quantity::Lost => of_hub(20, WORK, unit::ENERGY, ["losses", ""]),
+        Quantity::Work => of_hub((20, 0), WORK, unit::ENERGY, ["W", ""]),
+        Quantity::Lost => of_hub((20, 0), WORK, unit::ENERGY, ["losses", ""]),
         Quantity::Linear(axis) => {
             let title = "Linear momentum, departure from the start";
             let texts = ["linear-momentum", title, "Departure"];
-            of_hub(22, texts, unit::LINEAR_MOMENTUM, ["Δp", AXES[axis]])
+            of_hub((22, 0), texts, unit::LINEAR_MOMENTUM, ["Δp", AXES[axis]])
         }
         Quantity::Angular(axis) => {
             let title = "Angular momentum about the inertial origin, departure from the start";
             let texts = ["angular-momentum", title, "Departure"];
-            of_hub(23, texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
+            of_hub((23, 0), texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
         }
         Quantity::MountForce(_, axis)
         | Quantity::CarriedForce(_, axis)
@@ -215,20 +219,20 @@ const ACCELERATION: JointTexts = [
 
 /// Of the hub or of the whole spacecraft.
 fn of_hub(
-    rank: usize,
+    key: (usize, usize),
     [slug, title, axis]: [&'static str; 3],
     family: &'static Family,
     [symbol, index]: [&str; 2],
 ) -> ChartColumn {
     ChartColumn {
-        key: (rank, 0),
-        part: if rank < 20 { Part::Histories } else { Part::Energy },
+        key,
+        part: if key.0 < 20 { Part::Histories } else { Part::Energy },
         slug: slug.to_owned(),
         title: title.to_owned(),
         axis,
         family,
         label: if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") },
-        departure: rank >= 20,
+        departure: key.0 >= 20,
     }
 }
 

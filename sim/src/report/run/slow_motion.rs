@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 
 use super::replay::{COORDINATES, Frame};
 use crate::report::number;
+use crate::rotation::{from_vector, inverse, product, to_vector};
 
 /// Frames for each turn, at least.
 const PER_TURN: f64 = 20.0;
@@ -153,34 +154,6 @@ fn straight(times: &[f64], values: &[f64]) -> [f64; 3] {
     let square = sum(&|k| (times[k] - at) * (times[k] - at));
     let both = sum(&|k| (times[k] - at) * (values[k] - mean));
     [mean, if square > 0.0 { both / square } else { 0.0 }, at]
-}
-
-/// Hamilton's product.
-fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    [
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    ]
-}
-
-fn inverse([q0, q1, q2, q3]: [f64; 4]) -> [f64; 4] {
-    [q0, -q1, -q2, -q3]
-}
-
-fn from_vector(v: [f64; 3]) -> [f64; 4] {
-    let angle = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let share = if angle > 1e-8 { (0.5 * angle).sin() / angle } else { 0.5 };
-    [(0.5 * angle).cos(), share * v[0], share * v[1], share * v[2]]
-}
-
-/// The rotation vector of a quaternion, not longer than half a turn.
-fn to_vector([q0, q1, q2, q3]: [f64; 4]) -> [f64; 3] {
-    let sign = if q0 < 0.0 { -1.0 } else { 1.0 };
-    let sine = (q1 * q1 + q2 * q2 + q3 * q3).sqrt();
-    let share = if sine > 1e-12 { 2.0 * sine.atan2(sign * q0) / sine } else { 2.0 };
-    [q1, q2, q3].map(|q| sign * share * q)
 }
 
 #[cfg(test)]

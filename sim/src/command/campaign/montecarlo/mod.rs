@@ -1,17 +1,23 @@
 //! `montecarlo`: runs of a scenario whose keys are drawn from distributions: percentiles, probabilities, sensitivities.
 
+mod csv;
+mod tables;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
 
+use csv::{correlations_csv, derivatives_csv, percentiles_csv};
+use tables::{Results, correlation_table, derivative_table, percentile_table, results};
+
 use super::{
-    CampaignOptions, Prepared, ResultColumn, failures, not_evaluated, shown, values_of,
+    CampaignOptions, Prepared, ResultColumn, failures, not_evaluated, shown, values_of, warnings,
     without_number,
 };
 use crate::campaign::{
     Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, digits,
-    draw, exact_derivatives, percentile, probability_between, regression, spearman, tangents,
+    draw, exact_derivatives, probability_between, regression, spearman, tangents,
 };
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
@@ -20,7 +26,7 @@ use crate::command::table::{aligned, six};
 use crate::command::terminal::print;
 use crate::file::variations_from_toml;
 use crate::names::file_names;
-use crate::pointing::RequirementState;
+use crate::report::campaign::CampaignPage;
 use crate::report::montecarlo::distribution;
 use crate::spectra::float;
 use crate::variation::Variation;
@@ -77,7 +83,8 @@ impl MonteCarlo {
         let prepared = self.options.prepare()?;
         let stem = format!("{}-montecarlo", prepared.scenario.name);
         let beside = format!("{stem}-sensitivities");
-        let mut names = vec![format!("{stem}.csv"), format!("{stem}.npz")];
+        let mut names: Vec<_> =
+            ["csv", "npz", "html"].map(|ending| format!("{stem}.{ending}")).into();
         for part in ["percentiles", "correlations"] {
             names.push(format!("{stem}-{part}.csv"));
         }
@@ -92,10 +99,12 @@ impl MonteCarlo {
             return Ok(Exit::Violated);
         };
         let mut texts = Vec::new();
+        let mut drawn = Vec::new();
         for ((name, field, (unit, size), limit), file) in shown(&prepared).zip(pictures) {
             let sorted = sorted(&finished, field);
             let picture = distribution(&name, (&unit, size), &sorted, limit);
-            texts.push((file, picture.map_err(|error| other(&error))?));
+            texts.push((file, picture.file().map_err(|error| other(&error))?));
+            drawn.push((format!("{name}: share of samples that do not exceed a value."), picture));
         }
         texts.push((format!("{stem}-percentiles.csv"), percentiles_csv(&prepared, &finished)));
         let correlations = correlations(&prepared, &plan, &finished);
@@ -109,12 +118,28 @@ impl MonteCarlo {
             let planes = planes(&prepared, &plan, &finished);
             texts.push((format!("{beside}.csv"), derivatives_csv(&found, &planes)));
         }
+        let results = results(&prepared, &plan, &finished);
+        let page = CampaignPage {
+            subject: "Monte Carlo campaign",
+            scenario: &prepared.scenario,
+            states: &results.states,
+            facts: self.facts(&plan),
+            tables: vec![
+                results.table.clone(),
+                percentile_table(&prepared, &finished),
+                correlation_table(&correlations),
+                derivative_table(&found),
+            ],
+            pictures: &drawn,
+            warnings: warnings(&prepared, &plan, &finished),
+        };
+        texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
         let count = texts.len() + 1;
         self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
-        let (text, exit) = summary(&prepared, &plan, &finished, &correlations, &found);
+        let (text, exit) = summary((&prepared, &plan, &finished), &results, &correlations, &found);
         print(&text)?;
         let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.csv and {count} more\n"))?;
+        print(&format!("files: {folder}/{stem}.html and {count} more\n"))?;
         Ok(exit)
     }
 }
@@ -123,6 +148,16 @@ impl MonteCarlo {
 type RankedDerivatives = Vec<(String, Vec<Derivative>)>;
 
 impl MonteCarlo {
+    /// What was run.
+    fn facts(&self, plan: &Plan) -> Vec<(&'static str, String)> {
+        let drawn = if self.latin_hypercube { ", a Latin hypercube" } else { "" };
+        vec![
+            ("Samples", format!("{}{drawn}", plan.samples.len())),
+            ("Seed", self.seed.to_string()),
+            ("Keys that vary", plan.labels.len().to_string()),
+        ]
+    }
+
     /// Exact derivatives, and central differences of numbers that have none; none where Ctrl-C ended the runs of these.
     fn derivatives(
         &self,
@@ -234,126 +269,16 @@ fn correlations(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Correl
     shown(prepared).map(of).collect()
 }
 
-fn cell(value: f64) -> String {
-    if value.is_finite() { digits(value) } else { String::new() }
-}
-
-/// In SI; an end that the sample is too small for is empty.
-fn percentiles_csv(prepared: &Prepared, finished: &Finished) -> String {
-    let mut text = String::from("number,percentile,value_si,lower_si,upper_si\n");
-    for (name, field, _, limit) in shown(prepared) {
-        let sorted = sorted(finished, field);
-        for share in PERCENTILES {
-            let Some(found) = percentile(&sorted, share, LEVEL) else { continue };
-            let [lower, upper] = found.interval.map(cell);
-            let _ = writeln!(
-                text,
-                "{},{},{},{lower},{upper}",
-                quoted(&name),
-                100.0 * share,
-                cell(found.value)
-            );
-        }
-        let found = limit.and_then(|limit| meets(finished, field, limit));
-        if let Some(ComplianceCount { probability: found, .. }) = found {
-            let [lower, upper] = found.interval.map(cell);
-            let _ = writeln!(
-                text,
-                "{},probability of meeting,{},{lower},{upper}",
-                quoted(&name),
-                cell(found.value)
-            );
-        }
-    }
-    text
-}
-
-fn correlations_csv(of: &Correlations) -> String {
-    let mut text = String::from("number,key,rank_correlation\n");
-    for (name, by) in of {
-        for (key, value) in by {
-            let value = value.map_or_else(String::new, cell);
-            let _ = writeln!(text, "{},{},{value}", quoted(name), quoted(key));
-        }
-    }
-    text
-}
-
-fn derivatives_csv(of: &[(String, Vec<Derivative>)], planes: &Planes) -> String {
-    let mut text = String::from(
-        "number,key,derivative_si_by_key_unit,times_deviation_si,method,sample_slope,sample_slope_error\n",
-    );
-    for ((name, by), plane) in of.iter().zip(planes) {
-        for one in by {
-            let (slope, size) = (cell(one.slope), cell(one.size()));
-            let method = if one.exact { "exact" } else { "difference" };
-            let known = plane.iter().flatten().find(|(label, _)| *label == one.label);
-            let [sample, error] = known.map_or([f64::NAN; 2], |(_, found)| *found).map(cell);
-            let _ = writeln!(
-                text,
-                "{},{},{slope},{size},{method},{sample},{error}",
-                quoted(name),
-                quoted(&one.label)
-            );
-        }
-    }
-    text
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
 /// For the terminal; and what became of the requirements.
 fn summary(
-    prepared: &Prepared,
-    plan: &Plan,
-    finished: &Finished,
+    (prepared, plan, finished): (&Prepared, &Plan, &Finished),
+    results: &Results,
     correlations: &Correlations,
     found: &[(String, Vec<Derivative>)],
 ) -> (String, Exit) {
     let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
-    let mut rows = vec![
-        ["", "median", "95 %", "its interval", "limit", "met by", "probability"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
-    let mut exit = Exit::Success;
-    for (name, field, (unit, size), limit) in shown(prepared) {
-        let sorted = sorted(finished, field);
-        let at = |share| percentile(&sorted, share, LEVEL);
-        let value = |value: f64| {
-            if value.is_finite() { six(value / size) } else { "none".to_owned() }
-        };
-        let shown = |of: Option<Estimate>| {
-            of.map_or_else(|| "none".to_owned(), |of| format!("{} {unit}", value(of.value)))
-        };
-        let high = at(0.95);
-        let mut row = vec![name, shown(at(0.5)), shown(high)];
-        row.push(high.map_or_else(String::new, |of| {
-            format!("{} to {}", value(of.interval[0]), value(of.interval[1]))
-        }));
-        if let Some((limit, found)) =
-            limit.and_then(|limit| Some((limit, meets(finished, field, limit)?)))
-        {
-            let state = RequirementState::from_numbers(&values_of(finished, field), limit);
-            exit = exit.max(Exit::of_states([&state]));
-            let of_all = format!("{} of {}", found.met, plan.samples.len());
-            row.push(format!("{} {unit}", six(limit / size)));
-            row.push(match found.not_evaluated {
-                0 => of_all,
-                some => format!("{of_all}, {some} not evaluated"),
-            });
-            let [lower, upper] = found.probability.interval;
-            row.push(format!("{lower:.4} to {upper:.4}"));
-        }
-        rows.push(row);
-    }
-    text.push_str(&aligned(&rows));
+    let mut exit = Exit::of_states(results.states.iter().map(|(_, state)| state));
+    text.push_str(&aligned(&results.table.text()));
     let _ = writeln!(text, "intervals contain the true value with at least {LEVEL}");
     for (name, by) in correlations {
         let mut by: Vec<_> = by.iter().filter_map(|(key, value)| Some((key, (*value)?))).collect();

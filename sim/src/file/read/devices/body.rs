@@ -4,6 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::Passive;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 
+use super::inertia::inertia;
+use super::joint_measures::JointMeasures;
+use super::motion::{motion, only_motion};
 use crate::file::keys::Keys;
 use crate::file::read::values::drive::profile;
 use crate::scenario::{Drive, Profile, StopAction};
@@ -46,41 +49,6 @@ pub(in crate::file::read) struct BodyRequirements {
     pub(in crate::file::read) origin: bool,
 }
 
-/// The measures of a joint.
-#[derive(Clone, Copy)]
-pub(in crate::file::read) struct JointMeasures {
-    pub(in crate::file::read) coordinate: Measure,
-    pub(in crate::file::read) rate: Measure,
-    pub(in crate::file::read) acceleration: Measure,
-    pub(in crate::file::read) torque: Measure,
-    stiffness: Measure,
-    damping: Measure,
-}
-
-impl JointMeasures {
-    pub(in crate::file::read) fn of_joint(joint: &JointInfo) -> Self {
-        if joint.slides {
-            Self {
-                coordinate: Measure::LENGTH,
-                rate: Measure::VELOCITY,
-                acceleration: Measure::ACCELERATION,
-                torque: Measure::FORCE,
-                stiffness: Measure::STIFFNESS,
-                damping: Measure::DAMPING,
-            }
-        } else {
-            Self {
-                coordinate: Measure::ANGLE,
-                rate: Measure::ANGULAR_RATE,
-                acceleration: Measure::ANGULAR_ACCELERATION,
-                torque: Measure::TORQUE,
-                stiffness: Measure::ANGULAR_STIFFNESS,
-                damping: Measure::ANGULAR_DAMPING,
-            }
-        }
-    }
-}
-
 /// The table of a body; what is missing or wrong has been reported.
 pub(in crate::file::read) fn body(
     keys: &Keys<'_>,
@@ -93,7 +61,7 @@ pub(in crate::file::read) fn body(
     } else {
         (Some(0.0), Vector3::zeros())
     };
-    let inertia = if needs.inertia { inertia(keys, true) } else { Some(Matrix3::zeros()) };
+    let inertia = if needs.inertia { inertia(keys) } else { Some(Matrix3::zeros()) };
     let origin = needs.origin.then(|| keys.vector("origin", Measure::LENGTH)).flatten();
     let joint = joint(keys, needs.joint, &measures, folder);
     keys.finish();
@@ -114,14 +82,15 @@ pub(in crate::file::read) fn joint(
     folder: &std::path::Path,
 ) -> Option<Joint> {
     let passive = passive(keys, measures);
-    // A joint that slides has a displacement and a speed.
-    let [coordinate, rate] =
-        if joint.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
-    let state = [
-        keys.quantity(coordinate, measures.coordinate).unwrap_or(0.0),
-        keys.quantity(rate, measures.rate).unwrap_or(0.0),
-    ];
+    let (state, motion) = motion(keys, joint, measures, folder);
     let drive = drive(keys, joint, measures, folder);
+    let drive = match motion {
+        Some((key, motion)) => {
+            only_motion(keys, key);
+            motion.map(Drive::Acceleration)
+        }
+        None => drive,
+    };
     let stop = stop(keys, measures, state[0]);
     Some(Joint { passive, state, drive: drive?, stop })
 }
@@ -138,27 +107,6 @@ pub(in crate::file) fn mass(keys: &Keys<'_>) -> Option<f64> {
         "a mass is not negative",
     );
     None
-}
-
-/// Moments of inertia and products: `inertia = "900, 800, 600 kg m^2"`, and
-/// `products_of_inertia = "4.15, 2.93, 2.75 kg m^2"`, the elements 12, 13 and 23 of the tensor.
-pub(in crate::file) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
-    let products = keys.quantities::<3>("products_of_inertia", Measure::INERTIA);
-    if !keys.has("inertia") {
-        if required {
-            keys.missing("inertia", "inertia = \"1, 1, 1 kg m^2\"");
-        }
-        return None;
-    }
-    let [xx, yy, zz] = keys.quantities::<3>("inertia", Measure::INERTIA)?;
-    if [xx, yy, zz].iter().any(|moment| *moment < 0.0) {
-        let [x, y, z] = [xx, yy, zz].map(Plain);
-        let message = format!("`{}.inertia` is {x}, {y}, {z} kg m^2", keys.path());
-        keys.error("inertia", message, "a moment of inertia is not negative");
-        return None;
-    }
-    let [xy, xz, yz] = products.unwrap_or_default();
-    Some(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }
 
 fn passive(keys: &Keys<'_>, measures: &JointMeasures) -> Passive {
@@ -186,7 +134,8 @@ pub(in crate::file::read) fn drive(
 ) -> Option<Drive> {
     let torque = if joint.slides { "force" } else { "torque" };
     let limit_key = if joint.slides { "force_limit" } else { "torque_limit" };
-    let given = [torque, "acceleration", "locked"].map(|key| keys.has(key));
+    let locked = keys.boolean("locked").unwrap_or(false);
+    let given = [keys.has(torque), keys.has("acceleration"), locked];
     let limit = keys.quantity(limit_key, measures.torque);
     if let Some(value) = limit {
         if value.is_nan() || value <= 0.0 {
@@ -200,7 +149,6 @@ pub(in crate::file::read) fn drive(
         let message = format!("a joint has a `{torque}`, or an `acceleration`, or is `locked`");
         keys.error(if given[1] { "acceleration" } else { "locked" }, message, "keep one of them");
     }
-    let locked = keys.boolean("locked").unwrap_or(false);
     let acceleration = keys
         .node("acceleration")
         .map(|node| profile(keys, "acceleration", node, measures.acceleration, folder));

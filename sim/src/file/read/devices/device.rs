@@ -2,23 +2,22 @@
 
 use std::path::Path;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use precess_description::Turn;
-use precess_dynamics::kind::{BodyParameters, ImbalanceModel, JointInfo, Kind, no_inertia};
-use precess_dynamics::{
-    BuiltIn, BuiltInKind, DeviceParameters, Imbalance, Isolated, MAX_JOINTS, Parameter, Passive,
-    Platform,
-};
+use precess_dynamics::kind::{JointInfo, Kind};
+use precess_dynamics::{BuiltIn, BuiltInKind, Isolated, Parameter, Platform};
 
-use super::body::{Body, BodyRequirements, Joint, body};
+use super::body::Joint;
 use super::copies::{help_of_copy, original, with_original};
+use super::device_bodies::DeviceBodies;
 use super::layout::{MountedPosition, layout, turned};
+use super::layout_members::members;
 use crate::file::diagnostic::Span;
 use crate::file::document::Value;
 use crate::file::keys::{Keys, shown_name};
 use crate::file::read::structure::Structure;
 use crate::file::read::values::mount::{DeviceAxes, mount};
-use crate::scenario::{Drive, StopAction, body_key};
+use crate::scenario::{Drive, StopAction};
 use crate::units::Measure;
 
 /// A device of a kind, or a platform without the devices on it.
@@ -139,46 +138,32 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     } else {
         single
     };
-    let model = model(keys);
-    let imbalance = imbalance(keys);
-    let empty = keys.empty();
-    let bodies: Vec<_> = infos
-        .iter()
-        .map(|joint| {
-            let key = body_key(joint);
-            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
-            let needs = BodyRequirements { joint, mass, inertia, origin: has_origin(kind, joint) };
-            // Of a link without a body every key has a default.
-            let table =
-                if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
-            let Some(table) = table else {
-                if !keys.has(&key) {
-                    keys.missing(&key, &format!("[device.{key}]"));
-                }
-                return None;
-            };
-            body(&table, needs, folder)
-        })
-        .collect();
-    keys.finish();
-    let Some(bodies) = bodies.into_iter().collect::<Option<Vec<_>>>() else { return Vec::new() };
-    let parameters = parameters(keys, &bodies, imbalance.as_ref(), model);
-    let Some(parameters) = parameters else { return Vec::new() };
+    let common = DeviceBodies::new(keys, kind, folder);
     let places = match places {
         Some(places) => places.unwrap_or_default(),
         None => single.into_iter().collect::<Vec<MountedPosition>>(),
     };
     let many = keys.has("layout");
+    let names: Vec<String> = (1..=places.len())
+        .map(|number| if many { format!("{name}{number}") } else { name.to_owned() })
+        .collect();
+    let members = members(keys, kind, if many { &names } else { &[] });
+    keys.finish();
+    let Some(common) = common else { return Vec::new() };
     if let Some(nodes) = nodes.as_ref().filter(|on| on.len() > 1 && on.len() != places.len()) {
         let message = format!("{} nodes for {} devices", nodes.len(), places.len());
         keys.error("node", message, "name one node, or one for each device of the layout");
         return Vec::new();
     }
-    let numbered = places.iter().zip(1..).enumerate();
-    numbered
-        .filter_map(|(index, (place, number))| {
-            let own = if many { format!("{name}{number}") } else { name.to_owned() };
-            let mut device = device(keys, own, kind, &parameters, &bodies, place)?;
+    let named = places.iter().zip(names).enumerate();
+    named
+        .filter_map(|(index, (place, own))| {
+            let member = members.iter().find(|member| member.name() == Some(&own));
+            let bodies = match member {
+                Some(member) => &DeviceBodies::of_member(keys, member, kind, folder)?,
+                None => &common,
+            };
+            let mut device = device(keys, own, kind, bodies, place)?;
             device.layout = many.then(|| name.to_owned());
             device.node = nodes.as_ref().and_then(|on| on.get(index).or(on.first())).copied();
             device.place = Some(keys.place("on"));
@@ -227,127 +212,14 @@ fn kind(keys: &Keys<'_>) -> Option<BuiltInKind> {
     keys.choice("kind", &words)
 }
 
-/// Whether a body of a kind has an inertia.
-pub(crate) fn has_inertia(kind: BuiltInKind, joint: &JointInfo) -> bool {
-    has(kind, joint, "kg m²")
-}
-
-/// Whether a link of a kind has a body: those of flexible bearings have none.
-pub(crate) fn has_mass(kind: BuiltInKind, joint: &JointInfo) -> bool {
-    has(kind, joint, "kg")
-}
-
-/// Whether the table of a link has the origin of its joint. The first one's is the device's position; of links
-/// without a body only one in a body, as the bearings of a wheel in a gimbal are, has one.
-pub(crate) fn has_origin(kind: BuiltInKind, joint: &JointInfo) -> bool {
-    joint.index > 0 && (has_mass(kind, joint) || has(kind, joint, "m"))
-}
-
-/// Whether a body has a parameter in a unit.
-fn has(kind: BuiltInKind, joint: &JointInfo, unit: &str) -> bool {
-    let of_body = |body: Option<&str>| body == Some(joint.body);
-    kind.parameters().iter().any(|parameter| of_body(parameter.body) && parameter.unit == unit)
-}
-
-/// The largest usual distance of a wheel's centre of mass from its spin axis, m; beyond it, a warning.
-const OFFSET_USUAL: f64 = 1e-3;
-
-/// How the imbalance of a wheel acts.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Model {
-    Coupled,
-    Lumped,
-    Balanced,
-}
-
-fn model(keys: &Keys<'_>) -> Model {
-    let words =
-        [("coupled", Model::Coupled), ("lumped", Model::Lumped), ("balanced", Model::Balanced)];
-    keys.choice("imbalance_model", &words).unwrap_or(Model::Coupled)
-}
-
-/// The data sheet of a wheel's imbalance.
-fn imbalance(keys: &Keys<'_>) -> Option<Imbalance> {
-    let sheet = keys.table("imbalance")?;
-    let u_s = sheet.quantity("static", Measure::STATIC_IMBALANCE).unwrap_or(0.0);
-    let u_d = sheet.quantity("dynamic", Measure::DYNAMIC_IMBALANCE).unwrap_or(0.0);
-    let phase = sheet.quantity("phase", Measure::ANGLE).unwrap_or(0.0);
-    sheet.finish();
-    Some(Imbalance { u_s, u_d, phase })
-}
-
-fn parameters(
-    keys: &Keys<'_>,
-    bodies: &[Body],
-    imbalance: Option<&Imbalance>,
-    model: Model,
-) -> Option<DeviceParameters> {
-    let nothing =
-        BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia: no_inertia() };
-    let mut parameters = DeviceParameters {
-        mount: Matrix3::identity(),
-        bodies: [nothing; MAX_JOINTS],
-        passive: [Passive::none(); MAX_JOINTS],
-        model: if model == Model::Lumped {
-            ImbalanceModel::Lumped
-        } else {
-            ImbalanceModel::Coupled
-        },
-    };
-    for (to, from) in parameters.bodies.iter_mut().zip(bodies) {
-        *to = from.parameters;
-    }
-    for (to, from) in parameters.passive.iter_mut().zip(bodies) {
-        *to = from.joint.passive;
-    }
-    let wheel = parameters.bodies.get_mut(bodies.len().saturating_sub(1))?;
-    if let Some(sheet) = imbalance {
-        let products = [wheel.inertia.m12, wheel.inertia.m13];
-        if wheel.centre != [0.0; 3] || products != [0.0; 2] {
-            let message = "the wheel has an imbalance twice: as a data sheet, and as a centre of \
-                           mass or products of inertia 12 or 13";
-            keys.error("imbalance", message, "keep one of them");
-            return None;
-        }
-        match sheet.in_wheel(wheel.mass) {
-            Ok(found) => {
-                if found.d.abs() > OFFSET_USUAL {
-                    let message = format!(
-                        "the imbalance puts the wheel's centre of mass {} mm off its spin axis",
-                        1e3 * found.d.abs()
-                    );
-                    keys.warn(
-                        "imbalance",
-                        message,
-                        "of a wheel it is micrometres; is the unit right?",
-                    );
-                }
-                wheel.centre[1] = found.d;
-                (wheel.inertia.m12, wheel.inertia.m21) = (found.j_12, found.j_12);
-                (wheel.inertia.m13, wheel.inertia.m31) = (found.j_13, found.j_13);
-            }
-            Err(error) => {
-                keys.error("imbalance", error.to_string(), "");
-                return None;
-            }
-        }
-    }
-    if model == Model::Balanced {
-        wheel.centre = [0.0; 3];
-        wheel.inertia = Matrix3::from_diagonal(&wheel.inertia.diagonal());
-    }
-    Some(parameters)
-}
-
 fn device(
     keys: &Keys<'_>,
     name: String,
     kind: BuiltInKind,
-    parameters: &DeviceParameters,
-    bodies: &[Body],
+    bodies: &DeviceBodies,
     (position, mount): &MountedPosition,
 ) -> Option<Device> {
-    let mut parameters = *parameters;
+    let mut parameters = bodies.parameters;
     parameters.mount = mount.matrix;
     parameters.bodies[0].origin = (*position).into();
     let device = match BuiltIn::new(kind, &parameters) {
@@ -368,12 +240,11 @@ fn device(
             return None;
         }
     };
-    let joints: Vec<_> = bodies.iter().map(|body| body.joint.clone()).collect();
     Some(Device::new(
         name,
         DeviceOrPlatform::BuiltIn(Box::new(device)),
         mount.turns.clone(),
         "hub",
-        &joints,
+        &bodies.joints,
     ))
 }

@@ -30,6 +30,8 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
             }
             attitude.finish();
         }
+        // Of the whole scenario: see `is_settled`.
+        initial.boolean("settled");
         initial.finish();
     }
     let given = devices.iter().flat_map(|device| device.state.iter().copied());
@@ -37,6 +39,11 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
         (*coordinate, *rate) = (q, q_dot);
     }
     state
+}
+
+/// Whether the run starts in the vibration of its rotors, about the state of the file.
+pub(in crate::file::read) fn is_settled(keys: &Keys<'_>) -> bool {
+    keys.table("initial").and_then(|initial| initial.boolean("settled")).unwrap_or(false)
 }
 
 /// Everything at rest, for these devices.

@@ -3,8 +3,13 @@
 pub(in crate::file) mod body;
 mod copies;
 pub(super) mod device;
+pub(super) mod device_bodies;
+pub(in crate::file) mod inertia;
 pub(super) mod initial;
+pub(super) mod joint_measures;
 pub(super) mod joints;
 mod layout;
+mod layout_members;
+mod motion;
 pub(super) mod platform;
 mod suspension;

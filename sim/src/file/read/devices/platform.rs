@@ -20,8 +20,10 @@ use precess_dynamics::{
     About, BuiltIn, Hub, Isolated, JointStates, Passive, Platform, Spacecraft, State, platform,
 };
 
-use super::body::{Joint, JointMeasures, inertia, joint, mass};
+use super::body::{Joint, joint, mass};
 use super::device::{Device, DeviceOrPlatform, nodes};
+use super::inertia::inertia;
+use super::joint_measures::JointMeasures;
 use super::suspension::suspension;
 use crate::file::keys::Keys;
 use crate::file::read::structure::Structure;
@@ -68,7 +70,7 @@ fn read(
     let name = keys.text("name");
     let m_p = mass(keys);
     let r_pc_p = keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
-    let i_p_pc = inertia(keys, true);
+    let i_p_pc = inertia(keys);
     let node = node(keys, structure);
     let at_node = node.and_then(|node| structure?.position(node));
     let r_p_b = keys.vector("position", Measure::LENGTH).or(at_node);

@@ -26,6 +26,14 @@ pub(in crate::file::read) fn check(node: &Node, scenario: &Scenario, reports: &R
                 let column = indices.first().and_then(|index| all.get(*index));
                 let unit = column.map_or("1", |column| column.unit);
                 compare(keys, "limit", &requirement.quantity, [unit, &requirement.unit.0]);
+                if let (Some((key, _)), true) = (requirement.projection.key(), indices.len() < 3) {
+                    let message = format!("`{}` is no vector", requirement.quantity);
+                    keys.error(
+                        key,
+                        message,
+                        "name a vector, such as `rotation`, or remove the key",
+                    );
+                }
             }
             Err(error) => keys.error("quantity", error.to_string(), ""),
         }

@@ -1,8 +1,9 @@
 //! Limits on what is recorded: `[[requirement]]`.
 
 use crate::file::keys::Keys;
+use crate::file::read::values::mount::direction;
 use crate::pointing::Index;
-use crate::scenario::{Requirement, Settings, Statistic};
+use crate::scenario::{Projection, Requirement, Settings, Statistic};
 use crate::units::{Dimension, Measure, UnitError, parse_unit};
 
 /// The level of an index of ECSS without `level`: that of three standard deviations of Gaussian errors.
@@ -79,6 +80,7 @@ fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
             keys.missing(key, example);
         }
     }
+    let projection = projection(keys);
     let statistic = statistic(keys);
     let from = keys.quantity("from", Measure::TIME).unwrap_or(0.0);
     let to = keys.quantity("to", Measure::TIME).unwrap_or(duration);
@@ -95,12 +97,27 @@ fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
     Some(Requirement {
         name: name?.to_owned(),
         quantity: quantity?.to_owned(),
+        projection,
         statistic,
         window: [from, to],
         limit: value,
         written: keys.text_or_list("limit").map_or_else(|| format!("{value:?}"), str::to_owned),
         unit: (limit.unit, size),
     })
+}
+
+/// `along` or `across`: the components of the vector that count.
+fn projection(keys: &Keys<'_>) -> Projection {
+    let [along, across] = ["along", "across"].map(|key| (keys.has(key), direction(keys, key)));
+    if along.0 && across.0 {
+        let message = "`along` and `across` are given, and only one direction counts";
+        keys.error("across", message, "remove one, or state a requirement for each");
+    }
+    match (along.1, across.1) {
+        (Some(direction), _) => Projection::Along(direction),
+        (None, Some(direction)) => Projection::Across(direction),
+        (None, None) => Projection::None,
+    }
 }
 
 /// The statistic with its own keys. All keys are read, so that an error about an unknown one lists them.

@@ -12,6 +12,9 @@ const SKEW_MAX: f64 = 2e-6;
 /// The ways to write a rotation.
 const WAYS: [&str; 5] = ["matrix", "dcm", "axis", "euler", "spin_axis"];
 
+/// Which axes three turns turn into which, of a mount.
+const DEVICE_DIRECTIONS: [&str; 2] = ["hub to device", "device to hub"];
+
 /// The axes by which a device is mounted.
 #[derive(Clone, Copy)]
 pub(in crate::file::read) struct DeviceAxes {
@@ -29,16 +32,21 @@ pub(in crate::file::read) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<
         return Some(Mount { matrix: Matrix3::identity(), turns: Some(Vec::new()) });
     }
     let mount = keys.table("mount")?;
-    way(&mount, Some(axes))
+    way(&mount, Some(axes), DEVICE_DIRECTIONS)
 }
 
 /// The mount of a platform, which has no axis of its own.
 pub(in crate::file::read) fn rotation_of(mount: &Keys<'_>) -> Option<Mount> {
-    way(mount, None)
+    way(mount, None, DEVICE_DIRECTIONS)
+}
+
+/// The principal axes of a body: columns, expressed in the body's axes.
+pub(in crate::file::read) fn principal_axes(keys: &Keys<'_>) -> Option<Matrix3<f64>> {
+    way(keys, None, ["body to axes", "axes to body"]).map(|axes| axes.matrix)
 }
 
 /// A rotation in one of the ways to write it; by axes only of what has them.
-fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
+fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>, directions: [&str; 2]) -> Option<Mount> {
     let ways: Vec<_> = WAYS
         .into_iter()
         .filter(|way| (axes.is_some() || *way != "spin_axis") && mount.has(way))
@@ -49,7 +57,7 @@ fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
         // All digits of one: it is taken unchanged.
         (["dcm"], _) => matrix(mount, "dcm").map(numbers),
         (["axis"], _) => axis_and_angle(mount),
-        (["euler"], _) => euler(mount, ["hub to device", "device to hub"]),
+        (["euler"], _) => euler(mount, directions),
         (["spin_axis"], _) => by_axes(mount, axes?),
         ([], Some(axes)) => by_axes(mount, axes),
         _ => {

@@ -142,11 +142,17 @@ impl CellMap {
     /// # Errors
     /// As the drawing library.
     pub fn file(&self) -> Result<String, DrawError> {
-        svg_file(|style| {
-            document(&self.description, style, &[], [WIDTH, HEIGHT * PANEL], |panel| {
-                self.draw(panel)
-            })
-        })
+        svg_file(|style| self.document(style))
+    }
+
+    /// The picture as part of a page that turns its colours.
+    pub(crate) fn inline(&self) -> Result<String, DrawError> {
+        self.document("")
+    }
+
+    fn document(&self, style: &str) -> Result<String, DrawError> {
+        let size = [WIDTH, HEIGHT * PANEL];
+        document(&self.description, style, &[], size, |panel| self.draw(panel))
     }
 
     /// Numbers that the scale of colours shows.
