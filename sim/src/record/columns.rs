@@ -7,6 +7,7 @@
 //! whatever the order of the selection.
 
 mod disturbances;
+mod orbit;
 mod quantity;
 mod structure;
 
@@ -18,6 +19,10 @@ use super::error::RecordError;
 use super::load_columns::{of_carried, of_load, of_mount};
 use crate::nearest::nearest;
 use crate::scenario::Scenario;
+
+/// Angles of three turns, about z, y and x in this order, from axes to those of B; and the axis of each.
+const ROLL_PITCH_YAW: [(&str, &str); 3] =
+    [("roll", "x, the last"), ("pitch", "y, the second"), ("yaw", "z, the first")];
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +53,7 @@ impl Columns {
     pub fn all(scenario: &Scenario) -> Self {
         let mut columns = Vec::new();
         hub(&mut columns);
+        orbit::columns(&mut columns, scenario);
         for (joint, (_, name, info)) in scenario.joints().enumerate() {
             of_joint(&mut columns, name, joint, info);
         }
@@ -210,6 +216,10 @@ fn hub(columns: &mut Vec<Column>) {
             quantity: Quantity::Sigma(axis),
         });
     }
+    for (index, (name, turn)) in ROLL_PITCH_YAW.into_iter().enumerate() {
+        let meaning = format!("{name} of B from N: the turn about {turn} of three");
+        scalar(columns, name, "euler", "rad", &meaning, Quantity::EulerAngle(index));
+    }
     let rotation = "rotation vector of B from its attitude at the start";
     vector(columns, "rotation", "rotation", "rad", "B", rotation, Quantity::HubRotation);
     let b = [
@@ -331,7 +341,9 @@ mod tests {
         structure::modal(&mut columns, 1);
         totals(&mut columns);
         let names = columns.into_iter().flat_map(|of| [Some(of.name), Some(of.group), of.vector]);
-        let names: BTreeSet<_> = names.flatten().chain(["loads".to_owned()]).collect();
+        // Of a scenario with a central body.
+        let others = ["loads".to_owned(), "orbit".to_owned()];
+        let names: BTreeSet<_> = names.flatten().chain(others).collect();
         assert_eq!(names, RESERVED_NAMES.map(str::to_owned).into());
     }
 }

@@ -15,8 +15,8 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    About, Accelerations, BuiltIn, HubMode, Imbalance, Inputs, JointStates, Mode, Quaternion,
-    SolveError, Spacecraft, State, WheelImbalance,
+    About, Accelerations, Attitude, BuiltIn, HubMode, Imbalance, Inputs, JointStates, Mode,
+    Quaternion, SolveError, Spacecraft, State, WheelImbalance,
 };
 
 use super::{Drive, Scenario, Set};
@@ -95,6 +95,27 @@ impl MassProperties {
         let (first, second) = (axis(0), axis(1));
         let axes = Matrix3::from_columns(&[first, second, first.cross(&second)]);
         (Vector3::from(order.map(|k| eigen.eigenvalues[k])), axes)
+    }
+}
+
+impl Scenario {
+    /// Takes position and velocity of the initial state for those of the centre of mass, joints at their initial coordinates and
+    /// rates, and puts those of B there.
+    ///
+    /// # Errors
+    ///
+    /// Parameters that the solver rejects; [`SolveError::Overflow`].
+    pub fn start_from_centre_of_mass(&mut self) -> Result<(), Box<dyn std::error::Error>> {
+        let spacecraft = self.spacecraft()?;
+        let state = &self.initial;
+        let centre = spacecraft.centre_of_mass(state)?.c;
+        let momentum = spacecraft.momentum(state, About::InertialOrigin)?;
+        // Both from B, in N.
+        let place = state.attitude.dcm().transpose() * centre;
+        let velocity = momentum.linear / spacecraft.mass() - state.r_b_n_dot;
+        self.initial.r_b_n -= place;
+        self.initial.r_b_n_dot -= velocity;
+        Ok(())
     }
 }
 

@@ -12,6 +12,7 @@ mod description;
 mod disturbances;
 pub mod mass;
 mod member;
+mod orbital_frame;
 pub mod profile;
 mod projection;
 mod reserved;
@@ -31,6 +32,7 @@ pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members, set_of};
 pub(crate) use member::{body_key, joint_key};
+pub use orbital_frame::{OrbitalFrame, roll_pitch_yaw};
 pub use profile::{Interpolation, NoDerivative, Profile, Table};
 pub use projection::Projection;
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 /// Names of columns, vectors and groups that a result has whatever devices, points and sources a scenario has. A test of
 /// the columns compares them.
-pub(crate) const RESERVED_NAMES: [&str; 50] = [
+pub(crate) const RESERVED_NAMES: [&str; 55] = [
     "time",
     "position_x",
     "position_y",
@@ -25,6 +25,10 @@ pub(crate) const RESERVED_NAMES: [&str; 50] = [
     "sigma_2",
     "sigma_3",
     "sigma",
+    "roll",
+    "pitch",
+    "yaw",
+    "euler",
     "rotation_x",
     "rotation_y",
     "rotation_z",
@@ -53,6 +57,7 @@ pub(crate) const RESERVED_NAMES: [&str; 50] = [
     "angular_momentum",
     "momentum",
     "loads",
+    "orbit",
 ];
 
 /// Whether a name is of columns that every result has.

@@ -9,6 +9,7 @@ mod layouts;
 mod loads;
 mod motions;
 mod names;
+mod orbits;
 mod requirements;
 mod tables;
 mod units;

@@ -17,8 +17,8 @@ use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::rotation::{inverse, product, to_vector};
-use crate::scenario::Scenario;
-use precess_craft::CraftInputs;
+use crate::scenario::{OrbitalFrame, Scenario, roll_pitch_yaw};
+use precess_craft::{CraftInputs, CraftState};
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
@@ -31,6 +31,7 @@ pub(crate) struct SampleValues {
     energy: bool,
     momentum: bool,
     disturbances: bool,
+    orbit: bool,
     inputs: Option<CraftInputs>,
     /// The attitude at the start.
     start: [f64; 4],
@@ -57,6 +58,8 @@ struct Computed<'a> {
     mrp: Mrp,
     /// Rotation vector from the attitude at the start.
     rotation: [f64; 3],
+    /// Roll, pitch and yaw, and angular velocity, from the orbital frame.
+    orbit: Option<([f64; 3], Vector3<f64>)>,
     momentum: Option<Momentum>,
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
@@ -100,6 +103,9 @@ impl SampleValues {
             energy: any(Source::Energy),
             momentum: any(Source::Momentum),
             disturbances: any(Source::Disturbances),
+            orbit: quantities
+                .iter()
+                .any(|of| matches!(of, Quantity::OrbitAngle(_) | Quantity::OrbitOmega(_))),
             inputs: None,
             start: numbers(&scenario.initial.attitude),
             points,
@@ -163,6 +169,7 @@ impl SampleValues {
             lost,
             energy,
             mrp: Mrp::from(state.attitude),
+            orbit: self.orbit.then(|| in_orbit(state)).flatten(),
             rotation: to_vector(product(inverse(self.start), numbers(&state.attitude))),
             momentum,
             joints: state.devices.states().collect(),
@@ -206,6 +213,9 @@ impl Computed<'_> {
             Quantity::Quaternion(index) => Some(numbers(&q)[index]),
             Quantity::Sigma(axis) => Some(self.mrp.0[axis]),
             Quantity::HubRotation(axis) => Some(self.rotation[axis]),
+            Quantity::EulerAngle(index) => Some(roll_pitch_yaw(&q.dcm())[index]),
+            Quantity::OrbitAngle(index) => self.orbit.map(|(angles, _)| angles[index]),
+            Quantity::OrbitOmega(axis) => self.orbit.map(|(_, omega)| omega[axis]),
             Quantity::Omega(axis) => Some(state.omega[axis]),
             Quantity::Coordinate(index) => Some(joint(index)[0]),
             Quantity::Rate(index) => Some(joint(index)[1]),
@@ -269,4 +279,11 @@ fn pointing(b: &Quaternion, motion: &PointMotion) -> Mrp {
 
 fn numbers(q: &Quaternion) -> [f64; 4] {
     [q.q0, q.q1, q.q2, q.q3]
+}
+
+/// Roll, pitch and yaw of B, and its angular velocity, from the orbital frame; none where there is no orbit.
+fn in_orbit(state: &CraftState) -> Option<([f64; 3], Vector3<f64>)> {
+    let frame = OrbitalFrame::new(&state.r_b_n, &state.r_b_n_dot)?;
+    let bn = state.attitude.dcm();
+    Some((frame.roll_pitch_yaw(&bn), frame.relative(&bn, &state.omega)))
 }

@@ -119,7 +119,7 @@ pub(super) fn scenario(
                 return Err(reports);
             }
             let cell = RefCell::new(reports);
-            settle(&node, &mut scenario, &cell);
+            complete(&node, &mut scenario, &cell);
             let reports = cell.into_inner();
             if reports.has_errors() {
                 return Err(reports);
@@ -136,13 +136,19 @@ pub(super) fn scenario(
     }
 }
 
-/// Starts a scenario in the vibration of its rotors, where its file says so.
-fn settle(node: &Node, scenario: &mut Scenario, reports: &Reports) {
+/// Completes the initial state by what is known of the whole spacecraft only.
+fn complete(node: &Node, scenario: &mut Scenario, reports: &Reports) {
     let Some(keys) = Keys::new(node, "", reports) else { return };
-    if !devices::initial::is_settled(&keys) {
+    let whole = devices::initial::whole(&keys);
+    let Some(initial) = keys.table("initial") else { return };
+    if whole.of_centre
+        && let Err(error) = scenario.start_from_centre_of_mass()
+    {
+        initial.error("state_of", error.to_string(), "give the state of B");
+    }
+    if !whole.settled {
         return;
     }
-    let Some(initial) = keys.table("initial") else { return };
     match crate::jitter::settled::settle(scenario) {
         Ok(left_out) => left_out.iter().for_each(|reason| initial.warn("settled", reason, "")),
         Err(fault) => {

@@ -11,6 +11,11 @@ pub(crate) enum Quantity {
     Sigma(usize),
     /// Rotation vector from the attitude at the start.
     HubRotation(usize),
+    /// Roll, pitch, yaw from N.
+    EulerAngle(usize),
+    /// Roll, pitch, yaw from the orbital frame.
+    OrbitAngle(usize),
+    OrbitOmega(usize),
     Omega(usize),
     OmegaDot(usize),
     Coordinate(usize),
@@ -65,6 +70,9 @@ impl Quantity {
             | Self::Quaternion(_)
             | Self::Sigma(_)
             | Self::HubRotation(_)
+            | Self::EulerAngle(_)
+            | Self::OrbitAngle(_)
+            | Self::OrbitOmega(_)
             | Self::Omega(_)
             | Self::Coordinate(_)
             | Self::Rate(_)
@@ -99,7 +107,11 @@ impl Quantity {
 
     /// Whether it is recorded where a scenario selects nothing.
     pub(super) fn is_default(&self) -> bool {
-        !self.is_load() && !matches!(self, Self::HubRotation(_))
+        let selected = matches!(
+            self,
+            Self::HubRotation(_) | Self::EulerAngle(_) | Self::OrbitAngle(_) | Self::OrbitOmega(_)
+        );
+        !self.is_load() && !selected
     }
 
     /// Whether the accelerations of the spacecraft are needed.

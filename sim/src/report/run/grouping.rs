@@ -114,6 +114,21 @@ fn found(
             let texts = ["rotation", "Rotation of the hub since the start", "Rotation"];
             of_hub((1, 1), texts, unit::SMALL_ANGLE, ["θ", AXES[axis]])
         }
+        Quantity::EulerAngle(index) => {
+            let title = "Roll, pitch and yaw of B from N";
+            let texts = ["euler-angles", title, "Angle"];
+            of_hub((1, 4), texts, unit::ANGLE, [["roll", "pitch", "yaw"][index], ""])
+        }
+        Quantity::OrbitAngle(index) => {
+            let title = "Roll, pitch and yaw of B from the orbital frame";
+            let texts = ["orbit-angles", title, "Angle"];
+            of_hub((1, 2), texts, unit::ANGLE, [["roll", "pitch", "yaw"][index], ""])
+        }
+        Quantity::OrbitOmega(axis) => {
+            let title = "Angular velocity of the hub with respect to the orbital frame";
+            let texts = ["orbit-angular-velocity", title, "Angular velocity"];
+            of_hub((1, 3), texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
+        }
         Quantity::Rate(joint) => return of_joint(2, &RATE, joint, joints),
         Quantity::Coordinate(joint) => return of_joint(3, &COORDINATE, joint, joints),
         Quantity::Torque(joint) => return of_joint(4, &MOTOR, joint, joints),

@@ -6,13 +6,17 @@ use precess_dynamics::{Attitude, JointStates, Mrp, Quaternion, State};
 use super::device::Device;
 use crate::file::keys::Keys;
 use crate::file::read::values::mount::{axis_and_angle, euler};
-use crate::scenario::Set;
+use crate::rotation::product;
+use crate::scenario::{OrbitalFrame, Set};
 use crate::units::{Measure, Plain};
 
 /// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.
 const NORM_MAX: f64 = 1e-4;
 /// One whose norm is off by less has all its digits: it is taken unchanged, to the bit.
 const NORM_EXACT: f64 = 1e-14;
+
+/// What position and velocity are of: whether the centre of mass.
+const STATE_OF: [(&str, bool); 2] = [("B", false), ("centre_of_mass", true)];
 
 /// How an attitude is written.
 const WAYS: [&str; 4] = ["quaternion", "mrp", "euler", "axis"];
@@ -30,8 +34,13 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
             }
             attitude.finish();
         }
-        // Of the whole scenario: see `is_settled`.
+        let frames = [("inertial", false), ("orbit", true)];
+        if initial.choice("relative_to", &frames) == Some(true) {
+            from_orbit(&initial, &mut state);
+        }
+        // Of the whole scenario: see `whole`.
         initial.boolean("settled");
+        initial.choice("state_of", &STATE_OF);
         initial.finish();
     }
     let given = devices.iter().flat_map(|device| device.state.iter().copied());
@@ -41,9 +50,35 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
     state
 }
 
-/// Whether the run starts in the vibration of its rotors, about the state of the file.
-pub(in crate::file::read) fn is_settled(keys: &Keys<'_>) -> bool {
-    keys.table("initial").and_then(|initial| initial.boolean("settled")).unwrap_or(false)
+/// Attitude and angular velocity with respect to N of those with respect to the orbital frame.
+fn from_orbit(keys: &Keys<'_>, state: &mut State<Set>) {
+    let Some(frame) = OrbitalFrame::new(&state.r_b_n, &state.r_b_n_dot) else {
+        let message = "position and velocity are parallel or zero, so there is no orbital frame";
+        keys.error("relative_to", message, "give the `position` and `velocity` of an orbit");
+        return;
+    };
+    let numbers = |q: &Quaternion| [q.q0, q.q1, q.q2, q.q3];
+    let of_frame = of_axes(&frame.axes.transpose());
+    let [q0, q1, q2, q3] = product(numbers(&of_frame), numbers(&state.attitude));
+    state.attitude = Quaternion { q0, q1, q2, q3 }.normalised();
+    state.omega += state.attitude.dcm() * frame.omega;
+}
+
+/// What of `[initial]` is of the whole spacecraft.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::file::read) struct WholeState {
+    /// Whether position and velocity are those of the centre of mass.
+    pub(in crate::file::read) of_centre: bool,
+    /// Whether the run starts in the vibration of its rotors, about the state of the file.
+    pub(in crate::file::read) settled: bool,
+}
+
+pub(in crate::file::read) fn whole(keys: &Keys<'_>) -> WholeState {
+    let Some(initial) = keys.table("initial") else { return WholeState::default() };
+    WholeState {
+        of_centre: initial.choice("state_of", &STATE_OF).unwrap_or(false),
+        settled: initial.boolean("settled").unwrap_or(false),
+    }
 }
 
 /// Everything at rest, for these devices.
