@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 38] = [
+const OTHERS: [&str; 39] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -79,6 +79,8 @@ const OTHERS: [&str; 38] = [
     "[[source]]\nname = \"tones\"\non = \"hub\"\nwheel = \"rw.wheel\"\npoint = \"0, 0, 1 cm\"\n\
      seed = 1\nmount = { axis = [0, 0, 1], angle = \"30 deg\" }\n[[source.harmonic]]\nnumber = 2.5\n\
      radial_force = \"1 g mm\"\naxial_moment = \"1 g mm^2\"\nphase = { radial_force = \"30 deg\" }",
+    "[[source]]\nname = \"listed\"\non = \"hub\"\nwheel = \"rw.wheel\"\nseed = 1\n\
+     harmonics = { file = \"no.csv\", force_unit = \"g mm\", moment_unit = \"g mm^2\", phase_unit = \"deg\" }",
     "[[source]]\nname = \"turned\"\non = \"hub\"\n\
      mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }\n\
      record = { times = \"0, 1 s\", moment_x = \"0, 1 N m\", interpolation = \"linear\" }",

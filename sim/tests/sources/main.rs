@@ -3,6 +3,7 @@
 
 mod correlated;
 mod errors;
+mod listed;
 mod motion;
 mod places;
 mod records;

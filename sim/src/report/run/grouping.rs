@@ -18,6 +18,7 @@ use crate::scenario::Scenario;
 const CURVES_MAX: usize = 8;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+const TURNS: [&str; 3] = ["roll", "pitch", "yaw"];
 
 /// The charts of a header in the order of the page. Energy less work is a column after the last
 /// where there is a ledger.
@@ -114,20 +115,12 @@ fn found(
             let texts = ["rotation", "Rotation of the hub since the start", "Rotation"];
             of_hub((1, 1), texts, unit::SMALL_ANGLE, ["θ", AXES[axis]])
         }
-        Quantity::EulerAngle(index) => {
-            let title = "Roll, pitch and yaw of B from N";
-            let texts = ["euler-angles", title, "Angle"];
-            of_hub((1, 4), texts, unit::ANGLE, [["roll", "pitch", "yaw"][index], ""])
-        }
-        Quantity::OrbitAngle(index) => {
-            let title = "Roll, pitch and yaw of B from the orbital frame";
-            let texts = ["orbit-angles", title, "Angle"];
-            of_hub((1, 2), texts, unit::ANGLE, [["roll", "pitch", "yaw"][index], ""])
-        }
+        Quantity::EulerAngle(index) => of_turns(2, ["euler-angles", "N"], index),
+        Quantity::OrbitAngle(index) => of_turns(3, ["orbit-angles", "the orbital frame"], index),
         Quantity::OrbitOmega(axis) => {
             let title = "Angular velocity of the hub with respect to the orbital frame";
             let texts = ["orbit-angular-velocity", title, "Angular velocity"];
-            of_hub((1, 3), texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
+            of_hub((1, 4), texts, unit::ANGULAR_RATE, ["ω", AXES[axis]])
         }
         Quantity::Rate(joint) => return of_joint(2, &RATE, joint, joints),
         Quantity::Coordinate(joint) => return of_joint(3, &COORDINATE, joint, joints),
@@ -249,6 +242,12 @@ fn of_hub(
         label: if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") },
         departure: key.0 >= 20,
     }
+}
+
+/// Roll, pitch and yaw from some axes.
+fn of_turns(order: usize, [slug, from]: [&'static str; 2], index: usize) -> ChartColumn {
+    let column = of_hub((1, order), [slug, "", "Angle"], unit::ANGLE, [TURNS[index], ""]);
+    ChartColumn { title: format!("Roll, pitch and yaw of B from {from}"), ..column }
 }
 
 /// A chart for the joints of bodies of one name.

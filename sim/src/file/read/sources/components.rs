@@ -32,6 +32,11 @@ fn all(spin_axis: usize) -> Vec<(&'static str, Vec<(usize, f64)>)> {
     all
 }
 
+/// The keys of all components.
+pub(super) fn names(spin_axis: usize) -> impl Iterator<Item = &'static str> {
+    all(spin_axis).into_iter().map(|(key, _)| key)
+}
+
 /// The keys of components in a table, by the measures of forces and of moments; none where one is
 /// wrong or gives a component again.
 pub(super) fn given(

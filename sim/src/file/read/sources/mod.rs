@@ -1,6 +1,7 @@
 //! `[[source]]`: empirical sources of force and torque, by harmonics, spectral densities or records.
 
 mod components;
+mod harmonic_table;
 mod models;
 
 use std::borrow::Cow;
@@ -16,6 +17,7 @@ use crate::file::read::structure::Structure;
 use crate::file::read::values::mount::rotation_of;
 use crate::scenario::Settings;
 use crate::units::Measure;
+use harmonic_table::harmonics_of_file;
 use models::{broadband, harmonics, record};
 
 /// What a source may refer to.
@@ -124,17 +126,17 @@ fn model(
     of: (&str, usize, Option<u32>),
     known: &SourceContext<'_>,
 ) -> Option<Model> {
-    let kinds = ["harmonic", "broadband", "record"];
+    let kinds = ["harmonic", "harmonics", "broadband", "record"];
     let given: Vec<_> = kinds.into_iter().filter(|kind| keys.has(kind)).collect();
     let &[kind] = given.as_slice() else {
         let message = format!("`{}` is given in {} ways", keys.path(), given.len());
-        let help =
-            "give one of `harmonic`, `broadband`, `record`, and others as sources of their own";
+        let help = "give one of `harmonic`, `harmonics`, `broadband`, `record`, and others as sources of their own";
         keys.reports().borrow_mut().error(keys.span(), message, "", help);
         return None;
     };
     match kind {
         "harmonic" => harmonics(keys, of).map(Model::Harmonic),
+        "harmonics" => harmonics_of_file(&keys.table(kind)?, of, known.folder).map(Model::Harmonic),
         "broadband" => broadband(&keys.table(kind)?, of.1, known.settings).map(Model::Broadband),
         _ => record(&keys.table(kind)?, of.1, known.folder).map(Model::Measured),
     }

@@ -36,7 +36,7 @@ pub(super) fn harmonics(keys: &Keys<'_>, of: (&str, usize, Option<u32>)) -> Opti
     tables.iter().map(|keys| harmonic(keys, of)).collect()
 }
 
-fn harmonic(
+pub(super) fn harmonic(
     keys: &Keys<'_>,
     (source, spin_axis, seed): (&str, usize, Option<u32>),
 ) -> Option<Harmonic> {
