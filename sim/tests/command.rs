@@ -108,7 +108,8 @@ fn evaluate_check_and_compare_tell_what_they_find() {
     let (folder, file) = wheel("tell");
     let table = text(&precess(&["evaluate", &file]).stdout);
     assert!(table.contains("omega_dot_x") && table.contains("rad/s"), "{table}");
-    let json = precess(&["evaluate", &file, "--format", "json"]).stdout;
+    let torque = "device.wheel1.wheel.torque=10 mN m";
+    let json = precess(&["evaluate", &file, "--format", "json", "--set", torque]).stdout;
     let values: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
     let u = &values["wheel1.u_w"];
     assert_eq!((u["value"].as_f64(), u["unit"].as_str()), (Some(0.01), Some("N m")), "{values}");

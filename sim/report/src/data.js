@@ -28,11 +28,17 @@ export function extremes(low, high, from = 0, to = low.length - 1) {
   return least <= most ? [least, most] : [NaN, NaN];
 }
 
+/** Singles with what is to be added to each: a rate that hardly changes keeps its last digits. */
+function shifted(text, offset) {
+  const values = singles(text);
+  return offset ? Float64Array.from(values, (value) => value + offset) : values;
+}
+
 function column(entry) {
-  const low = singles(entry.min);
+  const low = shifted(entry.min, entry.offset);
   // Without `max`, each bucket holds one value.
   const banded = entry.max !== undefined && entry.max !== null;
-  const high = banded ? singles(entry.max) : low;
+  const high = banded ? shifted(entry.max, entry.offset) : low;
   const [least, most] = extremes(low, high);
   let last = low.length - 1;
   while (last > 0 && Number.isNaN(low[last])) last -= 1;

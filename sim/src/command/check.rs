@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use clap::Args;
+use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, units};
 
 use super::error::CommandError;
@@ -14,9 +15,9 @@ use super::terminal::{note, print};
 use super::{advice, sources};
 use crate::engine::device_of;
 use crate::evaluation::Evaluator;
-use crate::file::from_file;
+use crate::file::{Diagnostic, Severity, from_file};
 use crate::scenario::mass::{JointInertia, MassMatrix, MassProperties, imbalance};
-use crate::scenario::{Scenario, joint_key};
+use crate::scenario::{Drive, Scenario, joint_key};
 
 /// The options of `check`.
 #[derive(Debug, Args)]
@@ -36,6 +37,16 @@ impl Check {
             match from_file(path, &overrides) {
                 Ok((scenario, mut reports)) => {
                     reports.all.extend(advice::initial(&scenario).iter().map(Into::into));
+                    if let Some(error) = unsolvable(&scenario) {
+                        failed = true;
+                        reports.all.push(Diagnostic {
+                            severity: Severity::Error,
+                            span: None,
+                            message: format!("the initial state cannot be solved: {error}"),
+                            label: String::new(),
+                            help: "a run of this scenario ends at its start".to_owned(),
+                        });
+                    }
                     if self.format == Form::Json {
                         print(&(reports.json() + "\n"))?;
                         continue;
@@ -110,9 +121,6 @@ fn properties(scenario: &Scenario) -> String {
             condition.log10()
         );
     }
-    if let Some(error) = unsolvable(scenario) {
-        let _ = writeln!(text, "\nthe initial state cannot be solved: {error}");
-    }
     text
 }
 
@@ -132,8 +140,17 @@ fn unsolvable(scenario: &Scenario) -> Option<String> {
 /// A row for each joint.
 fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
     let mut states = scenario.initial.devices.states();
+    let mut drives = scenario.drives.iter();
     let mut inertias = matrix.into_iter().flat_map(|matrix| &matrix.joints);
-    let heads = ["joint", "mass", "rate", "inertia, all else held", "all else free", "imbalance"];
+    let heads = [
+        "joint",
+        "driven by",
+        "mass",
+        "rate",
+        "inertia, all else held",
+        "all else free",
+        "imbalance",
+    ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     for (name, member) in scenario.members() {
         for (info, body) in member.joints().iter().zip(&member.bodies()) {
@@ -149,6 +166,7 @@ fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
             };
             rows.push(vec![
                 format!("{name}.{}", joint_key(info)),
+                drives.next().map_or("", |drive| driven_by(drive, info)).to_owned(),
                 format!("{} kg", six(body.mass)),
                 rate,
                 inertia(held),
@@ -173,6 +191,18 @@ fn shown_imbalance(device: &BuiltIn) -> String {
             six(units::to_g_cm(u_s)),
             six(units::to_g_cm2(u_d))
         ),
+    }
+}
+
+/// What moves a joint at the start.
+fn driven_by(drive: &Drive, info: &JointInfo) -> &'static str {
+    match drive {
+        _ if !info.driven => "its kind, at its rate",
+        Drive::Locked => "nothing: locked",
+        Drive::Acceleration(_) => "a prescribed motion",
+        Drive::Torque { profile, .. } if profile.is_zero() => "no torque: free",
+        Drive::Torque { .. } if info.slides => "a force",
+        Drive::Torque { .. } => "a torque",
     }
 }
 

@@ -160,7 +160,9 @@ fn merge(below: &mut Table, above: Table) {
         };
         old.key_span = entry.key_span;
         match (&mut old.node.value, entry.node.value) {
-            (Value::Table(old), Value::Table(new)) => merge(old, new),
+            (Value::Table(old), Value::Table(new)) if !is_other_profile(old, &new) => {
+                merge(old, new);
+            }
             (Value::List(old), Value::List(new)) if named(old) && named(&new) => {
                 merge_named(old, new);
             }
@@ -170,6 +172,16 @@ fn merge(below: &mut Table, above: Table) {
             }
         }
     }
+}
+
+/// Keys of which each profile has one, which says its kind.
+pub(super) const PROFILE_KINDS: [&str; 7] =
+    ["constant", "step", "ramp", "sine", "chirp", "table", "times"];
+
+/// Whether a table is a profile of another kind than one below it, which it replaces as a whole.
+pub(super) fn is_other_profile(below: &Table, above: &Table) -> bool {
+    let kind = |table: &Table| PROFILE_KINDS.into_iter().find(|kind| table.get(kind).is_some());
+    matches!((kind(below), kind(above)), (Some(old), Some(new)) if old != new)
 }
 
 /// A tree with the keys of another over its own.

@@ -12,7 +12,7 @@
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Entry, Node, Table, Value, parse};
-use super::load::{Override, named};
+use super::load::{Override, is_other_profile, named};
 use crate::units::parse_quantity;
 
 /// Whether a text can be the key of an override, with the signs that stand for several keys or a component.
@@ -96,9 +96,19 @@ fn names(node: &Node) -> Vec<&str> {
 fn child<'a>(node: &'a Node, name: &str) -> Option<&'a Node> {
     match &node.value {
         Value::Table(table) => table.get(name).map(|entry| &entry.node),
-        Value::List(list) => list.iter().find(|member| member.name() == Some(name)),
+        Value::List(list) => list
+            .iter()
+            .find(|member| member.name() == Some(name))
+            .or_else(|| list.iter().find_map(|layout| own_keys(layout, name))),
         _ => None,
     }
+}
+
+/// The keys of one device of a layout by its name.
+fn own_keys<'a>(layout: &'a Node, name: &str) -> Option<&'a Node> {
+    let Value::Table(table) = &layout.value else { return None };
+    let Value::List(members) = &table.get("member")?.node.value else { return None };
+    members.iter().find(|member| member.name() == Some(name))
 }
 
 fn descend(
@@ -228,8 +238,22 @@ fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
             continue;
         };
         match (&mut old.node.value, node.value) {
-            (Value::Table(old), Value::Table(new)) => over(old, new, reports),
+            (Value::Table(old), Value::Table(new)) if !is_other_profile(old, &new) => {
+                over(old, new, reports);
+            }
             (Value::List(old), Value::Table(new)) if named(old) => over_named(old, new, reports),
+            (Value::Table(_), new)
+                if !matches!(new, Value::Table(_)) && MOTIONS.contains(&key.as_str()) =>
+            {
+                let message = format!(
+                    "`{key}` is a profile, which prescribes the motion, and not {}",
+                    new.what()
+                );
+                let help = format!(
+                    "write `{key} = {{ constant = .. }}`; a quantity is only where the joint starts"
+                );
+                reports.error(&key_span, message, "", &help);
+            }
             (old_value, new) => {
                 *old_value = new;
                 old.node.span = node.span;
@@ -238,6 +262,9 @@ fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
         }
     }
 }
+
+/// Keys that a quantity and a profile give another meaning.
+const MOTIONS: [&str; 4] = ["angle", "rate", "displacement", "speed"];
 
 fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
     for Entry { key, key_span, node } in above.entries {

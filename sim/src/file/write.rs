@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{ImbalanceModel, JointInfo};
-use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
+use precess_dynamics::{Gravity, HubMode, JointStates, Passive, Quaternion};
 
 use super::read::{FORMAT, has_inertia, has_mass, has_origin};
 use crate::pointing::Index;
@@ -86,9 +86,12 @@ fn initial(out: &mut String, s: &Scenario) -> Written {
     writeln!(out, "\n[initial]\nposition = {}", vector(&state.r_b_n, "m"))?;
     writeln!(out, "velocity = {}", vector(&state.r_b_n_dot, "m/s"))?;
     writeln!(out, "angular_velocity = {}", vector(&state.omega, "rad/s"))?;
-    let q = state.attitude;
-    let numbers = [q.q0, q.q1, q.q2, q.q3];
-    writeln!(out, "attitude = {{ quaternion = {numbers:?}, scalar = \"first\" }}")
+    let mut attitude = |key: &str, q: &Quaternion| {
+        let numbers = [q.q0, q.q1, q.q2, q.q3];
+        writeln!(out, "{key} = {{ quaternion = {numbers:?}, scalar = \"first\" }}")
+    };
+    attitude("attitude", &state.attitude)?;
+    if s.reference == state.attitude { Ok(()) } else { attitude("rotation_from", &s.reference) }
 }
 
 fn devices(out: &mut String, s: &Scenario) -> Written {

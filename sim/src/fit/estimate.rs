@@ -22,6 +22,13 @@ impl Estimate {
         Self { value, deviation, interval: [value - half, value + half] }
     }
 
+    /// A number above zero with the relative standard deviation: the interval is that of the logarithm, so above zero too.
+    #[must_use]
+    pub fn positive(value: f64, relative: f64, freedom: f64) -> Self {
+        let factor = (student(freedom) * relative).exp();
+        Self { value, deviation: value * relative, interval: [value / factor, value * factor] }
+    }
+
     /// A number that is known.
     #[must_use]
     pub const fn exact(value: f64) -> Self {
@@ -94,6 +101,18 @@ mod tests {
             assert!((student(freedom) / table - 1.0).abs() < EXPANSION, "{freedom}");
         }
         assert!(student(f64::NAN).is_finite());
+    }
+
+    #[test]
+    fn the_interval_of_a_density_is_above_zero() {
+        let few = Estimate::positive(1e-9, 0.5, 4.0);
+        assert!(few.interval[0] > 0.0 && few.contains(2e-9), "{few:?}");
+        // Of many degrees of freedom it is the symmetric one.
+        let many = Estimate::positive(3.0, 1e-4, 1e8);
+        let symmetric = Estimate::new(3.0, 3e-4, 1e8);
+        for (found, expected) in many.interval.iter().zip(symmetric.interval) {
+            assert!((found - expected).abs() < 1e-7, "{found} {expected}");
+        }
     }
 
     #[test]

@@ -88,7 +88,7 @@ pub(super) fn floor(
             let of = |[sum, bins]: [f64; 2]| if bins > 0.0 { sum / bins } else { density };
             bands.push(Band {
                 range: [from, to],
-                density: Estimate::new(density, density / freedom.sqrt(), freedom),
+                density: Estimate::positive(density, freedom.sqrt().recip(), freedom),
                 halves: [of(low), of(high)],
             });
         }

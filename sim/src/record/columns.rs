@@ -220,7 +220,7 @@ fn hub(columns: &mut Vec<Column>) {
         let meaning = format!("{name} of B from N: the turn about {turn} of three");
         scalar(columns, name, "euler", "rad", &meaning, Quantity::EulerAngle(index));
     }
-    let rotation = "rotation vector of B from its attitude at the start";
+    let rotation = "rotation vector of B from its reference attitude";
     vector(columns, "rotation", "rotation", "rad", "B", rotation, Quantity::HubRotation);
     let b = [
         (Quantity::Omega as fn(usize) -> Quantity, "omega", "rad/s", "angular velocity of the hub"),

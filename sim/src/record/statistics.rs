@@ -29,7 +29,7 @@ pub struct Statistics {
 pub struct Verdict {
     /// The requirement's name.
     pub name: String,
-    /// The column or vector.
+    /// The column or vector, with the direction of its components where only some count.
     pub quantity: String,
     /// The statistic, SI; none where nothing was measured. Of a window that was not run to its end, that of what was.
     pub value: Option<f64>,
@@ -155,7 +155,7 @@ impl Recorder for Statistics {
                 let complete = outcome.end_time >= requirement.window[1];
                 Verdict {
                     name: requirement.name.clone(),
-                    quantity: requirement.quantity.clone(),
+                    quantity: requirement.projection.of_quantity(&requirement.quantity),
                     value,
                     limit: requirement.limit,
                     unit: requirement.unit.clone(),

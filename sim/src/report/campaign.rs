@@ -36,6 +36,8 @@ pub(crate) struct CampaignPage<'a> {
     pub(crate) pictures: &'a [(String, Picture)],
     /// What has to be said beside.
     pub(crate) warnings: Vec<String>,
+    /// The text of the plan, of a Monte Carlo campaign.
+    pub(crate) plan: Option<String>,
 }
 
 impl CampaignTable {
@@ -75,6 +77,9 @@ impl CampaignPage<'_> {
         if !self.warnings.is_empty() {
             let (style, items) = ("warnings", self.warnings);
             sections.push(("warnings", "Warnings", vec![Block::List { style, items }]));
+        }
+        if let Some(plan) = &self.plan {
+            sections.push(("plan", "Plan", vec![lines(plan)]));
         }
         let text = &self.scenario.source.text;
         sections.push(("scenario", "Scenario", vec![lines(text)]));

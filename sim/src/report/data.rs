@@ -8,6 +8,9 @@ use super::run::replay::ReplayData;
 use crate::record::Event;
 use crate::scenario::Scenario;
 
+/// Values that differ by a smaller share of themselves are stored less the first of them: singles have seven digits.
+const OFFSET_SHARE: f64 = 1e-2;
+
 /// The format that the page's script draws.
 const FORMAT: u32 = 1;
 
@@ -33,6 +36,8 @@ struct ColumnData<'a> {
     min: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     max: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<f64>,
     #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
     last: Option<f64>,
 }
@@ -68,13 +73,19 @@ pub(super) fn data(
     for chart in drawn {
         let first = columns.len();
         columns.extend(chart.curves.iter().map(|curve| {
-            let (min, max) = (singles(&curve.min), singles(&curve.max));
+            let offset = offset(curve.min.iter().chain(&curve.max).copied());
+            let less = |values: &[f64]| -> String {
+                let less = offset.unwrap_or(0.0);
+                singles(&values.iter().map(|value| value - less).collect::<Vec<_>>())
+            };
+            let (min, max) = (less(&curve.min), less(&curve.max));
             ColumnData {
                 name: &curve.curve.name,
                 label: &curve.curve.label,
                 unit: chart.unit.name,
                 frame: &curve.curve.frame,
                 max: (max != min).then_some(max),
+                offset,
                 min,
                 last: curve.last.is_finite().then_some(curve.last),
             }
@@ -118,6 +129,17 @@ pub(super) fn without_charts(name: &str, title: &str) -> Result<String, ReportEr
     Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
 }
 
+/// What is taken off values whose differences singles would lose: the first of them; none where they differ by more.
+fn offset(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut first = None;
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for value in values.filter(|value| value.is_finite()) {
+        first.get_or_insert(value);
+        (least, most) = (least.min(value), most.max(value));
+    }
+    first.filter(|first| *first != 0.0 && most - least < OFFSET_SHARE * first.abs())
+}
+
 /// The id of a chart's static figure.
 pub(super) fn figure_id(chart: &ScaledChart) -> String {
     format!("figure-{}", chart.slug)
@@ -152,6 +174,15 @@ fn base64(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_values_that_hardly_differ_have_an_offset() {
+        let of = |values: &[f64]| offset(values.iter().copied());
+        assert_eq!(of(&[f64::NAN, 3000.0, 3_000.000_2]), Some(3000.0));
+        assert_eq!(of(&[3000.0, 3100.0]), None);
+        assert_eq!(of(&[0.0, 1e-9]), None);
+        assert_eq!(of(&[]), None);
+    }
 
     #[test]
     fn base64_is_that_of_rfc_4648() {

@@ -13,6 +13,8 @@ const DOT_MIN: f64 = 5e-3;
 const BELOW_TITLE: f64 = 0.93;
 /// A Campbell diagram goes up to this many times the highest order.
 const CAMPBELL_TOP: f64 = 1.25;
+/// A limit is drawn up to this many times the largest number.
+pub(super) const LIMIT_SHOWN: f64 = 5.0;
 /// Above the highest point of a picture.
 const ABOVE: f64 = 1.06;
 
@@ -72,14 +74,21 @@ pub(super) fn scaled(
 
 /// A number over the values of a key, with its limit.
 pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Picture {
-    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied().chain(of.limit));
+    // A limit far away would leave no room for the numbers.
+    let most = of.values.iter().flatten().map(|value| value.abs()).fold(0.0, f64::max);
+    let near = of.limit.filter(|limit| *limit <= LIMIT_SHOWN * most);
+    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied().chain(near));
+    let title = match of.limit.filter(|_| near.is_none()) {
+        Some(limit) => format!("{}, limit {}", of.name, with_unit(limit / size, 6, &unit)),
+        None => of.name.to_owned(),
+    };
     let points = axis.values.iter().zip(of.values);
     let mut points: Vec<[f64; 2]> = points
         .map(|(value, number)| [place(axis, *value), number.unwrap_or(f64::NAN) / size])
         .collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut curves = vec![("found".to_owned(), points)];
-    if let (Some(limit), Some(ends)) = (of.limit, ends(axis)) {
+    if let (Some(limit), Some(ends)) = (near, ends(axis)) {
         curves.push(("limit".to_owned(), ends.map(|end| [end, limit / size]).to_vec()));
     }
     let finite = curves.iter().flat_map(|(_, points)| points).map(|point| point[1]);
@@ -87,10 +96,10 @@ pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Picture {
     let y = (most > 0.0).then_some([0.0, ABOVE * most]);
     plane(
         format!("{} over {}, in {unit}.", of.name, axis.label()),
-        of.name.to_owned(),
-        [label(axis), format!("{} ({unit})", of.name)],
+        title,
+        [label(axis), format!("Value ({})", if unit.is_empty() { "1" } else { &unit })],
         [ends(axis), y],
-        |plane| plane.curves = curves,
+        |plane| (plane.curves, plane.large) = (curves, true),
     )
 }
 
@@ -219,8 +228,9 @@ fn plane(
     fill: impl FnOnce(&mut Plane),
 ) -> Picture {
     let (curves, lines, dots, marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let large = false;
-    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, large, ranges };
+    let (large, logarithmic) = (false, false);
+    let mut plane =
+        Plane { description, title, axes, curves, lines, dots, marks, large, logarithmic, ranges };
     fill(&mut plane);
     Picture::Plane(plane)
 }

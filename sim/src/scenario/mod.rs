@@ -25,7 +25,7 @@ mod time_scales;
 use nalgebra::Vector3;
 use precess_description::Turn;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
+use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Quaternion, Spacecraft, State};
 
 pub use check::ScenarioError;
 pub use description::UndescribedError;
@@ -70,6 +70,8 @@ pub struct Scenario {
     pub structure: Option<ModalStructure>,
     /// Initial state.
     pub initial: State<Set>,
+    /// The attitude that the columns `rotation` are from.
+    pub reference: Quaternion,
     /// Mode of the hub.
     pub hub_mode: HubMode,
     /// Gravity on every body.

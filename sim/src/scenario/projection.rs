@@ -27,6 +27,18 @@ impl Projection {
         }
     }
 
+    /// A vector with the direction, in words: `rotation across [0, 0, 1]`.
+    #[must_use]
+    pub fn of_quantity(&self, quantity: &str) -> String {
+        self.key().map_or_else(
+            || quantity.to_owned(),
+            |(key, n)| {
+                let [x, y, z] = [n.x, n.y, n.z].map(|part| (1e4 * part).round() / 1e4 + 0.0);
+                format!("{quantity} {key} [{x}, {y}, {z}]")
+            },
+        )
+    }
+
     /// Components of a vector as components that are limited; numbers of another count as they are.
     pub(crate) fn of(&self, values: Vec<f64>) -> Vec<f64> {
         self.of_numbers(values, |number| number)

@@ -101,3 +101,12 @@ fn names_that_the_scenario_does_not_have_are_shown_in_the_budget() {
     assert_eq!(places(&found), expected);
     assert!(found.to_string().contains("did you mean `hub`?"), "{found}");
 }
+
+/// A budget where a scenario is wanted has one error, which says so.
+#[test]
+fn a_budget_that_is_read_as_a_scenario_is_named() {
+    let found = from_toml("budget.toml", BUDGET, Path::new("")).expect_err("no scenario");
+    let messages: Vec<_> = found.all.iter().map(|of| of.message.as_str()).collect();
+    assert_eq!(messages, ["`line_of_sight` is of a jitter budget; this is read as a scenario"]);
+    assert!(found.to_string().contains("run a budget by `precess jitter`"), "{found}");
+}

@@ -119,3 +119,28 @@ fn a_member_that_is_none_is_refused_with_its_place() {
     let shown = from_toml("one", &single, Path::new("")).expect_err("an error").to_string();
     assert!(shown.contains("only a layout has members"), "{shown}");
 }
+
+/// A quantity over a profile would leave the joint free where its motion was prescribed.
+#[test]
+fn an_override_does_not_take_a_motion_away() {
+    let folder = folder("motion-away");
+    let path = folder.join("pyramid.toml");
+    let member = "[[device.member]]\nname = \"cmg2\"\n\
+                  gimbal.rate = { ramp = \"0, 1 rad/s\", from = \"0 s\", to = \"1 s\" }\n";
+    fs::write(&path, PYRAMID.replace("MEMBERS", member)).expect("it is written");
+    let refused = from_file(&path, &[Override::from("device.cmg2.gimbal.rate=\"5 deg/s\"")]);
+    let shown = refused.expect_err("an error").to_string();
+    for part in ["`rate` is a profile, which prescribes the motion", "{ constant = .. }"] {
+        assert!(shown.contains(part), "{part} in\n{shown}");
+    }
+    // One number of its list.
+    let number = "device.cmg2.gimbal.rate.ramp[2]=\"0.5 rad/s\"";
+    let (scenario, _) = from_file(&path, &[Override::from(number)]).expect("a scenario");
+    assert!(scenario.source.filled.contains("0.5 rad/s^2"), "{}", scenario.source.filled);
+    // A profile of another kind replaces it.
+    let constant = "device.cmg2.gimbal.rate={ constant = \"5 deg/s\" }";
+    let (scenario, _) = from_file(&path, &[Override::from(constant)]).expect("a scenario");
+    assert_eq!(joints(&scenario)[1], [5.0, 5.0, 3000.0]);
+    // Another initial rate of a device without one stands.
+    assert!(from_file(&path, &[Override::from("device.cmg1.gimbal.rate=\"5 deg/s\"")]).is_ok());
+}

@@ -248,6 +248,7 @@ fn check_solves_what_a_run_solves() {
         "{}",
         checked.out
     );
+    assert_eq!(checked.code, Some(1));
     let run = ["run", &case("locked-pendulum.toml"), "--out", out, "--force"];
     assert_eq!(precess(&[&run[..], &released[..]].concat()).code, Some(1));
 }

@@ -299,3 +299,25 @@ fn a_direction_of_what_is_no_vector_is_refused() {
         }
     }
 }
+
+/// A pointing target other than the initial attitude.
+#[test]
+fn a_rotation_is_from_the_attitude_that_the_file_says() {
+    let folder = folder("rotation-from");
+    let text = SLOW
+        .replace("angular_velocity = \"0.3, 0, 0.6 arcsec/s\"\n", "")
+        .replace("[run]", "rotation_from = { axis = [1, 2, 3], angle = \"69 deg\" }\n[run]");
+    let limit = |degrees: f64| {
+        format!(
+            "{text}[[requirement]]\nname = \"a\"\nquantity = \"rotation\"\nalong = [1, 2, 3]\nstatistic = \"rms\"\n\
+             limit = \"{degrees} deg\"\n"
+        )
+    };
+    for (degrees, code) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 2)] {
+        let file = write(&folder, "from.toml", &limit(degrees));
+        let out = folder.join("out");
+        let ended = precess(&["run", &file, "--force", "--out", out.to_str().expect("text")]);
+        assert_eq!(ended.code, Some(code), "{}{}", ended.out, ended.error);
+        assert!(ended.out.contains("of rotation along [0.2673, 0.5345, 0.8018]"), "{}", ended.out);
+    }
+}

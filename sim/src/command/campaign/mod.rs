@@ -14,6 +14,7 @@ use super::options::{Set, Threads};
 use super::outputs::Outputs;
 use super::plot::time;
 use super::progress::{interrupted, progress_bar, watch_interrupts};
+use super::table::six;
 use super::terminal::note;
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
@@ -61,6 +62,16 @@ pub(super) struct Prepared {
     pub(super) scenario: Scenario,
     pub(super) selection: Selection,
     pub(super) fields: Vec<Field>,
+}
+
+impl Prepared {
+    /// What every run of the campaign has, for a page.
+    pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
+        let duration = format!("{}\u{a0}s", six(self.scenario.settings.duration));
+        let mut facts = vec![("Duration of a run", duration)];
+        facts.extend(self.overrides.iter().map(|set| ("Override", set.clone())));
+        facts
+    }
 }
 
 impl CampaignOptions {

@@ -164,6 +164,7 @@ impl Sweep {
             let unit = &axis.unit;
             facts.push(("Key", format!("{}: {count} values, {from} to {to} {unit}", axis.key)));
         }
+        facts.extend(prepared.facts());
         CampaignPage {
             subject: "sweep",
             scenario: &prepared.scenario,
@@ -172,6 +173,7 @@ impl Sweep {
             tables: vec![found.table.clone()],
             pictures,
             warnings: warnings(prepared, plan, finished),
+            plan: None,
         }
     }
 
@@ -256,7 +258,9 @@ impl Sweep {
             let unit = self.over.first().map_or("", |axis| axis.unit.as_str());
             let bands =
                 bands.iter().map(|[from, to]| format!("{} to {} {unit}", six(*from), six(*to)));
-            row.push(bands.collect::<Vec<_>>().join("; ").trim_end().to_owned());
+            let bands = bands.collect::<Vec<_>>().join("; ").trim_end().to_owned();
+            let none = bands.is_empty() && limit.is_some() && self.over.len() == 1;
+            row.push(if none { "none".to_owned() } else { bands });
             rows.push((state, row));
         }
         let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];

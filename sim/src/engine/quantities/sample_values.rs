@@ -33,8 +33,8 @@ pub(crate) struct SampleValues {
     disturbances: bool,
     orbit: bool,
     inputs: Option<CraftInputs>,
-    /// The attitude at the start.
-    start: [f64; 4],
+    /// The attitude that rotations are from.
+    reference: [f64; 4],
     /// The recorded points of the structure.
     points: Vec<Point>,
 }
@@ -56,7 +56,7 @@ struct Computed<'a> {
     lost: f64,
     energy: f64,
     mrp: Mrp,
-    /// Rotation vector from the attitude at the start.
+    /// Rotation vector from the reference.
     rotation: [f64; 3],
     /// Roll, pitch and yaw, and angular velocity, from the orbital frame.
     orbit: Option<([f64; 3], Vector3<f64>)>,
@@ -107,7 +107,7 @@ impl SampleValues {
                 .iter()
                 .any(|of| matches!(of, Quantity::OrbitAngle(_) | Quantity::OrbitOmega(_))),
             inputs: None,
-            start: numbers(&scenario.initial.attitude),
+            reference: numbers(&scenario.reference),
             points,
             quantities,
         }
@@ -170,7 +170,7 @@ impl SampleValues {
             energy,
             mrp: Mrp::from(state.attitude),
             orbit: self.orbit.then(|| in_orbit(state)).flatten(),
-            rotation: to_vector(product(inverse(self.start), numbers(&state.attitude))),
+            rotation: to_vector(product(inverse(self.reference), numbers(&state.attitude))),
             momentum,
             joints: state.devices.states().collect(),
             accelerations: found.map(|found| SampleAccelerations {

@@ -14,7 +14,7 @@ use std::cell::RefCell;
 use std::path::Path;
 
 use super::diagnostic::{Diagnostics, Numbers};
-use super::document::Node;
+use super::document::{Node, Value};
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
@@ -22,6 +22,9 @@ pub(crate) use devices::device_bodies::{has_inertia, has_mass, has_origin};
 
 use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};
+
+/// Keys of a jitter budget, which no scenario has.
+const BUDGET_KEYS: [&str; 2] = ["line_of_sight", "speed"];
 
 /// The number of the format that this program reads.
 pub const FORMAT: u32 = 1;
@@ -160,6 +163,13 @@ fn complete(node: &Node, scenario: &mut Scenario, reports: &Reports) {
 
 fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -> Option<Scenario> {
     let keys = Keys::new(node, "", reports)?;
+    if let Value::Table(table) = &node.value
+        && let Some(key) = BUDGET_KEYS.into_iter().find(|key| table.get(key).is_some())
+    {
+        let message = format!("`{key}` is of a jitter budget; this is read as a scenario");
+        keys.error(key, message, "run a budget by `precess jitter`");
+        return None;
+    }
     match keys.count("format", FORMAT, FORMAT) {
         None if !keys.has("format") => keys.missing("format", "format = 1"),
         _ => {}
@@ -174,7 +184,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let devices = devices::platform::with_platforms(&keys, devices, folder, structure.as_ref());
     let joints = devices::joints::Joints::of_devices(&devices);
     let settings = settings::settings(&keys);
-    let initial = devices::initial::initial(&keys, &devices);
+    let (initial, reference) = devices::initial::initial(&keys, &devices);
     let gravity = settings::gravity(&keys);
     let changes = changes_and_wrenches::changes(&keys, &joints, settings.as_ref(), folder);
     let wrenches = changes_and_wrenches::wrenches(&keys, &joints, structure.as_ref(), folder);
@@ -208,6 +218,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         structure,
         mounts: devices.into_iter().map(|device| device.turns).collect(),
         initial,
+        reference,
         hub_mode,
         gravity,
         drives,

@@ -9,7 +9,7 @@ pub(crate) enum Quantity {
     HubAcceleration(usize),
     Quaternion(usize),
     Sigma(usize),
-    /// Rotation vector from the attitude at the start.
+    /// Rotation vector from the reference attitude.
     HubRotation(usize),
     /// Roll, pitch, yaw from N.
     EulerAngle(usize),

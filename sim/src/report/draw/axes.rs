@@ -1,6 +1,6 @@
 //! What every figure with axes has: title, mesh, labels and frame; and the SVG file around a drawing.
 
-use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{BoldPoints, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -8,6 +8,13 @@ use super::figure::{
     ABOVE, Area, GRID, INK, LEFT, RIGHT, THEME, TYPE, TYPE_SMALL, px, text, whole,
 };
 use crate::report::error::DrawError;
+
+/// Most ticks that are asked for; ours are fewer.
+const TICKS: usize = 12;
+/// Width of a digit in units of the size of its type.
+const DIGIT: f64 = 0.6;
+/// Of the title of a vertical axis, and between it, the labels and the ticks.
+const BESIDE: f64 = 26.0;
 
 /// Axes to draw in.
 pub(in crate::report) type Chart<'a, 's, X, Y> =
@@ -39,11 +46,15 @@ where
     Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
     let (of_x, of_y) = (x.range(), y.range());
+    // The longest label of the vertical axis stays beside its title.
+    let ticks = y.key_points(BoldPoints(TICKS)).into_iter();
+    let longest = ticks.map(|tick| y.format_ext(&tick).chars().count()).max().unwrap_or(0);
+    let labels_wide = DIGIT * TYPE_SMALL * crate::spectra::float(longest) + BESIDE;
     let mut chart = ChartBuilder::on(area)
         .margin_top(px(space.above))
         .margin_right(px(RIGHT))
         .x_label_area_size(px(space.below))
-        .y_label_area_size(px(LEFT))
+        .y_label_area_size(px(LEFT.max(labels_wide)))
         .build_cartesian_2d(x, y)?;
     chart
         .configure_mesh()

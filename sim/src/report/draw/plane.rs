@@ -1,4 +1,4 @@
-//! [`Plane`]: curves, lines and dots over linear axes as SVG, in the manner of [`Figure`](super::figure::Figure):
+//! [`Plane`]: curves, lines and dots over linear axes, or one that is logarithmic, as SVG, in the manner of [`Figure`](super::figure::Figure):
 //! a quantity over the speed, a waterfall, a Campbell diagram.
 
 use std::fmt::Write as _;
@@ -8,6 +8,7 @@ use super::axes::{Space, axes, svg_file, title};
 use super::figure::{
     ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, moves, px, stroke,
 };
+use super::log_panel::{Scale, decades};
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
 
@@ -21,6 +22,8 @@ const LARGE: [f64; 2] = [780.0, 480.0];
 const LABEL_PLACES: i32 = 24;
 /// Left, top, right and bottom, tenths of a unit.
 type Rectangle = [i32; 4];
+/// Most decades of a logarithmic axis.
+const DECADES_MAX: f64 = 6.0;
 /// Most points of a curve; of more, every nth and the largest between are drawn.
 const POINTS_MAX: usize = 700;
 
@@ -43,6 +46,8 @@ pub(crate) struct Plane {
     pub(crate) marks: Vec<[f64; 2]>,
     /// Whether it is as wide as a page, and higher.
     pub(crate) large: bool,
+    /// Whether the vertical axis is logarithmic, for values over decades; what is not above zero is not drawn.
+    pub(crate) logarithmic: bool,
     /// Ranges that are shown; those of everything without them.
     pub(crate) ranges: [Option<[f64; 2]>; 2],
 }
@@ -75,18 +80,25 @@ impl Plane {
         range_of(curves.chain(dots).chain(lines))
     }
 
+    /// The vertical axis where it is logarithmic.
+    fn scale(&self) -> Option<Scale> {
+        let values = self.curves.iter().flat_map(|(_, points)| points).map(|point| point[1]);
+        self.logarithmic.then(|| decades(values, DECADES_MAX))
+    }
+
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
         title(area, &self.title)?;
-        let [x, y] = [self.range(0), self.range(1)];
+        let (x, scale) = (self.range(0), self.scale());
+        let y = scale.as_ref().map_or_else(|| self.range(1), |scale| scale.range.clone());
         let labels = self.axes.each_ref().map(String::as_str);
-        let chart = axes(
-            area,
-            &Space { above: ABOVE, below: BELOW },
-            Axis(x.clone()),
-            Axis(y.clone()),
-            labels,
-        )?;
-        let at = |[px, py]: [f64; 2]| chart.backend_coord(&(px, py));
+        let space = Space { above: ABOVE, below: BELOW };
+        let at: Box<dyn Fn([f64; 2]) -> (i32, i32)> = if let Some(scale) = scale {
+            let chart = axes(area, &space, Axis(x.clone()), scale, labels)?;
+            Box::new(move |[px, py]| chart.backend_coord(&(px, py)))
+        } else {
+            let chart = axes(area, &space, Axis(x.clone()), Axis(y.clone()), labels)?;
+            Box::new(move |[px, py]| chart.backend_coord(&(px, py)))
+        };
         let inside =
             |[px, py]: [f64; 2]| (x.start..=x.end).contains(&px) && (y.start..=y.end).contains(&py);
         let mut out = String::new();

@@ -1,8 +1,10 @@
 //! [`SpectrumFigure`]: power spectral densities over frequency as SVG, on logarithmic axes, and below them the RMS of
 //! all lower frequencies.
 //!
-//! A picture has fewer points than a spectrum has bins: neighbours at nearly one ratio are one point, the greatest of
-//! them, so no line is lost.
+//! A picture has fewer points than a spectrum has bins: neighbours at nearly one ratio are one point. Of noise it is their mean,
+//! which is its density; where one of them stands out it is that, so no line is lost.
+
+use std::f64::consts::LN_2;
 
 use super::axes::{svg_file, title};
 use super::figure::{ABOVE, PANEL, WIDTH, document, px};
@@ -15,6 +17,9 @@ const RMS: f64 = 190.0;
 const ABOVE_RMS: f64 = 8.0;
 /// Decades below the largest density that are shown, and below the largest RMS.
 const DECADES_MAX: [f64; 2] = [12.0, 6.0];
+/// Bins of noise that is not averaged are distributed exponentially: the greatest of n is above `ln n + 7` means once in a
+/// thousand points, and the mean is the median by `ln 2`.
+const BEYOND_NOISE: f64 = 7.0;
 /// Points of a curve, at most.
 const POINTS_MAX: f64 = 600.0;
 
@@ -58,7 +63,8 @@ impl SpectrumFigure {
         let at = |values: &[f64]| greatest(&points, values);
         let frequencies = points.iter().filter_map(|point| self.frequencies.get(point.start));
         let frequencies: Vec<f64> = frequencies.copied().collect();
-        let densities: Vec<_> = self.curves.iter().map(|curve| at(&curve.density)).collect();
+        let densities: Vec<_> =
+            self.curves.iter().map(|curve| levels(&points, &curve.density)).collect();
         let sums: Vec<_> = self.curves.iter().map(|curve| at(&curve.rms)).collect();
         let [of_density, of_rms] = DECADES_MAX;
         let [density_label, rms_label] = match self.unit.as_str() {
@@ -117,6 +123,23 @@ impl SpectrumFigure {
     }
 }
 
+/// The density of each point: the greatest bin where it is a line, else the mean.
+fn levels(points: &[std::ops::Range<usize>], values: &[f64]) -> Vec<f64> {
+    let of = |point: &std::ops::Range<usize>| {
+        let bins = values.get(point.clone()).unwrap_or_default();
+        let mut finite: Vec<f64> = bins.iter().copied().filter(|bin| bin.is_finite()).collect();
+        finite.sort_by(f64::total_cmp);
+        let greatest = finite.last().copied().unwrap_or(f64::NAN);
+        let median = finite.get(finite.len() / 2).copied().unwrap_or(f64::NAN);
+        let count = crate::spectra::float(finite.len());
+        if greatest > (count.ln() + BEYOND_NOISE) / LN_2 * median {
+            return greatest;
+        }
+        finite.iter().sum::<f64>() / count
+    };
+    points.iter().map(of).collect()
+}
+
 /// The greatest value of the bins of each point.
 fn greatest(points: &[std::ops::Range<usize>], values: &[f64]) -> Vec<f64> {
     let of = |point: &std::ops::Range<usize>| {
@@ -146,9 +169,29 @@ mod tests {
         let found = figure(100_000, |k| if k == 77_777 { 5.0 } else { 1e-6 });
         let points = found.points();
         assert!(points.len() <= 601, "{}", points.len());
-        let drawn = greatest(&points, &found.curves[0].density);
+        let drawn = levels(&points, &found.curves[0].density);
         assert_eq!(drawn.iter().filter(|value| **value == 5.0).count(), 1);
         assert!(found.file().expect("it is drawn").len() < 40_000);
+    }
+
+    /// A periodogram of white noise of density one: bins are distributed exponentially.
+    #[test]
+    fn noise_is_drawn_at_its_density() {
+        let mut state = 1_u64;
+        let mut bin = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let share = f64::from(u32::try_from(state >> 32).expect("32 bits")) / 2_f64.powi(32);
+            -(1.0 - share).ln()
+        };
+        let values: Vec<f64> = (0..100_000).map(|_| bin()).collect();
+        let points = figure(100_000, |_| 1.0).points();
+        let last = points.len() - 100..points.len() - 1;
+        let drawn = levels(&points, &values);
+        let mean = drawn[last.clone()].iter().sum::<f64>() / 99.0;
+        assert!((mean - 1.0).abs() < 0.02, "{mean}");
+        // The greatest bins are some ten times the density.
+        let held = greatest(&points, &values);
+        assert!(held[last].iter().sum::<f64>() / 99.0 > 6.0);
     }
 
     #[test]

@@ -115,6 +115,7 @@ fn residuals(
         dots: Vec::new(),
         marks: Vec::new(),
         large: false,
+        logarithmic: false,
         ranges: [(ends[0] < ends[1]).then_some(ends), Some([-most, most])],
     }
 }

@@ -96,6 +96,7 @@ impl JitterReport<'_> {
                 .map(|(_, of)| [of.speed * RPM, of.oscillation.frequency / TAU])
                 .collect(),
             large: true,
+            logarithmic: false,
             ranges: [Some(self.budget.speeds.map(|speed| speed * RPM)), Some([0.0, top])],
         }
     }

@@ -7,6 +7,7 @@ use nalgebra::Complex;
 use super::super::draw::plane::Plane;
 use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::super::number::{short, with_unit};
+use super::super::sweep::scaled;
 use super::super::unit::{SMALL_ANGLE, for_peak};
 use super::{JitterReport, RPM, metric, rpm};
 use crate::jitter::budget::{Assessed, outputs_of};
@@ -17,6 +18,8 @@ use crate::jitter::weight::Weight;
 const DOT_MIN: f64 = 1e-2;
 /// Parts of the range of speeds of which a waterfall shows the largest lines.
 const WATERFALL_SPEEDS: f64 = 160.0;
+/// A metric is drawn over a logarithmic axis where its largest value is this many times its least.
+const DECADES: f64 = 30.0;
 /// A limit is drawn up to this many times the RMS.
 const LIMIT_SHOWN: f64 = 3.0;
 
@@ -25,25 +28,33 @@ fn weight(of: &Assessed) -> Weight {
     Weight::of_metric(&of.limit.metric).unwrap_or_else(|_| Weight::one())
 }
 
+/// The unit of a limit for some values and the limit, SI, times a power of ten where that makes numbers short; its size in SI.
+fn unit_of(of: &Assessed, values: impl Iterator<Item = f64>) -> (String, f64) {
+    let (unit, size) = &of.limit.unit;
+    scaled((unit, *size), values.chain([of.limit.limit]))
+}
+
 impl JitterReport<'_> {
-    /// A metric over the speed.
+    /// A metric over the speed, in the unit of its limit.
     pub(super) fn over_speed(&self, of: &Assessed) -> Plane {
-        let peak = of.values.iter().copied().fold(of.limit.limit, f64::max);
-        let unit = for_peak(SMALL_ANGLE, peak);
+        let (unit, size) = unit_of(of, of.values.iter().copied());
         let points = self.sweep.speeds.iter().zip(&of.values);
-        let points = points.map(|(speed, value)| [speed * RPM, value * unit.per_si]).collect();
+        let points = points.map(|(speed, value)| [speed * RPM, value / size]).collect();
         let ends = [self.budget.speeds[0], self.budget.speeds[1]];
-        let limit = ends.map(|speed| [speed * RPM, of.limit.limit * unit.per_si]).to_vec();
+        let limit = ends.map(|speed| [speed * RPM, of.limit.limit / size]).to_vec();
+        let shown = || of.values.iter().copied().chain([of.limit.limit]).filter(|v| *v > 0.0);
+        let (least, most) = (shown().fold(f64::MAX, f64::min), shown().fold(0.0, f64::max));
         Plane {
-            description: format!("{} over the speed in rpm, in {}.", of.limit.name, unit.name),
+            description: format!("{} over the speed in rpm, in {unit}.", of.limit.name),
             title: format!("{}: {}", of.limit.name, metric(&of.limit.metric)),
-            axes: ["Speed (rpm)".to_owned(), format!("Line of sight ({})", unit.name)],
+            axes: ["Speed (rpm)".to_owned(), format!("Line of sight ({unit})")],
             curves: vec![("found".to_owned(), points), ("limit".to_owned(), limit)],
             lines: Vec::new(),
             dots: Vec::new(),
             marks: Vec::new(),
-            large: false,
-            ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * peak * unit.per_si])],
+            large: true,
+            logarithmic: most > DECADES * least,
+            ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * most / size])],
         }
     }
 
@@ -66,24 +77,23 @@ impl JitterReport<'_> {
         }
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
-        let unit = for_peak(SMALL_ANGLE, whole.sqrt());
+        let (unit, size) = unit_of(of, std::iter::once(whole.sqrt()));
         let top = sorted.last().map_or(1.0, |(frequency, _)| 1.1 * frequency);
-        let (mut forward, mut backward) =
-            (vec![[0.0, 0.0]], vec![[0.0, whole.sqrt() * unit.per_si]]);
+        let (mut forward, mut backward) = (vec![[0.0, 0.0]], vec![[0.0, whole.sqrt() / size]]);
         let mut sum = 0.0;
         for (frequency, square) in sorted {
             for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
-                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+                points.push([frequency, value.max(0.0).sqrt() / size]);
             }
             sum += square;
             for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
-                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+                points.push([frequency, value.max(0.0).sqrt() / size]);
             }
         }
-        forward.push([top, whole.sqrt() * unit.per_si]);
+        forward.push([top, whole.sqrt() / size]);
         backward.push([top, 0.0]);
-        let (speed, limit) = (rpm(speed), of.limit.limit * unit.per_si);
-        let found = whole.sqrt() * unit.per_si;
+        let (speed, limit) = (rpm(speed), of.limit.limit / size);
+        let found = whole.sqrt() / size;
         let highest = if limit < LIMIT_SHOWN * found { limit.max(found) } else { found };
         let mut curves =
             vec![("from below".to_owned(), forward), ("from above".to_owned(), backward)];
@@ -95,15 +105,16 @@ impl JitterReport<'_> {
                 "{}: cumulative {} over frequency in Hz at {speed}, in {}.",
                 of.limit.name,
                 metric(&of.limit.metric),
-                unit.name
+                unit,
             ),
             title: format!("{}: {} at {speed}", of.limit.name, metric(&of.limit.metric)),
-            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative ({})", unit.name)],
+            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative ({unit})")],
             curves,
             lines: Vec::new(),
             dots: Vec::new(),
             marks: Vec::new(),
             large: false,
+            logarithmic: false,
             ranges: [Some([0.0, top]), Some([0.0, 1.06 * highest])],
         }
     }
@@ -114,16 +125,16 @@ impl JitterReport<'_> {
         let speed = self.sweep.speeds.get(of.worst).copied()?;
         let densities = self.sweep.noise.nearest(speed)?;
         let outputs = outputs_of(of.sight);
-        let unit = for_peak(SMALL_ANGLE, of.limit.limit);
+        let (unit, size) = unit_of(of, std::iter::once(of.limit.limit));
         let sum = |values: &Vec<f64>| -> f64 {
             outputs.iter().filter_map(|output| values.get(*output)).sum()
         };
-        let square = unit.per_si * unit.per_si;
+        let square = size * size;
         let density: Vec<f64> =
-            densities.values.iter().map(|values| sum(values) * square).collect();
+            densities.values.iter().map(|values| sum(values) / square).collect();
         let cumulative = densities.cumulative(&outputs, &weight(of));
-        let rms: Vec<f64> = cumulative.iter().map(|sum| sum.sqrt() * unit.per_si).collect();
-        let limit = vec![of.limit.limit * unit.per_si; rms.len()];
+        let rms: Vec<f64> = cumulative.iter().map(|sum| sum.sqrt() / size).collect();
+        let limit = vec![of.limit.limit / size; rms.len()];
         let curve = |name: &str, density: Vec<f64>, rms: Vec<f64>| SpectrumCurve {
             name: name.to_owned(),
             density,
@@ -131,12 +142,9 @@ impl JitterReport<'_> {
         };
         let title = format!("{}: broadband noise at {}", of.limit.name, rpm(densities.speed));
         Some(SpectrumFigure {
-            description: format!(
-                "{title}, density and cumulative RMS over frequency, in {}.",
-                unit.name
-            ),
+            description: format!("{title}, density and cumulative RMS over frequency, in {unit}."),
             title,
-            unit: unit.name.to_owned(),
+            unit: unit.clone(),
             frequencies: densities.frequencies.clone(),
             curves: vec![
                 curve("noise", density.clone(), rms),
@@ -204,9 +212,17 @@ impl JitterReport<'_> {
             dot[2] = (dot[2] / largest).sqrt();
         }
         dots.retain(|dot| dot[2] > DOT_MIN);
-        let unit = for_peak(SMALL_ANGLE, largest);
+        // That of the limits, if there are any.
+        let limited = self.assessed.iter().find(|of| of.sight == sight);
+        let (unit, size) = limited.map_or_else(
+            || {
+                let unit = for_peak(SMALL_ANGLE, largest);
+                (unit.name.to_owned(), unit.per_si.recip())
+            },
+            |of| scaled((&of.limit.unit.0, of.limit.unit.1), std::iter::once(largest)),
+        );
         let name = self.budget.sights.get(sight).map_or("", |sight| sight.name.as_str());
-        let amplitude = with_unit(largest * unit.per_si, 3, unit.name);
+        let amplitude = with_unit(largest / size, 3, &unit);
         Plane {
             description: format!(
                 "Waterfall of {name}: lines over speed in rpm and frequency in Hz; the largest amplitude is {amplitude}."
@@ -218,6 +234,7 @@ impl JitterReport<'_> {
             dots,
             marks: Vec::new(),
             large: true,
+            logarithmic: false,
             ranges: [
                 Some(self.budget.speeds.map(|speed| speed * RPM)),
                 Some([0.0, 1.06 * self.ends()[1]]),

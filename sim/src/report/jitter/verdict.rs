@@ -29,7 +29,10 @@ impl JitterReport<'_> {
             return Verdict { state: "", word, text };
         }
         if unmet.is_empty() {
-            let word = format!("All {all} requirements are met");
+            let word = match all {
+                1 => "The requirement is met".to_owned(),
+                all => format!("All {all} requirements are met"),
+            };
             let text = format!(
                 "at all {speeds} speeds, {}{}. {beside}",
                 self.budget.phases.words(),
@@ -72,6 +75,7 @@ impl JitterReport<'_> {
             let count = |word: &str| states.iter().filter(|state| state.word() == word).count();
             let (met, unmet) = (count("met"), count("violated"));
             let state = match (met, unmet) {
+                (1, 0) if all == 1 => "it is met".to_owned(),
                 (met, 0) if met == all => format!("all {all} are met"),
                 (met, 0) => format!("{met} of {all} are met, the others not evaluated"),
                 (_, unmet) => format!("{unmet} of {all} violated"),

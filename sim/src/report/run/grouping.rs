@@ -112,7 +112,7 @@ fn found(
             of_hub((1, 0), texts, unit::NUMBER, ["q", ["0", "1", "2", "3"][index]])
         }
         Quantity::HubRotation(axis) => {
-            let texts = ["rotation", "Rotation of the hub since the start", "Rotation"];
+            let texts = ["rotation", "Rotation of the hub from its reference", "Rotation"];
             of_hub((1, 1), texts, unit::SMALL_ANGLE, ["θ", AXES[axis]])
         }
         Quantity::EulerAngle(index) => of_turns(2, ["euler-angles", "N"], index),

@@ -20,7 +20,7 @@ pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
             reached(verdict),
             limit(verdict),
             margin(verdict),
-            requirement.quantity.clone(),
+            verdict.quantity.clone(),
             statistic(requirement.statistic),
             format!("{from} s to {to} s"),
         ];

@@ -12,7 +12,7 @@ use crate::report::{Report, number};
 use crate::scenario::{IntegratorChoice, Member};
 
 /// Requirements that the terminal shows.
-const SHOWN_MAX: usize = 3;
+const SHOWN_MAX: usize = 12;
 /// Events that it shows.
 const EVENTS_SHOWN_MAX: usize = 6;
 
@@ -149,7 +149,7 @@ fn facts(report: &Report, outcome: &Outcome) -> Vec<Fact> {
         Fact::new("Integrator", format!("{name}, {setting}")),
         Fact::new(
             "Steps accepted, rejected",
-            format!("{}, {}", number::count(steps.accepted), number::count(steps.rejected)),
+            format!("{},\u{a0}{}", number::count(steps.accepted), number::count(steps.rejected)),
         ),
         Fact::new("Evaluations", number::count(steps.evaluations)),
         Fact::new(
@@ -166,7 +166,9 @@ fn facts(report: &Report, outcome: &Outcome) -> Vec<Fact> {
         Fact::new("Relative drift of angular momentum", drift(outcome.drift.angular)),
     ];
     if let Some(peak) = omega_peak(report) {
-        facts.push(Fact::new("Largest |ω|", peak));
+        // It breaks before the time, if at all.
+        let whole = peak.replace(' ', "\u{a0}").replace("\u{a0}at", " at");
+        facts.push(Fact::new("Largest angular velocity", whole));
     }
     if outcome.energy_lost != 0.0 {
         let lost = number::with_unit(outcome.energy_lost, 4, "J");

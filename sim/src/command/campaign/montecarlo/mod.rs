@@ -78,6 +78,9 @@ impl MonteCarlo {
     pub(in crate::command) fn execute(&self) -> Result<Exit, CommandError> {
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
         let variations = variations_from_toml(&self.plan).map_err(CommandError::Scenario)?;
+        // As it was read: it may change while samples are run.
+        let text = std::fs::read_to_string(&self.plan)
+            .map_err(|source| CommandError::Io { path: self.plan.clone(), source })?;
         let plan = draw(&variations, self.samples, self.seed, self.latin_hypercube)
             .map_err(|error| other(&error))?;
         let prepared = self.options.prepare()?;
@@ -123,7 +126,7 @@ impl MonteCarlo {
             subject: "Monte Carlo campaign",
             scenario: &prepared.scenario,
             states: &results.states,
-            facts: self.facts(&plan),
+            facts: self.facts(&prepared, &plan),
             tables: vec![
                 results.table.clone(),
                 percentile_table(&prepared, &finished),
@@ -132,6 +135,7 @@ impl MonteCarlo {
             ],
             pictures: &drawn,
             warnings: warnings(&prepared, &plan, &finished),
+            plan: Some(text),
         };
         texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
         let count = texts.len() + 1;
@@ -149,13 +153,16 @@ type RankedDerivatives = Vec<(String, Vec<Derivative>)>;
 
 impl MonteCarlo {
     /// What was run.
-    fn facts(&self, plan: &Plan) -> Vec<(&'static str, String)> {
+    fn facts(&self, prepared: &Prepared, plan: &Plan) -> Vec<(&'static str, String)> {
         let drawn = if self.latin_hypercube { ", a Latin hypercube" } else { "" };
         vec![
             ("Samples", format!("{}{drawn}", plan.samples.len())),
             ("Seed", self.seed.to_string()),
             ("Keys that vary", plan.labels.len().to_string()),
         ]
+        .into_iter()
+        .chain(prepared.facts())
+        .collect()
     }
 
     /// Exact derivatives, and central differences of numbers that have none; none where Ctrl-C ended the runs of these.

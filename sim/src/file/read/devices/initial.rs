@@ -21,8 +21,13 @@ const STATE_OF: [(&str, bool); 2] = [("B", false), ("centre_of_mass", true)];
 /// How an attitude is written.
 const WAYS: [&str; 4] = ["quaternion", "mrp", "euler", "axis"];
 
-pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
+/// The initial state, and the attitude that rotations are from: that of the file, before a vibration is added to it.
+pub(in crate::file::read) fn initial(
+    keys: &Keys<'_>,
+    devices: &[Device],
+) -> (State<Set>, Quaternion) {
     let mut state = at_rest(devices);
+    let mut reference = None;
     if let Some(initial) = keys.table("initial") {
         let vector = |key, measure| initial.vector(key, measure).unwrap_or_else(Vector3::zeros);
         state.r_b_n = vector("position", Measure::LENGTH);
@@ -38,6 +43,10 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
         if initial.choice("relative_to", &frames) == Some(true) {
             from_orbit(&initial, &mut state);
         }
+        if let Some(attitude) = initial.table("rotation_from") {
+            reference = attitude_of(&attitude);
+            attitude.finish();
+        }
         // Of the whole scenario: see `whole`.
         initial.boolean("settled");
         initial.choice("state_of", &STATE_OF);
@@ -47,7 +56,8 @@ pub(in crate::file::read) fn initial(keys: &Keys<'_>, devices: &[Device]) -> Sta
     for ([coordinate, rate], [q, q_dot]) in state.devices.states_mut().zip(given) {
         (*coordinate, *rate) = (q, q_dot);
     }
-    state
+    let reference = reference.unwrap_or(state.attitude);
+    (state, reference)
 }
 
 /// Attitude and angular velocity with respect to N of those with respect to the orbital frame.

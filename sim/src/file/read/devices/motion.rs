@@ -73,7 +73,14 @@ pub(super) fn only_motion(keys: &Keys<'_>, key: &str) {
     };
     for other in OTHER_DRIVES.into_iter().filter(is_given) {
         let message = format!("a joint whose `{key}` is a profile has no `{other}`");
-        keys.error(other, message, &format!("remove it, or write the initial `{key}` only"));
+        let help = match other {
+            "locked" => format!("write `locked = false`, or the initial `{key}` only"),
+            _ if other.ends_with("_limit") => {
+                "remove it; a `[[requirement]]` limits what the motor needs".to_owned()
+            }
+            _ => format!("remove it, or write the initial `{key}` only"),
+        };
+        keys.error(other, message, &help);
     }
 }
 

@@ -1,6 +1,8 @@
 //! Names of columns in `[output]`, `[[requirement]]` and `[[crossing]]`, and the units of their
 //! values: what is only known with the devices.
 
+use precess_dynamics::Gravity;
+
 use crate::file::document::Node;
 use crate::file::keys::{Keys, Reports};
 use crate::nearest::did_you_mean;
@@ -17,7 +19,14 @@ pub(in crate::file::read) fn check(node: &Node, scenario: &Scenario, reports: &R
     if let Some(output) = keys.table("output") {
         let selected = Scenario { requirements: Vec::new(), ..scenario.clone() };
         if let Err(error) = Columns::from_scenario(&selected) {
-            output.error("columns", error.to_string(), "");
+            let orbit = scenario.output.columns.iter().any(|name| name.starts_with("orbit"));
+            let central = matches!(scenario.gravity, Gravity::Central { .. });
+            let help = if orbit && !central {
+                "the columns `orbit` are of a scenario with `[gravity]` and a `central` body"
+            } else {
+                ""
+            };
+            output.error("columns", error.to_string(), help);
         }
     }
     for (keys, requirement) in keys.tables("requirement").iter().zip(&scenario.requirements) {

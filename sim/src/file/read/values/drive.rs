@@ -16,12 +16,10 @@ use std::path::Path;
 use super::table_file::columns;
 use crate::file::document::{Node, Value};
 use crate::file::keys::Keys;
+use crate::file::load::PROFILE_KINDS;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{Profile, Table};
 use crate::units::{Measure, parse_unit};
-
-/// The kinds of a profile, by the key that names each.
-const KINDS: [&str; 7] = ["constant", "step", "ramp", "sine", "chirp", "table", "times"];
 
 /// A profile; nothing where one is wrong, which has been reported.
 pub(in crate::file::read) fn profile(
@@ -46,10 +44,10 @@ pub(in crate::file::read) fn profile(
 }
 
 fn of_table(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Profile> {
-    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| keys.has(kind)).collect();
+    let kinds: Vec<_> = PROFILE_KINDS.into_iter().filter(|kind| keys.has(kind)).collect();
     let &[kind] = kinds.as_slice() else {
         let message = format!("`{}` has {} of the keys of a profile", keys.path(), kinds.len());
-        let help = format!("give one of {}", KINDS.join(", "));
+        let help = format!("give one of {}", PROFILE_KINDS.join(", "));
         keys.reports().borrow_mut().error(keys.span(), message, "", &help);
         return None;
     };

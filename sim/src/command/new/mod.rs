@@ -1,4 +1,4 @@
-//! `new`: a commented example of a scenario file, with typical values.
+//! `new`: a commented example of a scenario file, or of a budget, with typical values.
 
 use std::fmt::Write as _;
 
@@ -16,7 +16,7 @@ use crate::scenario::body_key;
 #[derive(Debug, Args)]
 pub(super) struct New {
     /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, `wheels` for three
-    /// reaction wheels, `platform` for a wheel on an isolator.
+    /// reaction wheels, `platform` for a wheel on an isolator; `budget` for a jitter budget of `wheels`.
     #[arg(default_value = "reaction_wheel")]
     what: String,
 }
@@ -26,7 +26,7 @@ impl New {
         let Some(text) = example(&self.what) else {
             let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
             let message = format!(
-                "there is no example of `{}`; there are platform, pyramid, wheels, {}",
+                "there is no example of `{}`; there are budget, platform, pyramid, wheels, {}",
                 self.what,
                 known.join(", ")
             );
@@ -39,6 +39,9 @@ impl New {
 
 /// The text of an example.
 fn example(what: &str) -> Option<String> {
+    if what == "budget" {
+        return Some(BUDGET.to_owned());
+    }
     let mut text = String::from(HEAD);
     match what {
         "pyramid" => {
@@ -84,7 +87,16 @@ fn example(what: &str) -> Option<String> {
             }
         }
     }
-    text.push_str(TAIL);
+    let kind = BuiltInKind::of_name(what);
+    let joint = match (what, kind) {
+        ("pyramid", _) => "cmg1.wheel".to_owned(),
+        (_, Some(kind)) => {
+            let body = kind.joints().last().map_or("", |joint| joint.body);
+            format!("{}.{}", short(kind), body.replace(' ', "_"))
+        }
+        _ => "wheel1.wheel".to_owned(),
+    };
+    text.push_str(&TAIL.replace("JOINT", &joint));
     Some(text)
 }
 
@@ -145,7 +157,10 @@ fn bodies(text: &mut String, kind: BuiltInKind) {
         } else if joint.body == "wheel" {
             let _ = writeln!(text, "# It turns about {axis}.\nrate = \"3000 rpm\"");
             if joint.driven {
-                let _ = writeln!(text, "torque = \"10 mN m\"\ntorque_limit = \"0.2 N m\"");
+                let _ = writeln!(
+                    text,
+                    "# Of its motor; a torque turns the hub the other way.\ntorque = \"0 N m\"\ntorque_limit = \"0.2 N m\""
+                );
             }
         } else if joint.body == "panel" {
             let _ = writeln!(
@@ -189,22 +204,26 @@ fn typical(joint: &JointInfo) -> (&'static str, &'static str) {
     }
 }
 
+const BUDGET: &str = include_str!("budget.toml");
+
 const HEAD: &str = r#"# A spacecraft for `precess run`. Every quantity has its unit; `precess check` tells what is wrong.
 format = 1
 title = "A first spacecraft"
 
+# The hub without its devices: their bodies are added to it.
 [hub]
 mass = "350 kg"
 # From the reference point B, in the hub's axes.
 centre_of_mass = "0, 0, 2 cm"
-# Moments of inertia about the hub's centre of mass, and the tensor's elements 12, 13, 23.
+# Moments of inertia about the hub's centre of mass, and the tensor's elements 12, 13, 23; of a table that has the
+# integrals of x y, x z, y z with the other sign: inertia_integrals.
 inertia = "80, 70, 60 kg m^2"
 products_of_inertia = "0, 0, 0 kg m^2"
 # For drawings only.
 size = "1.2, 1, 1 m"
 
 [initial]
-angular_velocity = "0, 0.06, 0 deg/s"
+angular_velocity = "0, 0, 0 deg/s"
 # Or: { mrp = [0, 0, 0] }, { axis = [0, 0, 1], angle = "10 deg" },
 # { euler = "0, 0, 10 deg", sequence = "ZYX", direction = "N to B" }.
 attitude = { quaternion = [1, 0, 0, 0], scalar = "first" }
@@ -256,7 +275,7 @@ const TAIL: &str = r#"
 # What happens over time, for example:
 # [[at]]
 # time = "5 s"
-# joint = "wheel1.wheel"
+# joint = "JOINT"
 # brake = true
 
 [run]
@@ -306,6 +325,37 @@ mod tests {
         let read = from_toml("source", &text, Path::new(""));
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}\n{text}"));
         assert_eq!(scenario.disturbances.len(), 1);
+    }
+
+    #[test]
+    fn the_budget_is_one_of_the_three_wheels() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("budget.toml");
+        for (file, what) in [("budget.toml", "budget"), ("wheels.toml", "wheels")] {
+            let text = example(what).expect("an example");
+            std::fs::write(folder.path().join(file), text).expect("it is written");
+        }
+        let read = crate::file::budget_from_toml(&path, &[]);
+        let (budget, scenario) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!((budget.limits.len(), budget.count), (1, 181));
+        assert_eq!(scenario.file_name().and_then(|name| name.to_str()), Some("wheels.toml"));
+    }
+
+    /// The change that each example has as a comment names a joint of its own.
+    #[test]
+    fn the_commented_change_is_one() {
+        let kinds = BuiltInKind::ALL.iter().map(|kind| kind.name());
+        for what in kinds.chain(["platform", "pyramid", "wheels"]) {
+            let text = example(what).expect("an example");
+            let change = text.lines().skip_while(|line| *line != "# [[at]]").take(4);
+            let change: Vec<_> = change.map(|line| line.trim_start_matches("# ")).collect();
+            let read = from_toml(what, &format!("{text}\n{}\n", change.join("\n")), Path::new(""));
+            // A wheel that its kind keeps at its rate has no brake.
+            if let Err(errors) = read {
+                let shown = errors.to_string();
+                assert!(!shown.contains("no joint is named"), "{what}: {shown}");
+            }
+        }
     }
 
     #[test]
