@@ -204,7 +204,7 @@ fn typical(joint: &JointInfo) -> (&'static str, &'static str) {
     }
 }
 
-const BUDGET: &str = include_str!("budget.toml");
+const BUDGET: &str = include_str!("new/budget.toml");
 
 const HEAD: &str = r#"# A spacecraft for `precess run`. Every quantity has its unit; `precess check` tells what is wrong.
 format = 1
