@@ -10,6 +10,7 @@ use std::sync::Mutex;
 use clap::Args;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::options::{Set, Threads};
 use super::outputs::Outputs;
 use super::plot::time;
@@ -17,12 +18,15 @@ use super::progress::{interrupted, progress_bar, watch_interrupts};
 use super::table::six;
 use super::terminal::note;
 use crate::campaign::{
-    CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
+    CampaignError, Execution, Field, Finished, Journal, Plan, Selection, digits, execute, table,
 };
 use crate::file::{Override, Template};
+use crate::pointing::RequirementState;
 use crate::record::no_data::no_data;
 use crate::record::{Columns, Header};
+use crate::report::campaign::CampaignTable;
 use crate::scenario::Scenario;
+use crate::spectra::float;
 
 /// Samples that are read in search of one that can be.
 const TRIED: usize = 16;
@@ -275,6 +279,32 @@ pub(super) fn failures(plan: &Plan, finished: &Finished) -> String {
         plan.samples.len(),
         at.join(", ")
     )
+}
+
+/// What became of the requirements, and the table of them and of the columns.
+pub(super) struct Results {
+    pub(super) states: Vec<(String, RequirementState)>,
+    pub(super) table: CampaignTable,
+}
+
+/// What a terminal shows last: requirements that are not evaluated, samples that failed or were in the journal; and how the
+/// command ends.
+pub(super) fn ending(
+    (prepared, plan, finished): (&Prepared, &Plan, &Finished),
+    results: &Results,
+) -> (String, Exit) {
+    let mut exit = Exit::of_states(results.states.iter().map(|(_, state)| state));
+    let mut text = not_evaluated(prepared, plan, finished);
+    let failures = failures(plan, finished);
+    if !failures.is_empty() {
+        exit = exit.max(Exit::Violated);
+    }
+    text.push_str(&failures);
+    if finished.resumed > 0 {
+        let count = digits(float(finished.resumed));
+        let _ = writeln!(text, "{count} samples were in the journal");
+    }
+    (text, exit)
 }
 
 /// What a page says beside the numbers: requirements that are not evaluated, samples that failed.

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use clap::Args;
 
 use super::{
-    CampaignOptions, Prepared, failures, not_evaluated, shown, values_of, warnings, without_number,
+    CampaignOptions, Prepared, Results, ending, shown, values_of, warnings, without_number,
 };
-use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
+use crate::campaign::{Axis, Finished, Plan, keep_out};
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
 use crate::command::table::{aligned, six};
@@ -152,7 +152,7 @@ impl Sweep {
         prepared: &'a Prepared,
         plan: &Plan,
         finished: &Finished,
-        found: &'a Found,
+        found: &'a Results,
         pictures: &'a [(String, Picture)],
     ) -> CampaignPage<'a> {
         let mut facts = vec![("Samples", plan.samples.len().to_string())];
@@ -183,7 +183,7 @@ impl Sweep {
         prepared: &Prepared,
         plan: &Plan,
         finished: &Finished,
-        found: &Found,
+        found: &Results,
     ) -> (String, Exit) {
         let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
         for axis in &self.over {
@@ -193,21 +193,12 @@ impl Sweep {
             }
         }
         text.push_str(&aligned(&found.table.text()));
-        let mut exit = Exit::of_states(found.states.iter().map(|(_, state)| state));
-        text.push_str(&not_evaluated(prepared, plan, finished));
-        let failures = failures(plan, finished);
-        if !failures.is_empty() {
-            exit = exit.max(Exit::Violated);
-        }
-        text.push_str(&failures);
-        if finished.resumed > 0 {
-            let _ = writeln!(text, "{} samples were in the journal", digits_of(finished.resumed));
-        }
-        (text, exit)
+        let (rest, exit) = ending((prepared, plan, finished), found);
+        (text + &rest, exit)
     }
 
     /// Of each requirement and column the worst sample.
-    fn found(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> Found {
+    fn found(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> Results {
         let mut states = Vec::new();
         let mut rows = Vec::new();
         for (name, field, (unit, size), limit) in shown(prepared) {
@@ -266,18 +257,8 @@ impl Sweep {
         let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
         let caption = "Requirements and columns, and the worst sample of each";
         let heads = heads.map(str::to_owned).into();
-        Found { states, table: CampaignTable { caption, heads, rows, numbers: 2..5 } }
+        Results { states, table: CampaignTable { caption, heads, rows, numbers: 2..5 } }
     }
-}
-
-/// What became of the requirements, and the table of them and of the columns.
-struct Found {
-    states: Vec<(String, RequirementState)>,
-    table: CampaignTable,
-}
-
-fn digits_of(count: usize) -> String {
-    digits(crate::spectra::float(count))
 }
 
 /// Natural frequencies of structure and devices over the key, rotors at their initial rates, with the orders of a rate; none

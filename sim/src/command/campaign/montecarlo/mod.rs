@@ -9,15 +9,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use csv::{correlations_csv, derivatives_csv, percentiles_csv};
-use tables::{Results, correlation_table, derivative_table, percentile_table, results};
+use tables::{correlation_table, derivative_table, percentile_table, results};
 
 use super::{
-    CampaignOptions, Prepared, ResultColumn, failures, not_evaluated, shown, values_of, warnings,
+    CampaignOptions, Prepared, ResultColumn, Results, ending, shown, values_of, warnings,
     without_number,
 };
 use crate::campaign::{
-    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, digits,
-    draw, exact_derivatives, probability_between, regression, spearman, tangents,
+    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, draw,
+    exact_derivatives, probability_between, regression, spearman, tangents,
 };
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
@@ -28,7 +28,6 @@ use crate::file::variations_from_toml;
 use crate::names::file_names;
 use crate::report::campaign::CampaignPage;
 use crate::report::montecarlo::distribution;
-use crate::spectra::float;
 use crate::variation::Variation;
 
 pub(in crate::command) const HELP: &str = "\
@@ -284,7 +283,6 @@ fn summary(
     found: &[(String, Vec<Derivative>)],
 ) -> (String, Exit) {
     let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
-    let mut exit = Exit::of_states(results.states.iter().map(|(_, state)| state));
     text.push_str(&aligned(&results.table.text()));
     let _ = writeln!(text, "intervals contain the true value with at least {LEVEL}");
     for (name, by) in correlations {
@@ -305,14 +303,6 @@ fn summary(
             );
         }
     }
-    text.push_str(&not_evaluated(prepared, plan, finished));
-    let failures = failures(plan, finished);
-    if !failures.is_empty() {
-        exit = exit.max(Exit::Violated);
-    }
-    text.push_str(&failures);
-    if finished.resumed > 0 {
-        let _ = writeln!(text, "{} samples were in the journal", digits(float(finished.resumed)));
-    }
-    (text, exit)
+    let (rest, exit) = ending((prepared, plan, finished), results);
+    (text + &rest, exit)
 }

@@ -2,17 +2,12 @@
 
 use super::{Correlations, LEVEL, PERCENTILES, meets, sorted};
 use crate::campaign::{Derivative, Estimate, Finished, Plan, percentile};
-use crate::command::campaign::{Prepared, ResultColumn, shown, values_of};
+use crate::command::campaign::{Prepared, ResultColumn, Results, shown, values_of};
 use crate::command::table::six;
 use crate::pointing::RequirementState;
 use crate::report::campaign::CampaignTable;
 
 /// What became of the requirements, and the table of them and of the columns.
-pub(super) struct Results {
-    pub(super) states: Vec<(String, RequirementState)>,
-    pub(super) table: CampaignTable,
-}
-
 pub(super) fn results(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Results {
     let (mut states, mut rows) = (Vec::new(), Vec::new());
     for (name, field, (unit, size), limit) in shown(prepared) {
