@@ -103,39 +103,6 @@ fn finish(compiler: &str, command: &mut Command) {
     assert!(output.status.success(), "{compiler} refuses what was emitted: {errors}");
 }
 
-/// Programs over the dynamics crate, by name; returns the folder that they are in.
-pub(crate) fn rust(folder: &Path, programs: &[(&str, &str)]) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let source = folder.join("src/bin");
-    fs::create_dir_all(&source).expect("a folder for the programs");
-    for (name, text) in programs {
-        fs::write(source.join(format!("{name}.rs")), text).expect("a program");
-    }
-    let manifest = format!(
-        "[package]\nname = \"rust-kernels\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
-         [workspace]\n\
-         [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
-         nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
-         [profile.dev]\nopt-level = 1\ndebug = false\n",
-        root.join("dynamics").display()
-    );
-    fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
-    // The versions that the workspace has: cargo drops what the programs do not need.
-    fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the versions");
-    let target = folder.join("target");
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--offline", "--quiet", "--message-format", "short", "--manifest-path"]);
-    cargo.arg(folder.join("Cargo.toml")).arg("--target-dir").arg(&target).current_dir(&root);
-    // Flags of the outer build (coverage, sanitizers) are not the programs'.
-    for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
-        cargo.env_remove(flags);
-    }
-    let output = cargo.output().expect("cargo starts");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "the programs do not build: {errors}");
-    target.join("debug")
-}
-
 /// What a program makes of these numbers, as it writes them.
 pub(crate) fn run(program: &Path, numbers: &[f64]) -> Vec<f64> {
     let given = program.with_extension("numbers");

@@ -15,6 +15,7 @@ use std::{env, fs};
 
 use precess_codegen::emit::{EmittedFile, c};
 use precess_codegen::kinds::KINDS;
+use precess_outside::{Outside, Profile};
 
 use build::{compilers, folder, run};
 use programs::{Plan, plans};
@@ -24,6 +25,9 @@ use random::Random;
 const ROUNDS: usize = 1000;
 /// Spacecraft of the whole evaluation.
 const SPACECRAFT: usize = 1000;
+/// The programs in Rust.
+const KERNELS: &str = "kernels_in_rust";
+const WHOLE: &str = "whole_in_rust";
 /// The page for users.
 const PAGE: &str = include_str!("../../../docs/c.md");
 /// Where all random numbers start.
@@ -42,17 +46,28 @@ static START: LazyLock<Start> = LazyLock::new(|| {
     let mut random = Random::new(SEED);
     let inputs: usize = plans.iter().map(Plan::inputs).sum();
     let numbers: Vec<_> = (0..ROUNDS * inputs).map(|_| random.number()).collect();
-    let rust = run(&rust_program("kernels"), &numbers);
+    let rust = run(&rust_program(KERNELS), &numbers);
     Start { plans, numbers, rust }
 });
 
 static FILES: LazyLock<Vec<EmittedFile>> = LazyLock::new(|| c::files().expect("C"));
 
-/// The Rust programs, built together once.
+/// The folder of the Rust programs, built together once.
 static RUST: LazyLock<PathBuf> = LazyLock::new(|| {
+    let outside = Outside {
+        name: "rust_kernels",
+        manifest: "",
+        with_nalgebra: true,
+        profile: Profile::Development { opt_level: 1 },
+    };
+    let temporary = env!("CARGO_TARGET_TMPDIR");
+    let source = outside.folder(temporary).join("src/bin");
+    fs::create_dir_all(&source).expect("a folder for the programs");
     let kernels = programs::rust(&plans(), ROUNDS);
-    let programs = [("kernels", kernels.as_str()), ("whole", include_str!("whole.rs"))];
-    build::rust(&folder("rust"), &programs)
+    for (name, text) in [(KERNELS, kernels.as_str()), (WHOLE, include_str!("whole.rs"))] {
+        fs::write(source.join(format!("{name}.rs")), text).expect("a program");
+    }
+    outside.build(temporary, &[])
 });
 
 fn rust_program(name: &str) -> PathBuf {
@@ -148,7 +163,7 @@ fn contraction_is_noticed() {
 fn a_whole_evaluation_has_the_bits_of_rust() {
     let mut random = Random::new(SEED);
     let numbers: Vec<_> = (0..SPACECRAFT).flat_map(|_| random.spacecraft(4)).collect();
-    let rust = run(&rust_program("whole"), &numbers);
+    let rust = run(&rust_program(WHOLE), &numbers);
     assert_eq!(rust.len(), SPACECRAFT * (6 + 4 * 3));
     assert!(rust.iter().all(|number| number.is_finite() && *number != 0.0));
     let sources = [("evaluate.h", include_str!("evaluate.h")), ("main.c", include_str!("whole.c"))];

@@ -12,6 +12,7 @@ use std::{env, fs};
 use precess_codegen::kinds::{Kind, KindError, Link};
 use precess_codegen::space::Axis;
 use precess_codegen::{emit_kind, prove_kind};
+use precess_outside::{Outside, Profile};
 
 /// The programs that use the kinds, and their places in a crate.
 const PROGRAMS: [(&str, &str); 2] = [
@@ -69,9 +70,15 @@ fn every_claim_about_a_kind_without_motors_is_proven() {
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn they_compile_in_another_crate_and_move_as_the_textbook_says() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("external_kind");
-    let source = folder.join("src");
-    fs::create_dir_all(&source).expect("a folder for the build");
+    let outside = Outside {
+        name: "planar_arm",
+        manifest: "",
+        with_nalgebra: true,
+        profile: Profile::Development { opt_level: 0 },
+    };
+    let temporary = env!("CARGO_TARGET_TMPDIR");
+    let source = outside.folder(temporary).join("src");
+    fs::create_dir_all(&source).expect("a folder for the sources");
     robot_arm::write(&source).expect("the emitted kind");
     for file in emit_kind(kept_rotor(), "precess_dynamics").expect("files") {
         let path = source.join("bin/kept_rotor").join(file.path);
@@ -81,34 +88,11 @@ fn they_compile_in_another_crate_and_move_as_the_textbook_says() {
     for (program, path) in PROGRAMS {
         fs::write(source.join(path), program).expect("a program");
     }
-    let dynamics = Path::new(ROOT).join("dynamics");
-    let manifest = format!(
-        "[package]\nname = \"planar_arm\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
-         [workspace]\n\
-         [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
-         nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
-         [profile.dev]\nopt-level = 0\ndebug = false\n",
-        dynamics.display()
-    );
-    fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
-    // The versions that the workspace has: cargo drops what the program does not need.
-    fs::copy(Path::new(ROOT).join("Cargo.lock"), folder.join("Cargo.lock")).expect("the versions");
-
+    let built = outside.build(temporary, &[]);
     for program in ["planar_arm", "kept_rotor"] {
-        run(&folder, program);
+        let path = built.join(program).with_extension(env::consts::EXE_EXTENSION);
+        let output = Command::new(path).output().expect("the program starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{program} fails: {errors}");
     }
-}
-
-fn run(folder: &Path, program: &str) {
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["run", "--offline", "--quiet", "--message-format", "short", "--bin", program]);
-    cargo.arg("--manifest-path").arg(folder.join("Cargo.toml"));
-    cargo.arg("--target-dir").arg(folder.join("target")).current_dir(ROOT);
-    // Flags of the outer build (coverage, sanitizers) are not the program's.
-    for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
-        cargo.env_remove(flags);
-    }
-    let output = cargo.output().expect("cargo starts");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{program} fails: {errors}");
 }

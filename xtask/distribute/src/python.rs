@@ -44,12 +44,13 @@ pub(crate) fn python(options: &Options) -> Result<(), String> {
     build.args(["build", "--locked", "--manifest-path", "python/Cargo.toml"]);
     build.args(wheel::STORED).arg("--out").arg(&wheels);
     if options.quick {
-        build.arg("--no-default-features").env("CARGO_INCREMENTAL", "0");
+        build.args(["--no-default-features", "--features", "development"]);
     } else {
         build.arg("--release");
     }
-    // Beside the targets of other workspaces.
-    run(build.env("CARGO_TARGET_DIR", folder.join("build")))?;
+    // As for development, crates of others are those of the main workspace.
+    let built = if options.quick { target()? } else { folder.join("build") };
+    run(build.env("CARGO_TARGET_DIR", built))?;
     let wheel = wheel::of_folder(&wheels)?;
     if !options.quick {
         wheel::compress(&wheel)?;

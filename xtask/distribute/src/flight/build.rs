@@ -28,7 +28,7 @@ pub(super) fn firmware() -> PathBuf {
 
 /// Builds programs for this machine, not optimised: bits depend on no optimisation. Returns their folder.
 pub(super) fn for_host(programs: &[&str]) -> Result<PathBuf, String> {
-    let folder = target()?.join("flight/host");
+    let folder = target()?;
     let images = folder.join("debug");
     stale(programs.iter().map(|program| images.join(program)))?;
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());

@@ -5,8 +5,8 @@ use std::process::{Command, Stdio};
 use std::thread::{sleep, spawn};
 use std::time::{Duration, Instant};
 
-/// What the slowest board may take: tens of times what it needs.
-const LIMIT: Duration = Duration::from_secs(300);
+/// What ends a program that hangs. The slowest board needs a minute and a half, several times that on a busy machine.
+const LIMIT: Duration = Duration::from_secs(1800);
 
 /// The lines that a program prints, to either stream; a semihosting console writes to the second.
 pub(super) fn lines(command: &mut Command) -> Result<Vec<String>, String> {
