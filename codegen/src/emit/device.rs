@@ -63,7 +63,7 @@ fn imports(dynamics: &Path, items: &TokenStream) -> TokenStream {
         BodyAcceleration BodyRate BodyVelocity ConstantShare EnergyMomentum Gradient HubShare
     });
     let kind = read(quote! {
-        BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates Kernels Kind Lumped
+        BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates Kernels Kind LoadDerivatives Lumped
         ParameterInfo ParameterMut Shape Value Wrenches
         components diagonal entries no_inertia unit vector zero
     });

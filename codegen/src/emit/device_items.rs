@@ -202,7 +202,13 @@ impl Items<'_> {
         let accelerations = self.each(|link| ident(link.joint.acceleration));
         let (bodies, of_bodies) = (self.body_parameters(), self.of_bodies());
         let (balanced, constants) = (self.balanced(), self.constants());
-        let called = [self.energy_momentum(), self.first_moment(), self.axes(), self.loads()];
+        let called = [
+            self.energy_momentum(),
+            self.first_moment(),
+            self.axes(),
+            self.loads(),
+            self.load_derivatives(),
+        ];
         quote! {
             impl<T: Scalar> Kind for #name<T> {
                 type Scalar = T;

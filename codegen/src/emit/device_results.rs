@@ -93,6 +93,48 @@ impl Items<'_> {
         }
     }
 
+    /// Derivatives of the loads, column by column.
+    pub(super) fn load_derivatives(&self) -> TokenStream {
+        let call = self.call("load_derivatives");
+        let [constants, pose, joints, omega, hub, accelerations] =
+            self.names("load_derivatives", [P, Q, V, W, A, ("accelerations", "j")]);
+        let column = |by: &str| {
+            let joints = self.per_joint(|link| {
+                let name = format_ident!("{}_by_{by}", link.joint.torque);
+                if link.is_driven() { quote!(found.#name) } else { quote!(zero()) }
+            });
+            let [force, moment] = ["f", "n"].map(|letter| {
+                let components = XYZ.map(|axis| format_ident!("{letter}_b{axis}_by_{by}"));
+                quote!(vector([#(found.#components),*]))
+            });
+            quote!(Carried { joints: #joints, hub: Wrench { force: #force, moment: #moment } })
+        };
+        let coordinates = self.per_joint(|link| column(link.joint.coordinate));
+        let rates = self.per_joint(|link| column(link.joint.rate));
+        let by_accelerations = self.per_joint(|link| column(link.joint.acceleration));
+        let [by_omega, by_omega_dot] =
+            ["omega", "omega_dot"].map(|stem| XYZ.map(|axis| column(&format!("{stem}_b{axis}"))));
+        quote! {
+            fn load_derivatives(
+                #constants: &Self::Constants<T>,
+                #pose: &Self::Pose<T>,
+                #joints: &Joints<T>,
+                #omega: &BodyRate<T>,
+                #hub: &BodyAcceleration<T>,
+                #accelerations: &JointAccelerations<T>,
+            ) -> Option<LoadDerivatives<Self>> {
+                let found = #call;
+                Some(LoadDerivatives {
+                    coordinates: #coordinates,
+                    rates: #rates,
+                    accelerations: #by_accelerations,
+                    omega: [#(#by_omega),*],
+                    omega_dot: [#(#by_omega_dot),*],
+                })
+            }
+        }
+    }
+
     /// The loads of external wrenches.
     pub(super) fn external(&self) -> TokenStream {
         let (call, carried) = (self.call("external"), self.carried_by("sum"));

@@ -24,7 +24,7 @@ pub fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
     if chain.passes.factor {
         for kernel in &mut kernels {
             let sections = std::mem::take(&mut kernel.sections);
-            kernel.sections = factored(graph, sections, &kernel.output.sources(), true);
+            kernel.sections = factored(graph, sections, &kernel.output.sources(), kernel.hoisted);
         }
     }
     let mut prepared = prepared(graph, &kernels, &raw);

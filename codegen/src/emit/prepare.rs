@@ -107,21 +107,24 @@ pub(crate) fn prepared<'g>(
     let names = names(kernels);
     let mut raw = BTreeMap::new();
     let mut derived = BTreeMap::new();
-    for kernel in kernels {
-        for id in read_constants(graph, kernel) {
-            match graph.node(id) {
-                Node::Constant(_) => {}
-                Node::Symbol(symbol) => {
-                    let name = graph.symbol_info(symbol).name;
-                    let given = parameters.fields.iter().position(|field| field.name == name);
-                    match given {
-                        Some(place) => raw.insert(place, id),
-                        None => derived.insert(id, name).map(|_| id),
-                    };
-                }
-                _ => {
-                    derived.insert(id, names.get(&id).cloned().unwrap_or_default());
-                }
+    let (hoisted, others): (Vec<_>, Vec<_>) = kernels.iter().partition(|kernel| kernel.hoisted);
+    let mut read: Vec<_> =
+        hoisted.iter().flat_map(|kernel| read_constants(graph, kernel)).collect();
+    let known: FxHashSet<_> = read.iter().copied().collect();
+    read.extend(others.iter().flat_map(|kernel| read_beside(graph, kernel, &known)));
+    for id in read {
+        match graph.node(id) {
+            Node::Constant(_) => {}
+            Node::Symbol(symbol) => {
+                let name = graph.symbol_info(symbol).name;
+                let given = parameters.fields.iter().position(|field| field.name == name);
+                match given {
+                    Some(place) => raw.insert(place, id),
+                    None => derived.insert(id, name).map(|_| id),
+                };
+            }
+            _ => {
+                derived.insert(id, names.get(&id).cloned().unwrap_or_default());
             }
         }
     }
@@ -198,6 +201,17 @@ fn read_constants(graph: &Graph, kernel: &Kernel<'_>) -> Vec<NodeId> {
     found
 }
 
+/// The parameters, and what is known of them, that a kernel reads which computes the rest by itself.
+fn read_beside(graph: &Graph, kernel: &Kernel<'_>, known: &FxHashSet<NodeId>) -> Vec<NodeId> {
+    let stop = |id| {
+        let symbol = matches!(graph.node(id), Node::Symbol(_));
+        known.contains(&id) || symbol && graph.expr(id).stage() == Stage::Parameter
+    };
+    let (_, mut found) = walked(graph, kernel, stop);
+    found.sort_unstable();
+    found
+}
+
 /// The statements that a kernel's outputs need, down to the parameters.
 fn live<'a, 'g>(graph: &Graph, kernel: &'a Kernel<'g>) -> Vec<&'a Statement<'g>> {
     walked(graph, kernel, |_| false).0
@@ -241,7 +255,7 @@ fn sections<'g>(
 ) -> Vec<Section<'g>> {
     let mut seen = FxHashSet::default();
     let mut made: Vec<Section<'g>> = Vec::new();
-    for kernel in kernels {
+    for kernel in kernels.iter().filter(|kernel| kernel.hoisted) {
         let live: FxHashSet<_> = live(graph, kernel).into_iter().map(|s| s.name.as_str()).collect();
         for section in &kernel.sections {
             let mut statements = section.statements.clone();

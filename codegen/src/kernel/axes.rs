@@ -21,6 +21,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs: records::placed(chain.kind),
         sections: script.sections,
         output: output(chain.kind),
+        hoisted: true,
         claims: claims(chain),
     }
 }

@@ -48,6 +48,7 @@ pub(super) fn kernel<'g>(
         inputs: vec![("e", gains), ("a", records::body_acceleration())],
         sections: script.sections,
         output: records::joint_accelerations(chain.kind),
+        hoisted: true,
         claims: Vec::new(),
     }
 }

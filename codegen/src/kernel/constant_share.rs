@@ -28,6 +28,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs: vec![("p", Record::new("Prepared", ""))],
         sections: script.sections,
         output: records::constant_share(),
+        hoisted: true,
         claims: std::iter::once(Claim {
             tag: "(D4)".to_owned(),
             name: "constant_m".to_owned(),

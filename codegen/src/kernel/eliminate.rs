@@ -26,6 +26,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
         output: output(kind, &eliminated, &gains),
+        hoisted: true,
         claims: claims(
             kind,
             [reference::share(chain).named(kind, Link::is_driven), across(chain)].concat(),

@@ -21,6 +21,9 @@ pub struct Kernel<'g> {
     pub output: Record,
     /// What its named values must be equal to.
     pub claims: Vec<Claim<'g>>,
+    /// Whether `prepare` computes what it needs of the parameters only: not for what no evaluation calls, so that a
+    /// spacecraft is not larger for it.
+    pub hoisted: bool,
 }
 
 impl<'g> Kernel<'g> {

@@ -23,6 +23,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs,
         sections: script.sections,
         output: output(chain.kind),
+        hoisted: true,
         claims: claims(chain),
     }
 }

@@ -180,6 +180,7 @@ fn body<'g>(
         inputs: inputs(chain.kind, []),
         sections: b.script.sections,
         output: b.record,
+        hoisted: true,
         claims: b.claims,
     }
 }
@@ -256,6 +257,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
         inputs: inputs(chain.kind, []),
         sections: b.script.sections,
         output: b.record,
+        hoisted: true,
         claims: b.claims,
     }
 }

@@ -32,6 +32,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         ),
         sections: script.sections,
         output: output(kind),
+        hoisted: true,
         claims: claims(chain),
     }
 }

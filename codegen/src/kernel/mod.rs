@@ -8,6 +8,7 @@ mod external;
 mod function;
 mod gravity;
 mod kinematics;
+mod load_derivatives;
 mod loads;
 mod momenta;
 mod parameters;
@@ -39,6 +40,7 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     list.push(momenta::kernel(chain));
     list.push(axes::kernel(chain));
     list.push(loads::kernel(chain));
+    list.push(load_derivatives::kernel(chain));
     list.push(external::kernel(chain));
     list.push(gravity::kernel(chain));
     list

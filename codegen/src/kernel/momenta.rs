@@ -29,6 +29,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs: inputs(kind, [("b", records::body_velocity())]),
         sections: script.sections,
         output: records::energy_momentum(),
+        hoisted: true,
         claims: claims(kind, reference::momenta(chain).named()),
     }
 }

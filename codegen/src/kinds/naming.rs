@@ -85,7 +85,7 @@ const STEMS: [&str; 25] = [
 ];
 
 /// Functions and records of every emitted file, as titles that would give their names.
-const TITLES: [&str; 23] = [
+const TITLES: [&str; 24] = [
     "axes",
     "back substitute",
     "body acceleration",
@@ -102,6 +102,7 @@ const TITLES: [&str; 23] = [
     "gravity",
     "hub share",
     "joint accelerations",
+    "load derivatives",
     "loads",
     "modes",
     "motors",

@@ -10,7 +10,7 @@ use precess_codegen::proof::{Comparison, EmittedError, Prover, Verdict};
 
 use crate::sites::{Change, changed, count};
 
-/// Every function of the file.
+/// Every function of the file but `load_derivatives`.
 const ALL: [&str; 13] = [
     "prepare",
     "constant_share",
@@ -57,6 +57,11 @@ fn value<'a>(file: &'a mut syn::File, name: &str, index: usize) -> Option<&'a mu
 /// functions in `judged`, which are tried in turn until one names it. Returns the number of mutants
 /// and of those that a claim named.
 fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
+    mutants_are_caught(name, judged, 1)
+}
+
+/// The same of a sample: the mutants of every so many statements.
+fn mutants_are_caught(name: &str, judged: &[&str], every: usize) -> (usize, usize) {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     let mut prover = Prover::new(&chain);
@@ -65,7 +70,7 @@ fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
         assert!(prover.function(&file, name).unwrap().iter().all(Comparison::holds));
     }
     let (mut mutants, mut named) = (0, 0);
-    for index in 0..function(&mut file, name).block.stmts.len() {
+    for index in (0..function(&mut file, name).block.stmts.len()).step_by(every) {
         let Some(original) = value(&mut file, name, index).cloned() else { continue };
         for site in 0..count(&original) {
             for change in [Change::Drop, Change::Flip] {
@@ -119,6 +124,14 @@ fn every_mutant_beside_the_equations_of_motion_is_named() {
         let (mutants, named) = every_mutant_is_caught(name, &[name]);
         assert!(mutants > least && named == mutants, "{name}: {named} of {mutants}");
     }
+}
+
+/// All of its mutants are put to the laws of physics by `cargo xtask mutate`.
+#[test]
+#[ignore = "long: `cargo xtask test --all`"]
+fn every_fiftieth_statement_of_the_derivatives_is_named() {
+    let (mutants, named) = mutants_are_caught("load_derivatives", &["load_derivatives"], 50);
+    assert!(mutants > 60 && named == mutants, "{named} of {mutants}");
 }
 
 #[test]

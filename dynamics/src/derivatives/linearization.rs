@@ -5,13 +5,15 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::by_loads::{ByLoads, HubChange};
 use crate::derivatives::column::{Column, Outputs};
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
+use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
-use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::components;
+use crate::numbers::real::{Scalar, one, zero};
+use crate::numbers::vec3::{Columns, Vec3, add, columns, components, cross, rotate_transposed};
 use crate::sets::devices::Devices;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
@@ -95,32 +97,47 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let states: Vec<_> = self.state_variables(inputs).collect();
         let by_inputs: Vec<_> = self.input_variables(inputs).collect();
         let rows = self.outputs(outputs);
-        let count = states.len() + by_inputs.len();
-        let mut slopes = DMatrix::from_element(states.len(), count, zero());
-        let mut results = DMatrix::from_element(rows.len(), count, zero());
-        let mut columns = slopes.column_iter_mut().zip(results.column_iter_mut());
+        let matrix = |rows: usize, columns: usize| DMatrix::from_element(rows, columns, zero());
+        let (mut a, mut b) =
+            (matrix(states.len(), states.len()), matrix(states.len(), by_inputs.len()));
+        let (mut c, mut d) =
+            (matrix(rows.len(), states.len()), matrix(rows.len(), by_inputs.len()));
+        let accelerations = self.checked(state, inputs, outputs)?;
+        let emitted = if *outputs == Outputs::accelerations() {
+            ByLoads::new(self, state, inputs, &accelerations)
+        } else {
+            None
+        };
         let variables = states.iter().chain(&by_inputs).copied();
-        let accelerations =
+        let slopes = [&mut a, &mut b].into_iter().flat_map(|of| columns_of(of, states.len()));
+        let results = [&mut c, &mut d].into_iter().flat_map(|of| columns_of(of, rows.len()));
+        let mut columns = slopes.zip(results);
+        if let Some(emitted) = emitted {
+            let fill = Fill::new(state, inputs, &accelerations);
+            for (number, (variable, (slopes, results))) in
+                variables.zip(columns.by_ref()).enumerate()
+            {
+                let (of_hub, of_joints) = results.split_at_mut(results.len().min(6));
+                let hub = emitted.column(variable, of_joints);
+                let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
+                of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
+                fill.column(variable, &hub, of_joints, slopes);
+                if !slopes.iter().chain(&*results).all(|number| number.is_finite()) {
+                    return Err(DerivativeError::NotFinite { variable: number });
+                }
+            }
+        } else {
             self.derivatives(state, inputs, outputs, variables, |variable, column| {
-                let Some((mut slopes, mut results)) = columns.next() else { return };
+                let Some((slopes, results)) = columns.next() else { return };
                 for (to, of) in slopes.iter_mut().zip(&states) {
                     let element = column.element(*of, variable, &state.omega);
                     *to = element.unwrap_or_else(zero);
                 }
                 results.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
             })?;
+        }
         drop(columns);
-        let (states_count, inputs_count) = (states.len(), by_inputs.len());
-        Ok(Linearization {
-            accelerations,
-            a: slopes.columns(0, states_count).into_owned(),
-            b: slopes.columns(states_count, inputs_count).into_owned(),
-            c: results.columns(0, states_count).into_owned(),
-            d: results.columns(states_count, inputs_count).into_owned(),
-            outputs: rows,
-            states,
-            inputs: by_inputs,
-        })
+        Ok(Linearization { accelerations, a, b, c, d, outputs: rows, states, inputs: by_inputs })
     }
 
     /// The outputs in the order of [`Column::outputs`].
@@ -164,5 +181,64 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
         let modes = S::modal_accelerations(&accelerations.modal).iter().copied();
         let joints = accelerations.devices.values();
         hub.chain(joints).chain(modes).chain(momentum).chain(loads)
+    }
+}
+
+/// The columns of a matrix of so many rows; none where it has none.
+fn columns_of<T>(matrix: &mut DMatrix<T>, rows: usize) -> impl Iterator<Item = &mut [T]> {
+    matrix.as_mut_slice().chunks_exact_mut(rows.max(1))
+}
+
+/// The elements of a column in the rows of the states, from those of the accelerations.
+struct Fill<T> {
+    bn: Columns<T>,
+    omega: Vec3<T>,
+    r_b_n_ddot: Vec3<T>,
+    /// Rows of the hub before those of the joints.
+    of_hub: usize,
+    /// The joints that are not locked.
+    moving: Vec<usize>,
+}
+
+impl<T: Scalar> Fill<T> {
+    fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureData>(
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+    ) -> Self {
+        let modes = inputs.modes.values().enumerate();
+        Self {
+            bn: columns(&state.attitude.dcm()),
+            omega: components(&state.omega),
+            r_b_n_ddot: components(&accelerations.r_b_n_ddot),
+            of_hub: if matches!(inputs.hub, HubMode::Fixed) { 0 } else { 12 },
+            moving: modes.filter(|(_, mode)| *mode != Mode::Locked).map(|(k, _)| k).collect(),
+        }
+    }
+
+    /// Into `slopes`, which are zero, in the order of [`Spacecraft::state_variables`].
+    fn column(&self, by: Variable, hub: &HubChange<T>, joints: &[T], slopes: &mut [T]) {
+        let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
+        let Some((of_hub, of_joints)) = slopes.split_at_mut_checked(self.of_hub) else { return };
+        let (mut along_b, mut moves, mut turns) = (hub.r_b_n_ddot, [zero(); 3], [zero(); 3]);
+        match by {
+            Variable::Velocity(axis) => moves = unit(axis),
+            Variable::Attitude(axis) => {
+                along_b = add(along_b, cross(unit(axis), self.r_b_n_ddot));
+                turns = cross(unit(axis), self.omega);
+            }
+            Variable::Omega(axis) => turns = unit(axis),
+            _ => {}
+        }
+        let rows = [moves, turns, rotate_transposed(&self.bn, along_b), hub.omega_dot];
+        of_hub.iter_mut().zip(rows.into_iter().flatten()).for_each(|(to, from)| *to = from);
+        let halves = of_joints.split_at_mut_checked(self.moving.len());
+        let Some((coordinates, rates)) = halves else { return };
+        for ((coordinate, rate), joint) in coordinates.iter_mut().zip(rates).zip(&self.moving) {
+            if by == Variable::Rate(*joint) {
+                *coordinate = one();
+            }
+            *rate = joints.get(*joint).copied().unwrap_or_else(zero);
+        }
     }
 }

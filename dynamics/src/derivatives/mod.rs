@@ -5,12 +5,18 @@
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
 //! step.
 
+#[cfg(feature = "alloc")]
+mod by_loads;
 pub(crate) mod column;
 mod elimination;
 pub(crate) mod error;
 pub(crate) mod evaluation;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
+#[cfg(feature = "alloc")]
+mod load_columns;
+#[cfg(feature = "alloc")]
+mod mass_system;
 pub(crate) mod parameters;
 mod point;
 #[cfg(feature = "alloc")]

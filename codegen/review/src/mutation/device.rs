@@ -2,6 +2,7 @@
 
 mod fault;
 mod kinematics;
+mod load_slopes;
 mod poses_and_loads;
 
 pub(super) use fault::Fault;
@@ -36,6 +37,7 @@ struct Functions {
     energy_momentum: usize,
     axes: usize,
     loads: usize,
+    load_derivatives: usize,
     external: usize,
     gravity: usize,
 }
@@ -51,6 +53,8 @@ pub(super) struct Device<'a, 'g> {
     trigonometry: Vec<[Expr<'g>; 2]>,
     /// Fields that `eliminate` hands to `back_substitute`.
     constant_share: Vec<(String, Expr<'g>)>,
+    /// Names of what `load_derivatives` returns.
+    derivative_names: Vec<String>,
 }
 
 impl<'a, 'g> Device<'a, 'g> {
@@ -86,6 +90,7 @@ impl<'a, 'g> Device<'a, 'g> {
             parameters: parameters_of(chain.kind).iter().map(|name| symbol(name)).collect(),
             trigonometry: trigonometry.collect(),
             constant_share: constant_share.collect(),
+            derivative_names: load_slopes::derivative_names(chain.kind),
             listings,
             tapes,
             functions,
@@ -106,6 +111,7 @@ impl<'a, 'g> Device<'a, 'g> {
             (functions.energy_momentum, Role::Momenta),
             (functions.axes, Role::Axes),
             (functions.loads, Role::Loads),
+            (functions.load_derivatives, Role::LoadDerivatives),
             (functions.external, Role::External),
             (functions.gravity, Role::Gravity),
         ];
@@ -305,6 +311,7 @@ impl Functions {
             energy_momentum: find("energy_momentum")?,
             axes: find("axes")?,
             loads: find("loads")?,
+            load_derivatives: find("load_derivatives")?,
             external: find("external")?,
             gravity: find("gravity")?,
         })

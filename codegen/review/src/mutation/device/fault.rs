@@ -31,6 +31,7 @@ pub(super) struct Results {
     pub(super) geometry: Memo<Rc<[BodyPose]>>,
     pub(super) energy_momentum: Memo<EnergyMomentum>,
     pub(super) loads: Memo<Rc<JointWrenches>>,
+    pub(super) load_slopes: Memo<Rc<[f64]>>,
     pub(super) moments: Memo<Rc<Moment>>,
     pub(super) field_loads: Memo<Rc<FieldLoads>>,
     pub(super) poses: Memo<Rc<[BodyPose]>>,
@@ -58,6 +59,11 @@ impl Fault {
     /// A change of these right functions.
     pub(super) fn new(right: &Self, changed: Vec<Option<Changed>>) -> Self {
         Self { changed, known: Rc::default(), right: Rc::clone(&right.known) }
+    }
+
+    /// Whether every function is right.
+    pub(in crate::mutation) fn is_none(&self) -> bool {
+        self.changed.iter().all(Option::is_none)
     }
 
     /// The change of function `index`.

@@ -114,14 +114,7 @@ impl Device<'_, '_> {
     }
 
     fn loaded(&self, case: &Case, any: &Accelerations, fault: &Fault) -> JointWrenches {
-        let mut values = self.arguments(case, &case.motion);
-        let hub = &self.chain.hub;
-        values.set_vector(hub.r_b_n_ddot.components(), any.point);
-        values.set_vector(hub.omega_dot.components(), any.omega);
-        for (link, acceleration) in self.chain.links.iter().zip(&any.joints) {
-            values.set(link.acceleration, *acceleration);
-        }
-        let returned = self.call(self.functions.loads, &values, fault);
+        let returned = self.moving(self.functions.loads, case, &case.motion, any, fault);
         self.carried(&returned, "load", &case.motion)
     }
 

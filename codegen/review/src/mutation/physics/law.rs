@@ -75,6 +75,8 @@ pub enum Law {
     Momenta,
     /// Lagrange's equation of each driven joint.
     Lagrange,
+    /// Derivatives of the loads.
+    LoadDerivatives,
     /// Given accelerations.
     Given,
     /// Axes that stay square and turn.
@@ -91,7 +93,7 @@ pub enum Law {
 
 impl Law {
     /// Every law, by kind.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::LinearMomentum,
         Self::AngularMomentum,
         Self::Energy,
@@ -114,6 +116,7 @@ impl Law {
         Self::FirstMoment,
         Self::Momenta,
         Self::Lagrange,
+        Self::LoadDerivatives,
         Self::Given,
         Self::Axes,
         Self::EngineAccelerations,
@@ -148,6 +151,7 @@ impl Law {
             | Self::FirstMoment
             | Self::Momenta
             | Self::Lagrange
+            | Self::LoadDerivatives
             | Self::Given
             | Self::Axes => Kind::Differences,
             Self::EngineAccelerations
@@ -194,6 +198,7 @@ impl Law {
             Self::FirstMoment => "m c′ and m c″ are the derivatives of m c and m c′",
             Self::Momenta => "p and H are the derivatives of E by v_B and ω",
             Self::Lagrange => "d/dt ∂E/∂q′ - ∂E/∂q = u, for each joint whose u is given",
+            Self::LoadDerivatives => "derivatives of the loads are their differences",
             Self::Given => "q″ is what is given, to the bit, for each joint that is given it",
             Self::Axes => "axes are square and right-handed, and turn at ω",
             Self::EngineAccelerations => "all accelerations, Pinocchio and MuJoCo",

@@ -20,6 +20,12 @@ pub(super) fn residuals(
     if concerns(role, &[Role::Loads, Role::Momenta]) {
         found.push((Law::JointPower, power(device, trial, fault)));
     }
+    // What `loads` or `prepare` have wrong, other laws show: differences of wrong loads take long.
+    if role == Some(Role::LoadDerivatives) || role.is_none() && fault.is_none() {
+        let derivatives = device.load_derivatives(&trial.case, &trial.any, fault);
+        let slopes = device.load_slopes(&trial.case, &trial.any, fault);
+        found.push((Law::LoadDerivatives, gap(&derivatives, &slopes)));
+    }
     found
 }
 

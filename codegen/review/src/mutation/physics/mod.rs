@@ -18,7 +18,7 @@ pub use engines::Engines;
 pub use law::{Kind, Law};
 pub use stored::EngineError;
 
-pub(super) use trial::{Residuals, Role, Trial};
+pub(super) use trial::{Residuals, Role, Trial, slope};
 
 use super::device::{Device, Fault};
 use trial::concerns;

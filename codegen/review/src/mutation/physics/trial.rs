@@ -20,6 +20,8 @@ pub(in crate::mutation) enum Role {
     Axes,
     /// `loads`.
     Loads,
+    /// `load_derivatives`.
+    LoadDerivatives,
     /// `external`.
     External,
     /// `gravity`.
@@ -59,7 +61,7 @@ pub(super) fn gap(a: &[f64], b: &[f64]) -> f64 {
 const STEP: f64 = 1.0 / 128.0;
 
 /// The derivative of `f` at zero: central, of eighth order.
-pub(super) fn slope<V>(f: impl Fn(f64) -> V) -> V
+pub(in crate::mutation) fn slope<V>(f: impl Fn(f64) -> V) -> V
 where
     V: Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
 {

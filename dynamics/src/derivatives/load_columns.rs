@@ -1,0 +1,163 @@
+//! [`LoadColumns`]: derivatives of the loads of each device, expressed in B, by its emitted kernel.
+
+use alloc::vec::Vec;
+
+use crate::equations::assembly::expressed_in_b;
+use crate::equations::device::Device;
+use crate::equations::load_sums::HubAccelerations;
+use crate::equations::system::Solution;
+use crate::model::joint_array::MAX_JOINTS;
+use crate::model::kind::{Kind, LoadColumn};
+use crate::model::mode::Mode;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed};
+use crate::sets::bundle::{Bundle, Given, Shared};
+use crate::sets::devices::{DeviceSet, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
+use crate::sets::per_device as data;
+
+/// Derivatives by one variable: of force and moment about B that the hub exerts on a device, B axes, and of what each
+/// motor exerts less spring and friction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Load<T> {
+    pub(super) hub: [T; 6],
+    pub(super) joints: [T; MAX_JOINTS],
+}
+
+/// Those of one device.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LoadColumns<T> {
+    /// The number of its joints.
+    pub(super) count: usize,
+    /// Which joints have an acceleration that is not given.
+    pub(super) free: [bool; MAX_JOINTS],
+    pub(super) coordinates: [Load<T>; MAX_JOINTS],
+    pub(super) rates: [Load<T>; MAX_JOINTS],
+    /// By the joints' accelerations: columns of the mass matrix.
+    pub(super) accelerations: [Load<T>; MAX_JOINTS],
+    /// By the angular velocity of the hub, B axes.
+    pub(super) omega: [Load<T>; 3],
+    /// By its angular acceleration.
+    pub(super) omega_dot: [Load<T>; 3],
+}
+
+impl<T: Scalar> Load<T> {
+    pub(super) fn none() -> Self {
+        Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
+    }
+
+    /// Of a column in the device's axes.
+    fn turned<K: Kind<Scalar = T>>(column: &LoadColumn<K>, mount: &Columns<T>) -> Self {
+        let wrench = [&column.hub.force, &column.hub.moment];
+        let [[a, b, c], [d, e, f]] = wrench.map(|v| rotate(mount, components(v)));
+        let mut load = Self { hub: [a, b, c, d, e, f], ..Self::none() };
+        load.joints.iter_mut().zip(column.joints.values()).for_each(|(to, from)| *to = from);
+        load
+    }
+
+    /// Adds a multiple.
+    fn add(&mut self, factor: T, other: &Self) {
+        let sums = self.hub.iter_mut().chain(&mut self.joints);
+        for (to, from) in sums.zip(other.hub.iter().chain(&other.joints)) {
+            *to = *to + factor * *from;
+        }
+    }
+
+    /// By components along B, of those by components along the device's axes.
+    fn by_b(columns: [Self; 3], mount: &Columns<T>) -> [Self; 3] {
+        [0, 1, 2].map(|axis| {
+            let mut sum = Self::none();
+            for (column, own) in columns.iter().zip(mount) {
+                sum.add(own[axis], column);
+            }
+            sum
+        })
+    }
+}
+
+/// A device has no emitted derivatives: a platform, the lumped model.
+#[derive(Debug)]
+pub(super) struct NotEmitted;
+
+/// Evaluates the kernel of each device.
+pub(super) struct EachDevice<T> {
+    pub(super) omega: Vec3<T>,
+    /// As seen from a frame that falls with the field.
+    pub(super) hub: HubAccelerations<T>,
+    pub(super) found: Vec<LoadColumns<T>>,
+}
+
+/// State, inputs and accelerations of the joints.
+pub(super) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
+
+impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
+    type Error = NotEmitted;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
+    ) -> Result<(), NotEmitted> {
+        if device.lumped.is_some() {
+            return Err(NotEmitted);
+        }
+        let within = |v| rotate_transposed(&device.mount, v);
+        let HubAccelerations { r_b_n_ddot, omega_dot } = self.hub;
+        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
+        let found = K::load_derivatives(
+            &device.constants,
+            &K::pose(joints),
+            joints,
+            &expressed_in_b(within(self.omega)),
+            &hub.expressed_in_b(),
+            accelerations,
+        );
+        let found = found.ok_or(NotEmitted)?;
+        let each = |columns: &K::PerJoint<LoadColumn<K>>| {
+            let mut loads = [Load::none(); MAX_JOINTS];
+            for (to, from) in loads.iter_mut().zip(columns.values()) {
+                *to = Load::turned::<K>(&from, &device.mount);
+            }
+            loads
+        };
+        let by_hub = |columns: [LoadColumn<K>; 3]| {
+            let turned = columns.map(|column| Load::turned::<K>(&column, &device.mount));
+            Load::by_b(turned, &device.mount)
+        };
+        let mut free = [false; MAX_JOINTS];
+        let modes = given.modes.values().zip(K::JOINTS);
+        for (free, (mode, info)) in free.iter_mut().zip(modes) {
+            *free = mode == Mode::Driven && info.driven;
+        }
+        let mut columns = LoadColumns {
+            count: K::JOINTS.len(),
+            free,
+            coordinates: each(&found.coordinates),
+            rates: each(&found.rates),
+            accelerations: each(&found.accelerations),
+            omega: by_hub(found.omega),
+            omega_dot: by_hub(found.omega_dot),
+        };
+        let passive = joints.states().zip(device.passive.values()).enumerate();
+        for (joint, ([_, rate], passive)) in passive {
+            let own = [&mut columns.coordinates, &mut columns.rates];
+            for (columns, slope) in own.into_iter().zip([passive.stiffness, passive.damping(rate)])
+            {
+                if let Some(to) = columns.get_mut(joint).and_then(|of| of.joints.get_mut(joint)) {
+                    *to = *to + slope;
+                }
+            }
+        }
+        self.found.push(columns);
+        Ok(())
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        _: &PreparedIsolated<D>,
+        _: <Moving as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), NotEmitted> {
+        Err(NotEmitted)
+    }
+}
