@@ -3,7 +3,8 @@
 //!
 //! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
-//! step.
+//! step. Of a rigid hub's accelerations `linearization` needs no dual numbers: `by_loads` has the columns from the
+//! emitted derivatives of the loads (`load_columns`) and the mass matrix (`mass_system`).
 
 #[cfg(feature = "alloc")]
 mod by_loads;

@@ -2,8 +2,10 @@
 //! dual numbers, which compute the same columns where other outputs are wanted.
 
 use nalgebra::Vector3;
-use precess_dynamics::kind::Each;
-use precess_dynamics::{About, Axis, Gravity, LoadAxes, Outputs, Scalar, Spacecraft, Variable};
+use precess_dynamics::kind::{Each, JointStates};
+use precess_dynamics::{
+    About, Axis, Gravity, HubMode, Inputs, LoadAxes, Mode, Outputs, Scalar, Spacecraft, Variable,
+};
 use precess_tests::blocks::Figures;
 use precess_tests::bounds::{DERIVATIVES_MEDIAN as MEDIAN, DERIVATIVES_WORST as WORST};
 use precess_tests::cases;
@@ -119,9 +121,9 @@ fn emitted_derivatives_of_wheels_on_bearings_are_exact_in_units_of_changes() {
 fn a_prescribed_hub_in_a_uniform_field_turns_the_field_under_its_joints() {
     // Of a free hub the attitude moves no joint; of a prescribed one it does.
     let mut of = (SEED..SEED + SPACECRAFT).map(|seed| drawn(Drawn::new(seed))).find(|of| {
-        matches!(of.case.inputs.hub, precess_dynamics::HubMode::Prescribed { .. })
+        matches!(of.case.inputs.hub, HubMode::Prescribed { .. })
             && matches!(of.case.inputs.gravity, Gravity::Uniform(_))
-            && of.case.inputs.modes.values().any(|mode| mode == precess_dynamics::Mode::Driven)
+            && of.case.inputs.modes.values().any(|mode| mode == Mode::Driven)
     });
     let of = of.as_mut().unwrap();
     let case = of.case::<f64>();
@@ -135,4 +137,26 @@ fn a_prescribed_hub_in_a_uniform_field_turns_the_field_under_its_joints() {
     let [a, b] = [&found.c, &dual.c].map(|of| of.column(attitude).rows(0, rows).into_owned());
     assert!(a.rows(6, rows - 6).amax() > 0.0, "{a}");
     assert!((&a - &b).amax() <= 1e-11 * b.amax(), "{a} {b}");
+}
+
+#[test]
+fn what_does_not_move_has_matrices_without_rows() {
+    let mut of = drawn(Drawn::new(SEED));
+    of.case.inputs.hub = HubMode::Fixed;
+    of.case.state.r_b_n_dot = Vector3::zeros();
+    of.case.state.omega = Vector3::zeros();
+    of.case.inputs.modes.values_mut().for_each(|mode| *mode = Mode::Locked);
+    of.case.state.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
+    let case = of.case::<f64>();
+    let craft = case.craft();
+    let mut inputs = case.inputs.clone();
+    let found = craft.linearize(&case.state, &inputs, &Outputs::accelerations()).unwrap();
+    assert_eq!([found.a.shape(), found.b.shape()], [(0, 0); 2]);
+    // Wrenches move nothing, but load what holds the hub.
+    inputs.bodies = Some(Inputs::no_wrenches_for(&craft));
+    let loads = Outputs { loads: Some(LoadAxes::Body), ..Outputs::accelerations() };
+    let found = craft.linearize(&case.state, &inputs, &loads).unwrap();
+    assert_eq!(found.b.shape(), (0, found.inputs.len()));
+    let nothing = found.d.column_iter().filter(|column| column.amax() == 0.0).count();
+    assert_eq!(nothing, 0, "{}", found.d);
 }
