@@ -64,6 +64,8 @@ const LANES: &[&str] = &["dynamics/src/lanes"];
 /// References and random spacecraft that suites share.
 const REFERENCES: &[&str] =
     &["tests/src", "tests/double_double", "tests/point_masses", "tests/Cargo.toml"];
+/// What builds crates outside the workspace.
+const OUTSIDE: &[&str] = &["tests/outside"];
 /// What is stored of the engines, and the scripts that store it.
 const ENGINES: &[&str] = &["tests/engines", "tests/fixtures"];
 /// The desktop tool, whichever of its commands.
@@ -126,9 +128,13 @@ pub(crate) const SUITES: &[Suite] = &[
     command(&["demo"], When::All, &[GENERATOR, SOLVER, DESKTOP]),
     // The generator.
     always("precess-codegen", "lib", &[GENERATOR]),
-    always("precess-codegen", "c_kernels", &[GENERATOR, SOLVER]),
+    always("precess-codegen", "c_kernels", &[GENERATOR, SOLVER, OUTSIDE]),
     always("precess-codegen", "chains", &[GENERATOR]),
-    always("precess-codegen", "external_kind", &[GENERATOR, SOLVER, &["codegen/tests", "docs"]]),
+    always(
+        "precess-codegen",
+        "external_kind",
+        &[GENERATOR, SOLVER, OUTSIDE, &["codegen/tests", "docs"]],
+    ),
     always("precess-codegen", "flexible_wheels", &[GENERATOR]),
     always("precess-codegen", "limits", &[GENERATOR]),
     always("precess-codegen", "modes", &[GENERATOR]),
@@ -185,8 +191,16 @@ pub(crate) const SUITES: &[Suite] = &[
             &["codegen/review", "docs", "tests/tests/architecture", "xtask"],
         ],
     ),
-    all("precess-tests", "code_size", &[SOLVER, &["tests/tests/code_size.rs", "tests/fixtures"]]),
-    all("precess-tests", "no_panic", &[SOLVER, &["tests/tests/no_panic.rs", "tests/fixtures"]]),
+    all(
+        "precess-tests",
+        "code_size",
+        &[SOLVER, OUTSIDE, &["tests/tests/code_size.rs", "tests/fixtures"]],
+    ),
+    all(
+        "precess-tests",
+        "no_panic",
+        &[SOLVER, OUTSIDE, &["tests/tests/no_panic.rs", "tests/fixtures"]],
+    ),
     always("precess-derivatives", "linearize", &[SOLVER, REFERENCES, &["tests/derivatives"]]),
     always("precess-ledger", "ledger_and_loads", &[SOLVER, REFERENCES, &["tests/ledger"]]),
     always("precess-baked", "agreement", &[SOLVER, REFERENCES, BAKING]),
