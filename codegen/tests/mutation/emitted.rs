@@ -135,9 +135,9 @@ fn every_mutant_beside_the_equations_of_motion_is_named() {
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn a_sample_of_statements_of_the_derivatives_is_named() {
-    let (mutants, named, same) = mutants_are_caught("load_derivatives", &["load_derivatives"], 150);
-    assert!(mutants > 30 && named + same == mutants, "{named} and {same} of {mutants}");
-    assert!(20 * same <= mutants, "{same} of {mutants}");
+    let (mutants, named, same) = mutants_are_caught("load_derivatives", &["load_derivatives"], 300);
+    assert!(mutants > 15 && named + same == mutants, "{named} and {same} of {mutants}");
+    assert!(10 * same <= mutants, "{same} of {mutants}");
 }
 
 #[test]
