@@ -70,14 +70,19 @@ impl<'g> Claim<'g> {
     /// The component of the wrench `what` along a link's joint: of its moment where the joint
     /// turns, of its force where it slides.
     pub(super) fn along_joint([tag, name, what]: [&str; 3], link: &Link, value: Expr<'g>) -> Self {
-        let letter = match link.joint.motion {
-            Motion::Turn(_) => "n",
-            Motion::Slide(_) => "f",
-        };
-        let (frame, axis) = (link.body.frame, XYZ[link.joint.motion.axis().cycle()[0]]);
-        let components = vec![(format!("{letter}_{what}_{frame}{axis}"), value)];
+        let components = vec![(along_joint(what, link), value)];
         Self { tag: tag.to_owned(), name: name.to_owned(), components }
     }
+}
+
+/// The name of the component of the wrench `what` along a link's joint.
+pub(super) fn along_joint(what: &str, link: &Link) -> String {
+    let letter = match link.joint.motion {
+        Motion::Turn(_) => "n",
+        Motion::Slide(_) => "f",
+    };
+    let (frame, axis) = (link.body.frame, XYZ[link.joint.motion.axis().cycle()[0]]);
+    format!("{letter}_{what}_{frame}{axis}")
 }
 
 /// Constants, pose and rates, which every kernel of motion takes, and what `more` it needs.

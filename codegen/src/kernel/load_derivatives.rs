@@ -4,7 +4,7 @@
 //! accelerations and on the hub's motion. By an angle it is cos ∂/∂sin - sin ∂/∂cos; by accelerations it is the mass
 //! matrix. The references are differentiated as sums over bodies along B, the statements in local frames.
 
-use super::function::inputs;
+use super::function::{along_joint, inputs};
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::heading::Heading;
@@ -12,8 +12,7 @@ use crate::derivation::recursions::loads::loads;
 use crate::derivation::reference::exerted;
 use crate::derivation::script::{Script, triple};
 use crate::graph::Expr;
-use crate::kinds::{Kind, Link, Motion};
-use crate::space::XYZ;
+use crate::kinds::{Kind, Motion};
 
 /// What a derivative is taken by: its name and how.
 struct By<'g> {
@@ -72,19 +71,9 @@ fn differentiated(kind: &Kind) -> Vec<(String, String, String)> {
     }
     list.extend(kind.driven().map(|link| {
         let doc = format!("What the motor of the {} exerts", link.body.title);
-        (link.joint.torque.to_owned(), along_joint(link), doc)
+        (link.joint.torque.to_owned(), along_joint("load", link), doc)
     }));
     list
-}
-
-/// The name that `loads` gives the component along a joint.
-fn along_joint(link: &Link) -> String {
-    let letter = match link.joint.motion {
-        Motion::Turn(_) => "n",
-        Motion::Slide(_) => "f",
-    };
-    let axis = XYZ[link.joint.motion.axis().cycle()[0]];
-    format!("{letter}_load_{}{axis}", link.body.frame)
 }
 
 fn stated<'g>(script: &Script<'g>, name: &str) -> Expr<'g> {

@@ -53,8 +53,6 @@ pub(super) struct Device<'a, 'g> {
     trigonometry: Vec<[Expr<'g>; 2]>,
     /// Fields that `eliminate` hands to `back_substitute`.
     constant_share: Vec<(String, Expr<'g>)>,
-    /// Names of what `load_derivatives` returns.
-    derivative_names: Vec<String>,
 }
 
 impl<'a, 'g> Device<'a, 'g> {
@@ -90,7 +88,6 @@ impl<'a, 'g> Device<'a, 'g> {
             parameters: parameters_of(chain.kind).iter().map(|name| symbol(name)).collect(),
             trigonometry: trigonometry.collect(),
             constant_share: constant_share.collect(),
-            derivative_names: load_slopes::derivative_names(chain.kind),
             listings,
             tapes,
             functions,

@@ -9,9 +9,8 @@ use crate::mutation::physics::slope;
 use crate::mutation::state::{Accelerations, Case, Motion};
 use crate::mutation::tape::Returned;
 use precess_codegen::kinds;
-use precess_codegen::space::XYZ;
 
-/// What `loads` are differentiated by, and its name.
+/// What `loads` are differentiated by.
 enum By {
     Coordinate(usize),
     Rate(usize),
@@ -20,23 +19,7 @@ enum By {
     OmegaDot(usize),
 }
 
-/// The names of what `load_derivatives` returns, variable by variable.
-pub(super) fn derivative_names(kind: &kinds::Kind) -> Vec<String> {
-    let column = |by: &By| {
-        let by = match by {
-            By::Coordinate(k) => kind.links[*k].joint.coordinate.to_owned(),
-            By::Rate(k) => kind.links[*k].joint.rate.to_owned(),
-            By::Acceleration(k) => kind.links[*k].joint.acceleration.to_owned(),
-            By::Omega(axis) => format!("omega_b{}", XYZ[*axis]),
-            By::OmegaDot(axis) => format!("omega_dot_b{}", XYZ[*axis]),
-        };
-        let hub = ["f", "n"].into_iter().flat_map(|of| XYZ.map(|axis| format!("{of}_b{axis}")));
-        let motors = kind.driven().map(|link| link.joint.torque.to_owned());
-        hub.chain(motors).map(|of| format!("{of}_by_{by}")).collect::<Vec<_>>()
-    };
-    variables(kind).iter().flat_map(column).collect()
-}
-
+/// Variables in the order of what `load_derivatives` returns.
 fn variables(kind: &kinds::Kind) -> Vec<By> {
     let joints = || 0..kind.links.len();
     let of_joints = joints().map(By::Coordinate).chain(joints().map(By::Rate));
@@ -54,7 +37,8 @@ impl Device<'_, '_> {
     ) -> Vec<f64> {
         let function = self.functions.load_derivatives;
         let returned = self.moving(function, case, &case.motion, any, fault);
-        self.derivative_names.iter().map(|name| returned.scalar(name)).collect()
+        let fields = self.listings[function].fields.iter();
+        fields.map(|(field, _)| returned.scalar(field)).collect()
     }
 
     /// The same by differences of `loads`.
@@ -93,20 +77,10 @@ impl Device<'_, '_> {
             By::OmegaDot(axis) => any.omega[*axis] += change,
         }
         let returned = self.moving(self.functions.loads, case, &motion, &any, fault);
-        let hub = ["f_load", "n_load"].map(|stem| returned.vector(stem, "b"));
-        let along = |link: &kinds::Link| {
-            let letter = match link.joint.motion {
-                kinds::Motion::Turn(_) => "n",
-                kinds::Motion::Slide(_) => "f",
-            };
-            let axis = XYZ[link.joint.motion.axis().cycle()[0]];
-            returned.scalar(&format!("{letter}_load_{}{axis}", link.body.frame))
-        };
-        let hub = hub.iter().flat_map(|v| v.iter().copied());
-        DVector::from_iterator(
-            6 + self.chain.kind.driven().count(),
-            hub.chain(self.chain.kind.driven().map(along)),
-        )
+        let found = self.carried(&returned, "load", &motion);
+        let drives = found.drives.into_iter().zip(self.chain.kind.links);
+        let driven = drives.filter(|(_, link)| link.is_driven()).map(|(drive, _)| drive);
+        DVector::from_vec(found.whole.list().into_iter().chain(driven).collect())
     }
 
     /// A function of motion and accelerations.

@@ -177,7 +177,12 @@ impl Device<'_, '_> {
     }
 
     /// The wrenches of a returned record, along B.
-    fn carried(&self, returned: &Returned<'_>, what: &str, motion: &Motion) -> JointWrenches {
+    pub(super) fn carried(
+        &self,
+        returned: &Returned<'_>,
+        what: &str,
+        motion: &Motion,
+    ) -> JointWrenches {
         let links = self.chain.kind.links;
         let own = |link: &kinds::Link| wrench(returned, what, link.body.frame);
         let at = |(k, link)| own(link).turned(&self.axes(k + 1, motion));
