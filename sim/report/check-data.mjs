@@ -11,11 +11,10 @@ function view(text, size) {
 /** The data block with its arrays decoded. */
 export function decode(raw) {
   const time = view(raw.time, 8);
-  const columns = raw.columns.map((column) => ({
-    ...column,
-    low: view(column.min, 4),
-    high: view(column.max ?? column.min, 4),
-  }));
+  const columns = raw.columns.map((column) => {
+    const whole = (text) => view(text, 4).map((value) => value + (column.offset ?? 0));
+    return { ...column, low: whole(column.min), high: whole(column.max ?? column.min) };
+  });
   return { ...raw, time, columns, start: time[0] ?? 0 };
 }
 

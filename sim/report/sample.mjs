@@ -61,15 +61,15 @@ const attitudeAt = (t) => {
   return [...ATTITUDES.subarray(4 * k, 4 * k + 4)];
 };
 
-/** Least and largest value of each bucket. */
-function column(name, label, unit, frame, f) {
+/** Least and largest value of each bucket, less an offset. */
+function column(name, label, unit, frame, f, offset = 0) {
   const per = STEPS / BUCKETS;
   const low = [];
   const high = [];
   for (let b = 0; b < BUCKETS; b += 1) {
     let [least, most] = [Infinity, -Infinity];
     for (let k = Math.ceil(b * per); k < (b + 1) * per; k += 1) {
-      const value = f((k * END) / STEPS);
+      const value = f((k * END) / STEPS) - offset;
       least = Math.min(least, value);
       most = Math.max(most, value);
     }
@@ -77,6 +77,7 @@ function column(name, label, unit, frame, f) {
     high.push(most);
   }
   const made = { name, label, unit, frame, min: f32(low), max: f32(high), final: f(END) };
+  if (offset !== 0) made.offset = offset;
   if (low.every((value, b) => Math.fround(value) === Math.fround(high[b]))) delete made.max;
   return made;
 }
@@ -91,7 +92,7 @@ function columns() {
       return q[i + 1] / (1 + q[0]);
     })),
     ...[0, 1, 2, 3].map((i) => column(`cmg${i + 1}_gamma`, `γ_${i + 1}`, 'deg', `cmg${i + 1}`, (t) => gimbal(i, t) * DEG)),
-    ...[0, 1, 2, 3].map((i) => column(`cmg${i + 1}_spin`, `Ω_${i + 1}`, 'rpm', `cmg${i + 1}`, (t) => (spin(i, t) * 30) / Math.PI)),
+    ...[0, 1, 2, 3].map((i) => column(`cmg${i + 1}_spin`, `Ω_${i + 1}`, 'rpm', `cmg${i + 1}`, (t) => (spin(i, t) * 30) / Math.PI, 6000)),
     ...[0, 1].map((i) => column(`panel${i + 1}`, `θ_${i + 1}`, 'deg', `panel${i + 1}`, (t) => panel(i, t) * DEG)),
     column('slosh', 'ρ', 'm', 'tank', slosh),
     column('energy', 'energy less work', '', '', (t) => 1e-15 * t * (0.2 + noise(t, 1))),

@@ -48,6 +48,15 @@ impl<'g> Prepared<'g> {
         made[&e.id()]
     }
 
+    /// The nodes that the other functions read and do not compute, before and after they are joined.
+    #[must_use]
+    pub fn given(&self) -> FxHashSet<NodeId> {
+        let statements = self.sections.iter().flat_map(|section| &section.statements);
+        let is_field = |name: &str| self.record.fields.iter().any(|field| field.name == name);
+        let computed = statements.filter(|s| is_field(&s.name)).map(|s| s.value.id());
+        self.fields.keys().copied().chain(computed).collect()
+    }
+
     /// Makes one field of all that are the same expression: of a cut, whose name the proof knows,
     /// rather than of a plain name, and of that rather than of a number.
     pub(super) fn merge(&mut self) {

@@ -10,6 +10,7 @@ pub(super) use kinematics::BodyKinematics;
 pub(super) use poses_and_loads::BodyPose;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
+use rustc_hash::FxHashSet;
 
 use super::MutationError;
 use super::energy_momentum::EnergyMomentum;
@@ -64,11 +65,14 @@ impl<'a, 'g> Device<'a, 'g> {
         let graph = chain.graph;
         let emit::Functions { kernels, prepared } = emit::functions(chain).joined(graph);
         let claims: Vec<_> = kernels.iter().flat_map(|kernel| kernel.claims.clone()).collect();
+        let (sections, record) = (&prepared.sections, &prepared.record);
+        let nothing = FxHashSet::default();
         let mut listings =
-            vec![Listing::new(graph, "prepare", &prepared.sections, &prepared.record, &claims)];
+            vec![Listing::new(graph, "prepare", sections, record, &claims, &nothing)];
+        let given = prepared.given();
         let listing = |kernel: &Kernel<'g>| {
             let Kernel { name, sections, output, claims, .. } = kernel;
-            Listing::new(graph, name, sections, output, claims)
+            Listing::new(graph, name, sections, output, claims, &given)
         };
         listings.extend(kernels.iter().map(listing));
         let tapes: Vec<_> = listings.iter().map(|listing| Tape::new(graph, listing)).collect();

@@ -1,10 +1,10 @@
 //! What an emitted function computes, statement by statement, and nothing that is not returned.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
 use precess_codegen::derivation::heading::Heading;
 use precess_codegen::derivation::script::{Section, Statement};
-use precess_codegen::graph::{Expr, Graph, Node, NodeId, Stage};
+use precess_codegen::graph::{Expr, Graph, Node, NodeId};
 use precess_codegen::kernel::{Claim, Record};
 
 /// One named value of one emitted function.
@@ -26,8 +26,8 @@ pub(super) struct Listing<'g> {
     pub(super) lines: Vec<Line<'g>>,
     /// Returned field and the name of its value.
     pub(super) fields: Vec<(String, String)>,
-    /// The latest stage among the symbols of each node.
-    pub(super) stages: FxHashMap<NodeId, Stage>,
+    /// The nodes that it computes: the others come from `prepare`.
+    pub(super) own: FxHashSet<NodeId>,
 }
 
 /// One statement, with the nodes that are computed there for the first time.
@@ -47,18 +47,19 @@ pub(super) struct Line<'g> {
 }
 
 impl<'g> Listing<'g> {
-    /// The function that computes `output` by these sections.
+    /// The function that computes `output` by these sections from what is `given`.
     pub(super) fn new(
         graph: &'g Graph,
         name: &str,
         sections: &[Section<'g>],
         output: &Record,
         claims: &[Claim<'g>],
+        given: &FxHashSet<NodeId>,
     ) -> Self {
         let fields = output.leaves();
-        let needed = needed(graph, sections, &fields);
+        let needed = Needed::of(graph, sections, &fields, &FxHashSet::default());
+        let own = Needed::of(graph, sections, &fields, given).nodes;
         let (mut lines, mut placed) = (Vec::new(), FxHashSet::default());
-        let mut stages = FxHashMap::default();
         for section in sections {
             for statement in &section.statements {
                 if !needed.statement(graph, statement) {
@@ -67,10 +68,6 @@ impl<'g> Listing<'g> {
                 let reachable = graph.reachable([statement.value.id()]);
                 let new = |id: &NodeId| needed.nodes.contains(id) && placed.insert(*id);
                 let nodes: Vec<_> = reachable.into_iter().filter(new).collect();
-                for id in &nodes {
-                    let stage = stage(graph, *id, &stages);
-                    stages.insert(*id, stage);
-                }
                 lines.push(Line {
                     section: section.heading.to_string(),
                     name: statement.name.clone(),
@@ -81,15 +78,14 @@ impl<'g> Listing<'g> {
                 });
             }
         }
-        Self { name: name.to_owned(), lines, fields, stages }
+        Self { name: name.to_owned(), lines, fields, own }
     }
 
-    /// What is computed or returned here. `hoisted` is this function of what depends on parameters
-    /// only; elsewhere such a value is read, not computed.
-    pub(super) fn computed(&self, hoisted: bool) -> impl Iterator<Item = Computed> {
-        let own = move |line: &&Line<'g>| {
+    /// What is computed or returned here.
+    pub(super) fn computed(&self) -> impl Iterator<Item = Computed> {
+        let own = |line: &&Line<'g>| {
             let returned = || self.fields.iter().any(|(_, source)| *source == line.name);
-            (line.value.stage() == Stage::Parameter) == hoisted || returned()
+            self.own.contains(&line.value.id()) || returned()
         };
         self.lines.iter().filter(own).map(|line| Computed {
             kernel: self.name.clone(),
@@ -106,6 +102,31 @@ struct Needed {
 }
 
 impl Needed {
+    /// From what is `given`.
+    fn of(
+        graph: &Graph,
+        sections: &[Section<'_>],
+        fields: &[(String, String)],
+        given: &FxHashSet<NodeId>,
+    ) -> Self {
+        let returned: FxHashSet<String> = fields.iter().map(|(_, source)| source.clone()).collect();
+        let mut nodes = FxHashSet::default();
+        // Backwards: a statement comes before whatever uses the symbol it was cut at.
+        for statement in sections.iter().flat_map(|section| &section.statements).rev() {
+            let used = statement.cut.is_some_and(|symbol| nodes.contains(&symbol.id()));
+            if !(used || returned.contains(&statement.name)) {
+                continue;
+            }
+            let mut pending = vec![statement.value.id()];
+            while let Some(id) = pending.pop() {
+                if !given.contains(&id) && nodes.insert(id) {
+                    pending.extend(graph.node(id).operands());
+                }
+            }
+        }
+        Self { returned, nodes }
+    }
+
     /// Whether a statement is written: something is made of it, or it names what is computed.
     fn statement(&self, graph: &Graph, statement: &Statement<'_>) -> bool {
         let opposite = |id| match graph.node(id) {
@@ -120,29 +141,6 @@ impl Needed {
             None => {
                 self.returned.contains(&statement.name) || self.nodes.contains(&id) || opposite(id)
             }
-        }
-    }
-}
-
-fn needed(graph: &Graph, sections: &[Section<'_>], fields: &[(String, String)]) -> Needed {
-    let returned: FxHashSet<String> = fields.iter().map(|(_, source)| source.clone()).collect();
-    let mut nodes = FxHashSet::default();
-    // Backwards: a statement comes before whatever uses the symbol it was cut at.
-    for statement in sections.iter().flat_map(|section| &section.statements).rev() {
-        let used = statement.cut.is_some_and(|symbol| nodes.contains(&symbol.id()));
-        if used || returned.contains(&statement.name) {
-            nodes.extend(graph.reachable([statement.value.id()]));
-        }
-    }
-    Needed { returned, nodes }
-}
-
-fn stage(graph: &Graph, id: NodeId, known: &FxHashMap<NodeId, Stage>) -> Stage {
-    match graph.node(id) {
-        Node::Symbol(symbol) => graph.symbol_info(symbol).stage,
-        node => {
-            let stages = node.operands().filter_map(|operand| known.get(&operand).copied());
-            stages.max().unwrap_or(Stage::Parameter)
         }
     }
 }

@@ -161,8 +161,7 @@ pub fn mutate(
         outcomes.push(Outcome { mutant: site.mutant, signals, status });
         progress(Progress::Done);
     }
-    let listings = device.listings.iter().enumerate();
-    let computed = listings.flat_map(|(index, listing)| listing.computed(index == device::PREPARE));
+    let computed = device.listings.iter().flat_map(Listing::computed);
     let engines = engines.count(kind);
     Ok(Report { kind, outcomes, computed: computed.collect(), floors, engines })
 }
@@ -199,7 +198,7 @@ fn chosen(
     let meant = |name: &str| selection.kernel.is_none_or(|kernel| kernel == name);
     let listings = device.listings.iter().enumerate().filter(|(_, listing)| meant(&listing.name));
     let every = listings.flat_map(|(index, listing)| {
-        let found = sites(device.chain.graph, listing, index == device::PREPARE);
+        let found = sites(device.chain.graph, listing);
         found.into_iter().map(move |site| (index, site))
     });
     Ok(every.step_by(selection.every.max(1)).collect())

@@ -72,14 +72,13 @@ pub(super) struct Site {
     pub(super) place: Location,
 }
 
-/// Every mutant of a function, in the order of its text. What depends on parameters only belongs
-/// to `prepare`, where it is computed.
-pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) -> Vec<Site> {
+/// Every mutant of a function, in the order of its text, where it is computed: what comes from `prepare` belongs to
+/// `prepare`.
+pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>) -> Vec<Site> {
     let mut names = FxHashMap::default();
     let mut found = Vec::new();
     for line in &listing.lines {
-        let own = |id: &&NodeId| (listing.stages[id] == Stage::Parameter) == hoisted;
-        for id in line.nodes.iter().filter(own) {
+        for id in line.nodes.iter().filter(|id| listing.own.contains(*id)) {
             let operands: Vec<_> = graph.node(*id).operands().collect();
             let whole = text(graph, *id, &names);
             for (index, operand) in operands.iter().enumerate() {
@@ -103,7 +102,7 @@ pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) 
             }
         }
         let fields = listing.fields.iter().filter(|(_, source)| *source == line.name);
-        for (field, _) in fields.filter(|_| !hoisted) {
+        for (field, _) in fields.filter(|_| line.value.stage() != Stage::Parameter) {
             if partner(graph, line.value).is_some() {
                 let shown = text(graph, line.value.id(), &names);
                 let mutant = Mutant {
@@ -190,30 +189,37 @@ fn written(graph: &Graph, id: NodeId, names: &FxHashMap<NodeId, String>, depth: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mutation::device::{Device, PREPARE};
+    use crate::mutation::device::Device;
     use precess_codegen::derivation::chain::Chain;
     use precess_codegen::derivation::heading::Heading;
     use precess_codegen::derivation::script::Script;
-    use precess_codegen::emit::every_kind;
     use precess_codegen::kernel::{Field, Record, Source};
-    use precess_codegen::kinds::DGVSCMG;
+    use precess_codegen::kinds::{KINDS, Kind};
+    use rustc_hash::FxHashSet;
 
-    /// What `prepare` or a kernel adds, as the table of operations counts the emitted text.
-    fn counted(table: &str, function: &str) -> Option<usize> {
-        let row = table.lines().find(|line| line.contains(&format!("`{function}` |")))?;
+    /// What the emitted text is counted to add; `regen --check` holds it to what is emitted.
+    const TABLE: &str = include_str!("../../../../docs/operations.md");
+
+    /// What `prepare` or a kernel of a kind adds.
+    fn counted(kind: &str, function: &str) -> Option<usize> {
+        let row =
+            TABLE.lines().find(|line| line.starts_with(&format!("| {kind} | `{function}` |")))?;
         row.split('|').nth(4)?.trim().parse().ok()
     }
 
     #[test]
-    #[ignore = "long: `cargo xtask test --all`"]
     fn every_addition_of_the_emitted_text_is_a_place() {
+        for kind in KINDS {
+            every_addition_of(kind);
+        }
+    }
+
+    fn every_addition_of(kind: &'static Kind) {
         let graph = Graph::new();
-        let chain = Chain::new(&graph, &DGVSCMG);
+        let chain = Chain::new(&graph, kind);
         let device = Device::new(&chain).unwrap();
-        let files = every_kind().unwrap();
-        let table = files.iter().find(|file| file.path.ends_with("operations.md")).unwrap();
-        for (index, listing) in device.listings.iter().enumerate() {
-            let found = sites(&graph, listing, index == PREPARE);
+        for listing in &device.listings {
+            let found = sites(&graph, listing);
             let dropped = found.iter().filter(|site| site.mutant.change == Change::Drop);
             let mut sums: Vec<_> = dropped
                 .map(|site| match site.place {
@@ -222,7 +228,8 @@ mod tests {
                 })
                 .collect();
             sums.dedup();
-            assert_eq!(Some(sums.len()), counted(&table.text, &listing.name), "{}", listing.name);
+            let counted = counted(kind.name, &listing.name);
+            assert_eq!(Some(sums.len()), counted, "{}: {}", kind.name, listing.name);
         }
     }
 
@@ -242,8 +249,8 @@ mod tests {
             fields: vec![field("x"), field("y")],
             shared: false,
         };
-        let listing = Listing::new(&g, "f", &script.sections, &output, &[]);
-        let found = sites(&g, &listing, false);
+        let listing = Listing::new(&g, "f", &script.sections, &output, &[], &FxHashSet::default());
+        let found = sites(&g, &listing);
         let shown: Vec<_> = found.iter().map(|site| site.mutant.to_string()).collect();
         let expected = [
             "f: x: swap `cos_q` of `cos_q`",

@@ -240,6 +240,7 @@ mod tests {
     use precess_codegen::derivation::script::Script;
     use precess_codegen::graph::Stage;
     use precess_codegen::kernel::{Field, Record, Source};
+    use rustc_hash::FxHashSet;
 
     #[test]
     fn each_change_gives_the_value_it_names() {
@@ -255,7 +256,7 @@ mod tests {
             |name: &str| Field { name: name.into(), doc: String::new(), source: Source::Own };
         let fields = vec![field("z"), field("w")];
         let output = Record { name: String::new(), doc: String::new(), fields, shared: false };
-        let listing = Listing::new(&g, "f", &script.sections, &output, &[]);
+        let listing = Listing::new(&g, "f", &script.sections, &output, &[], &FxHashSet::default());
         let tape = Tape::new(&g, &listing);
         let mut values = Values::covering(&g);
         for (symbol, value) in [(rate, 3.0), (s, 0.6), (c, 0.8)] {
@@ -263,7 +264,7 @@ mod tests {
         }
         let right = tape.evaluate(&values, None);
         assert_eq!((right.scalar("z"), right.scalar("w")), (0.6 * 3.0 - 0.8, 0.8));
-        let found = sites(&g, &listing, false).into_iter().map(|site| {
+        let found = sites(&g, &listing).into_iter().map(|site| {
             let changed = tape.changed(&g, &site.place, site.mutant.change);
             let wrong = tape.evaluate(&values, changed);
             (site.mutant.to_string(), wrong.scalar("z"), wrong.scalar("w"))
