@@ -44,7 +44,7 @@ fn every_mutant_of_a_sample_is_killed_or_equivalent() {
         assert!(strongest > SIGNAL, "{}: {strongest:e}", outcome.mutant);
     }
     let by_kernel = report.by_kernel();
-    assert_eq!(by_kernel.len(), 13);
+    assert_eq!(by_kernel.len(), 14);
     let sum: usize = by_kernel.iter().map(|(_, tally)| tally.mutants).sum();
     let numbered: usize = report.by_tag().iter().map(|(_, tally)| tally.mutants).sum();
     assert_eq!(sum, report.outcomes.len());

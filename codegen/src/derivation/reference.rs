@@ -178,6 +178,16 @@ pub fn share<'g>(chain: &Chain<'g>) -> Share<'g> {
     share
 }
 
+/// Angular momentum about B by velocities relative to B, where the hub turns at `omega`.
+#[must_use]
+pub fn relative_angular_momentum<'g>(chain: &Chain<'g>, omega: Vector<'g, Hub>) -> Vector<'g, Hub> {
+    bodies(chain).into_iter().fold(Vector::zero(chain.graph), |sum, body| {
+        let velocity = body.r.component_rates() + omega.cross(body.r);
+        let spin = body.inertia.times(omega + body.omega_b);
+        sum + spin + body.mass * body.r.cross(velocity)
+    })
+}
+
 /// The device's share of energy and momenta.
 #[must_use]
 pub fn momenta<'g>(chain: &Chain<'g>) -> Momenta<'g> {

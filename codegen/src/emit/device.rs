@@ -63,8 +63,8 @@ fn imports(dynamics: &Path, items: &TokenStream) -> TokenStream {
         BodyAcceleration BodyRate BodyVelocity ConstantShare EnergyMomentum Gradient HubShare
     });
     let kind = read(quote! {
-        BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates Kernels Kind LoadDerivatives Lumped
-        ParameterInfo ParameterMut Shape Value Wrenches
+        BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates JointSteering Kernels Kind
+        LoadDerivatives Lumped ParameterInfo ParameterMut Shape Steering Value Wrenches
         components diagonal entries no_inertia unit vector zero
     });
     let root = read(quote!(Angle Passive Real Scalar Wrench));

@@ -208,6 +208,7 @@ impl Items<'_> {
             self.axes(),
             self.loads(),
             self.load_derivatives(),
+            self.steer(),
         ];
         quote! {
             impl<T: Scalar> Kind for #name<T> {

@@ -135,6 +135,49 @@ impl Items<'_> {
         }
     }
 
+    /// What each joint's motion requires about B.
+    pub(super) fn steer(&self) -> TokenStream {
+        let call = self.call("steer");
+        let [constants, pose, joints, omega] = self.names("steer", [P, Q, V, W]);
+        let returned = self.returned("steer");
+        // What is zero in every state of the kind is not returned.
+        let component = |name: String| {
+            let field = ident(&name);
+            if returned.contains(&name) { quote!(found.#field) } else { quote!(zero()) }
+        };
+        let along_b = |stem: &str| {
+            let components = XYZ.map(|axis| component(format!("{stem}_b{axis}")));
+            quote!(vector([#(#components),*]))
+        };
+        let of_joints = self.per_joint(|link| {
+            let tag = link.joint.tag;
+            let (by_rate, by_acceleration) =
+                (along_b(&format!("n_rate_{tag}")), along_b(&format!("n_acceleration_{tag}")));
+            quote!(JointSteering { by_rate: #by_rate, by_acceleration: #by_acceleration })
+        });
+        let [momentum, first_moment, gyroscopic] =
+            ["h_relative", "first_moment", "n_gyroscopic"].map(along_b);
+        let inertia =
+            ["11", "12", "13", "22", "23", "33"].map(|entry| component(format!("inertia_{entry}")));
+        quote! {
+            fn steer(
+                #constants: &Self::Constants<T>,
+                #pose: &Self::Pose<T>,
+                #joints: &Joints<T>,
+                #omega: &BodyRate<T>,
+            ) -> Option<Steering<Self>> {
+                let found = #call;
+                Some(Steering {
+                    joints: #of_joints,
+                    momentum: #momentum,
+                    first_moment: #first_moment,
+                    inertia: [#(#inertia),*],
+                    gyroscopic: #gyroscopic,
+                })
+            }
+        }
+    }
+
     /// The loads of external wrenches.
     pub(super) fn external(&self) -> TokenStream {
         let (call, carried) = (self.call("external"), self.carried_by("sum"));

@@ -13,6 +13,7 @@ mod loads;
 mod momenta;
 mod parameters;
 mod records;
+mod steer;
 
 pub use function::{Claim, Kernel};
 pub use parameters::{parameters, parameters_of};
@@ -41,6 +42,7 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     list.push(axes::kernel(chain));
     list.push(loads::kernel(chain));
     list.push(load_derivatives::kernel(chain));
+    list.push(steer::kernel(chain));
     list.push(external::kernel(chain));
     list.push(gravity::kernel(chain));
     list

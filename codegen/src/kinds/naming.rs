@@ -85,7 +85,7 @@ const STEMS: [&str; 25] = [
 ];
 
 /// Functions and records of every emitted file, as titles that would give their names.
-const TITLES: [&str; 24] = [
+const TITLES: [&str; 26] = [
     "axes",
     "back substitute",
     "body acceleration",
@@ -110,6 +110,8 @@ const TITLES: [&str; 24] = [
     "positions",
     "prepare",
     "prepared",
+    "steer",
+    "steering",
 ];
 
 const WORD: &str = "use up to eight letters from a to z, and no keyword";

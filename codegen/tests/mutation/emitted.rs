@@ -11,7 +11,7 @@ use precess_codegen::proof::{Comparison, EmittedError, Prover, Verdict};
 use crate::sites::{Change, changed, count};
 
 /// Every function of the file but `load_derivatives`.
-const ALL: [&str; 13] = [
+const ALL: [&str; 14] = [
     "prepare",
     "constant_share",
     "outer_gimbal",
@@ -23,6 +23,7 @@ const ALL: [&str; 13] = [
     "energy_momentum",
     "axes",
     "loads",
+    "steer",
     "external",
     "gravity",
 ];
@@ -124,7 +125,9 @@ fn every_mutant_of_energy_and_momentum_is_named() {
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn every_mutant_beside_the_equations_of_motion_is_named() {
-    for (name, least) in [("axes", 20), ("loads", 800), ("external", 120), ("gravity", 800)] {
+    for (name, least) in
+        [("axes", 20), ("loads", 800), ("steer", 800), ("external", 120), ("gravity", 800)]
+    {
         let (mutants, named) = every_mutant_is_caught(name, &[name]);
         assert!(mutants > least && named == mutants, "{name}: {named} of {mutants}");
     }

@@ -251,6 +251,40 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     ) -> Option<LoadDerivatives<Self>> {
         None
     }
+    /// The emitted `steer`; none of a kind that has none: a platform.
+    fn steer(
+        _constants: &Self::Constants<Self::Scalar>,
+        _pose: &Self::Pose<Self::Scalar>,
+        _joints: &Self::Joints<Self::Scalar>,
+        _omega: &BodyRate<Self::Scalar>,
+    ) -> Option<Steering<Self>> {
+        None
+    }
+}
+
+/// What the motion of one joint requires about B, device axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointSteering<T> {
+    /// Moment per rate, `dH/dq + omega x n`, N m s/rad; N s of a sliding joint.
+    pub by_rate: Vector3<T>,
+    /// Moment per acceleration, `n`, kg m^2; kg m of a sliding joint.
+    pub by_acceleration: Vector3<T>,
+}
+
+/// The moment about B that a device requires, term by term, device axes:
+/// `sum by_rate q' + sum by_acceleration q'' + inertia omega' + first_moment x r_B'' + gyroscopic`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steering<K: Kind> {
+    /// Joint by joint.
+    pub joints: K::PerJoint<JointSteering<K::Scalar>>,
+    /// Angular momentum about B relative to the hub, kg m^2/s.
+    pub momentum: Vector3<K::Scalar>,
+    /// First moment about B, kg m.
+    pub first_moment: Vector3<K::Scalar>,
+    /// Entries 11, 12, 13, 22, 23, 33 of the inertia about B, kg m^2.
+    pub inertia: [K::Scalar; 6],
+    /// `omega x inertia omega`, N m.
+    pub gyroscopic: Vector3<K::Scalar>,
 }
 
 /// Derivatives of the loads of a device by one variable: of what each motor exerts, and of what the hub exerts,

@@ -4,6 +4,7 @@ mod fault;
 mod kinematics;
 mod load_slopes;
 mod poses_and_loads;
+mod steering;
 
 pub(super) use fault::Fault;
 pub(super) use kinematics::BodyKinematics;
@@ -39,6 +40,7 @@ struct Functions {
     axes: usize,
     loads: usize,
     load_derivatives: usize,
+    steer: usize,
     external: usize,
     gravity: usize,
 }
@@ -113,6 +115,7 @@ impl<'a, 'g> Device<'a, 'g> {
             (functions.axes, Role::Axes),
             (functions.loads, Role::Loads),
             (functions.load_derivatives, Role::LoadDerivatives),
+            (functions.steer, Role::Steering),
             (functions.external, Role::External),
             (functions.gravity, Role::Gravity),
         ];
@@ -313,6 +316,7 @@ impl Functions {
             axes: find("axes")?,
             loads: find("loads")?,
             load_derivatives: find("load_derivatives")?,
+            steer: find("steer")?,
             external: find("external")?,
             gravity: find("gravity")?,
         })

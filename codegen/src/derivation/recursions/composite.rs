@@ -60,7 +60,7 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
 }
 
 /// Motions, with their angular velocities and accelerations named.
-fn outwards<'g>(
+pub(super) fn outwards<'g>(
     chain: &Chain<'g>,
     observer: &Observer<'g>,
     script: &mut Script<'g>,

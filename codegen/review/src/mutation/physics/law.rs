@@ -49,6 +49,8 @@ pub enum Law {
     JointMomentum,
     /// The power that goes into a device.
     JointPower,
+    /// The terms that steer.
+    Steering,
     /// The power of what acts on the bodies.
     VirtualPower,
     /// What acts on the bodies as a sum.
@@ -93,7 +95,7 @@ pub enum Law {
 
 impl Law {
     /// Every law, by kind.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::LinearMomentum,
         Self::AngularMomentum,
         Self::Energy,
@@ -103,6 +105,7 @@ impl Law {
         Self::CentreOfMass,
         Self::JointMomentum,
         Self::JointPower,
+        Self::Steering,
         Self::VirtualPower,
         Self::Resultants,
         Self::FieldWork,
@@ -138,6 +141,7 @@ impl Law {
             | Self::CentreOfMass
             | Self::JointMomentum
             | Self::JointPower
+            | Self::Steering
             | Self::VirtualPower
             | Self::Resultants
             | Self::FieldWork
@@ -181,6 +185,9 @@ impl Law {
                 "the loads at a joint are dp/dt and dH/dt of the bodies outside it"
             }
             Self::JointPower => "Σ u q′ + F · v_B + N · ω of the loads is dE/dt of the device",
+            Self::Steering => {
+                "the terms of `steer` sum to the moment of the loads; the momentum relative to the hub is H at rest"
+            }
             Self::VirtualPower => {
                 "what acts on the bodies does the work that joints and hub receive: Σ F · v + N · ω"
             }

@@ -20,6 +20,9 @@ pub(super) fn residuals(
     if concerns(role, &[Role::Loads, Role::Momenta]) {
         found.push((Law::JointPower, power(device, trial, fault)));
     }
+    if concerns(role, &[Role::Steering]) {
+        found.push((Law::Steering, steering(device, trial, fault)));
+    }
     // What `loads` or `prepare` have wrong, other laws show: differences of wrong loads take long.
     if role == Some(Role::LoadDerivatives) || role.is_none() && fault.is_none() {
         let derivatives = device.load_derivatives(&trial.case, &trial.any, fault);
@@ -64,6 +67,17 @@ fn momenta(device: &Device<'_, '_>, trial: &Trial, motion: &Motion, fault: &Faul
     };
     let columns: Vec<_> = (0..device.joints()).flat_map(column).collect();
     DMatrix::from_vec(6, device.joints(), columns)
+}
+
+/// The terms of `steer` against `loads`, and against `energy_momentum` of a hub at rest.
+fn steering(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
+    let [moment, relative] = device.steered(&trial.case, &trial.any, fault);
+    let loads = device.loads(&trial.case, &trial.any, fault);
+    let zero = Vector3::zeros();
+    let at_rest = Motion { omega: zero, velocity: zero, ..trial.case.motion.clone() };
+    let momentum = device.energy_momentum(&trial.case, &at_rest, fault).angular;
+    let pairs = [(moment, loads.whole.moment), (relative, momentum)];
+    pairs.iter().map(|(a, b)| gap(a.as_slice(), b.as_slice())).fold(0.0, f64::max)
 }
 
 fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {

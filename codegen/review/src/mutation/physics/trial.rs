@@ -22,6 +22,8 @@ pub(in crate::mutation) enum Role {
     Loads,
     /// `load_derivatives`.
     LoadDerivatives,
+    /// `steer`.
+    Steering,
     /// `external`.
     External,
     /// `gravity`.
