@@ -12,8 +12,8 @@ use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated
-/// platforms; pyYeti, of structures.
-const SCRIPTS: [&str; 7] = [
+/// platforms; pyYeti, of structures; Basilisk's law, of steering.
+const SCRIPTS: [&str; 8] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -21,6 +21,7 @@ const SCRIPTS: [&str; 7] = [
     "tests/engines/gyros.py",
     "tests/engines/isolated.py",
     "tests/engines/structures.py",
+    "tests/engines/steering.py",
 ];
 
 /// What draws more spacecraft.

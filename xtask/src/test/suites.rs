@@ -166,6 +166,11 @@ pub(crate) const SUITES: &[Suite] = &[
         "isolated",
         &[SOLVER, REFERENCES, &["tests/tests/isolated", "tests/fixtures"]],
     ),
+    always(
+        "precess-tests",
+        "steering",
+        &[SOLVER, REFERENCES, ENGINES, &["tests/tests/steering", "tests/fixtures"]],
+    ),
     all(
         "precess-tests",
         "lanes",

@@ -1,0 +1,136 @@
+//! Servo: motor torques for commanded rates and accelerations.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::device::Device;
+use crate::equations::device_loads::LoadsOf;
+use crate::model::kind::Kind;
+use crate::model::mode::Mode;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Scalar, zero};
+use crate::results::loads::LoadAxes;
+use crate::sets::bundle::Shared;
+use crate::sets::devices::{DeviceSet, Devices, JointInfos, Visit};
+use crate::sets::isolated::{Isolated, PreparedIsolated};
+use crate::sets::per_device as data;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+use crate::steering::error::{SteeringError, finite};
+use crate::steering::matrix::Steered;
+
+/// Gains and limits of the motors of `N` joints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Servo<T, const N: usize> {
+    /// What is commanded of each joint.
+    pub steered: [Steered; N],
+    /// Rate feedback, 1/s: the acceleration of a gimbal is `gain (commanded rate - rate)` and its feed-forward.
+    pub gains: [T; N],
+    /// Largest torque of each motor, N m (force, N); infinite where there is none.
+    pub limits: [T; N],
+}
+
+/// What a servo demands of the motors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ServoTorques<D: Devices, const N: usize> {
+    /// Motor torques within their limits, N m (N); zero of a joint that is not commanded.
+    pub torques: [D::Scalar; N],
+    /// How many are at their limit.
+    pub limited: usize,
+    /// What accelerates where no torque is limited.
+    pub accelerations: Accelerations<D>,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Motor torques for commands: rates of gimbals, accelerations of wheels. By an evaluation in which the commanded
+    /// joints have their accelerations prescribed, and the loads of its accelerations: coupling, imbalance, springs and
+    /// friction are compensated as far as the model has them.
+    ///
+    /// `feed_forward` is the derivative of each commanded rate, rad/s². Forces, gravity and the modes of joints that
+    /// are not commanded are those of `inputs`.
+    ///
+    /// # Errors
+    ///
+    /// [`SteeringError::Joints`], [`SteeringError::Platform`], [`SteeringError::Argument`], and those of
+    /// [`Self::accelerations`] and [`Self::loads`].
+    pub fn servo<A: Attitude<D::Scalar>, const N: usize>(
+        &self,
+        servo: &Servo<D::Scalar, N>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        commands: &[D::Scalar; N],
+        feed_forward: &[D::Scalar; N],
+    ) -> Result<ServoTorques<D, N>, SteeringError<D::Scalar>> {
+        let expected = D::list::<JointInfos>(&self.devices).count();
+        if expected != N {
+            return Err(SteeringError::Joints { expected, found: N });
+        }
+        finite("command", *commands)?;
+        finite("feed-forward", *feed_forward)?;
+        finite("gain", servo.gains)?;
+        for (index, limit) in servo.limits.iter().enumerate() {
+            // False of NaN too; an infinite limit is none.
+            let sound = *limit >= zero();
+            if !sound {
+                return Err(SteeringError::Argument { what: "torque limit", index, value: *limit });
+            }
+        }
+        let mut prescribed = inputs.clone();
+        let wanted = servo.steered.iter().zip(servo.gains).zip(commands.iter().zip(feed_forward));
+        let joints = prescribed.modes.values_mut().zip(state.devices.states());
+        for ((mode, [_, rate]), ((steered, gain), (command, forward))) in joints.zip(wanted) {
+            match steered {
+                Steered::Rate => *mode = Mode::Prescribed(*forward + gain * (*command - rate)),
+                Steered::Acceleration => *mode = Mode::Prescribed(*command),
+                Steered::Nothing => {}
+            }
+        }
+        let accelerations = self.accelerations(state, &prescribed)?;
+        let loads = self.loads(state, &prescribed, &accelerations, LoadAxes::Body)?;
+        let mut motors = Motors { joint: 0, device: 0, torques: [zero(); N] };
+        D::visit::<Shared<data::Loads>, _>(&self.devices, &loads.devices, &mut motors)?;
+        let (mut torques, mut limited) = (motors.torques, 0);
+        for ((torque, limit), steered) in torques.iter_mut().zip(servo.limits).zip(servo.steered) {
+            if steered == Steered::Nothing {
+                *torque = zero();
+            } else if torque.abs() > limit {
+                *torque = if *torque < zero() { -limit } else { limit };
+                limited += 1;
+            }
+        }
+        Ok(ServoTorques { torques, limited, accelerations })
+    }
+}
+
+/// Copies the motor torques of each device.
+struct Motors<T, const N: usize> {
+    joint: usize,
+    device: usize,
+    torques: [T; N],
+}
+
+impl<T: Scalar, const N: usize> Visit<T, Shared<data::Loads>> for Motors<T, N> {
+    type Error = SteeringError<T>;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        _: &Device<K>,
+        loads: &LoadsOf<K>,
+    ) -> Result<(), SteeringError<T>> {
+        for motor in loads.motors.values() {
+            if let Some(torque) = self.torques.get_mut(self.joint) {
+                *torque = motor;
+            }
+            self.joint = self.joint.wrapping_add(1);
+        }
+        self.device = self.device.wrapping_add(1);
+        Ok(())
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        _: &PreparedIsolated<D>,
+        _: &<Isolated<D> as DeviceSet>::Per<data::Loads>,
+    ) -> Result<(), SteeringError<T>> {
+        Err(SteeringError::Platform { device: self.device })
+    }
+}
