@@ -57,6 +57,7 @@ const SOLVER: &[&str] = &[
     "dynamics/src/rigid",
     "dynamics/src/sets",
     "dynamics/src/solve",
+    "dynamics/src/steering",
     "dynamics/src/validation",
 ];
 /// Several states or devices at a time.

@@ -8,9 +8,31 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
+use nalgebra::Vector3;
 use precess_dynamics::kind::Kind;
-use precess_dynamics::{Angle, BuiltIn, Devices};
+use precess_dynamics::{
+    Angle, BuiltIn, Devices, Dgvscmg, Servo, Steered, SteeringLaw, SteeringTerms,
+};
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
+
+/// What is commanded of four DGVSCMGs.
+const STEERED: [Steered; 12] = {
+    let (rate, acceleration) = (Steered::Rate, Steered::Acceleration);
+    [
+        rate,
+        rate,
+        acceleration,
+        rate,
+        rate,
+        acceleration,
+        rate,
+        rate,
+        acceleration,
+        rate,
+        rate,
+        acceleration,
+    ]
+};
 
 /// Step of the integrator, s.
 const STEP: f64 = 1e-3;
@@ -56,6 +78,39 @@ impl Cases {
         self.cases("16", &[dgvscmg(); 16]);
         self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
         each_kind(self);
+        self.steering();
+    }
+
+    /// From a torque to motor torques of four DGVSCMGs: the terms, the allocation, and the servo.
+    fn steering(&mut self) {
+        let measured = || Measured::new(&[dgvscmg(); 4]);
+        let terms = |measured: &Measured<[Dgvscmg; 4]>| -> Option<SteeringTerms<f64, 12>> {
+            measured.craft.steering_terms(black_box(&measured.state)).ok()
+        };
+        let steered = STEERED;
+        self.case("steering_terms/4", || {
+            let measured = measured();
+            move || {
+                let _ = black_box(terms(&measured));
+            }
+        });
+        self.case("allocate/4", || {
+            let matrix = terms(&measured()).map(|terms| terms.matrix(&steered));
+            move || {
+                let torque = Vector3::new(0.3, -0.2, 0.1);
+                let law = SteeringLaw::exact();
+                let found = matrix.as_ref().map(|of| law.allocate(black_box(of), &torque));
+                let _ = black_box(found);
+            }
+        });
+        self.case("servo/4", || {
+            let Measured { craft, state, inputs } = measured();
+            let servo = Servo { steered, gains: [20.0; 12], limits: [f64::INFINITY; 12] };
+            move || {
+                let commands = black_box([0.1; 12]);
+                let _ = black_box(craft.servo(&servo, &state, &inputs, &commands, &[0.0; 12]));
+            }
+        });
     }
 
     fn cases<D: Devices<Scalar = f64>>(&mut self, name: &str, devices: &D) {
