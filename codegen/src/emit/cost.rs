@@ -88,13 +88,12 @@ mod tests {
             let [before, after] = [Passes::CHAIN, Passes::ALL].map(|passes| counted(kind, passes));
             assert!(before.len() > 10, "{} has {} functions", kind.name, before.len());
             assert_eq!(before.len(), after.len());
-            // `prepare` may: it computes what the others do not compute any more. So may what is not hoisted: it reads
-            // the constants that others have, and factored they have others.
-            let graph = Graph::new();
-            let kernels = functions(&Chain::new(&graph, kind)).kernels;
-            let hoisted: Vec<_> = kernels.iter().map(|kernel| kernel.hoisted).collect();
-            let functions = before.into_iter().zip(after).skip(1).zip(hoisted);
-            for (((function, before), (_, after)), _) in functions.filter(|(_, hoisted)| *hoisted) {
+            // `prepare` may: it computes what the others do not compute any more. So may `steer`, which is not hoisted:
+            // it reads the constants that others have, and factored they have others.
+            let functions = before.into_iter().zip(after).skip(1);
+            for ((function, before), (_, after)) in
+                functions.filter(|((function, _), _)| function != "steer")
+            {
                 assert!(after <= before, "{} {function}: {before} -> {after}", kind.name);
             }
         }

@@ -39,6 +39,8 @@ pub enum SteeringError<T = f64> {
         /// Its value.
         value: T,
     },
+    /// Every input is finite, but they are so large (or small) that the commands are not.
+    Overflow,
     /// State, inputs or result of the solver.
     Solve(SolveError<T>),
 }
@@ -70,6 +72,9 @@ impl<T: Scalar> Display for SteeringError<T> {
                 f,
                 "{what} {index} is {:?}; it must be finite, a weight not below zero, a bound in order",
                 value.to_f64()
+            ),
+            Self::Overflow => f.write_str(
+                "commands are not finite; check the units of torque, weights and reference momentum",
             ),
             Self::Solve(error) => Display::fmt(error, f),
         }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::vec3::{Vec3, add, components, dot, neg, sub, vector};
+use crate::numbers::vec3::{Vec3, add, components, dot, neg, sub, vector, zeros};
 use crate::steering::error::{SteeringError, finite};
 use crate::steering::matrix::{Steered, SteeringMatrix, gram, product, solved};
 
@@ -11,10 +11,10 @@ use crate::steering::matrix::{Steered, SteeringMatrix, gram, product, solved};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inverse<T = f64> {
     /// Nothing added: exact, and an error where the devices are singular. Schaub, Vadali, Junkins (1998) with weights of
-    /// gimbals and wheels.
+    /// gimbals and wheels. Rounding grows with the square of the condition of Q.
     Exact,
     /// `lambda reference^2 1` with `lambda exp(-mu measure)`: bounded commands, a torque that is not exact. Of a torque
-    /// along the singular direction it commands nothing. Nakamura and Hanafusa (1986).
+    /// along the singular direction it commands nothing. Nakamura and Hanafusa (1986); the exponential as in Wie (2001).
     SingularityRobust {
         /// Largest lambda, dimensionless.
         lambda: T,
@@ -28,7 +28,7 @@ pub enum Inverse<T = f64> {
         lambda: T,
         /// How fast it falls with [`SteeringMatrix::measure`].
         mu: T,
-        /// Elements 23, 13 and 12 of E, such as [`Dither::at`] a time; each below one.
+        /// Elements 23, 13 and 12 of E, such as [`Dither::at`] a time; each below one half.
         dither: [T; 3],
     },
 }
@@ -75,8 +75,8 @@ pub struct Allocation<T, const N: usize> {
     pub bounded: usize,
 }
 
-/// Weights for gimbals and wheels together: wheels help near singular poses of the gimbals, `wheel exp(-mu measure)`.
-/// Schaub, Vadali, Junkins (1998).
+/// Weights for gimbals and wheels together: wheels help near singular poses of the gimbals, `wheel exp(-mu measure)`, of
+/// which [`Dual`](crate::Dual) numbers keep no derivative. Schaub, Vadali, Junkins (1998).
 #[must_use]
 pub fn steering_weights<T: Scalar, const N: usize>(
     steered: &[Steered; N],
@@ -103,7 +103,7 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     ///
     /// # Errors
     ///
-    /// [`SteeringError::Singular`] of the exact inverse, [`SteeringError::Argument`].
+    /// [`SteeringError::Singular`] of the exact inverse, [`SteeringError::Argument`], [`SteeringError::Overflow`].
     pub fn allocate(
         &self,
         matrix: &SteeringMatrix<T, N>,
@@ -111,7 +111,7 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     ) -> Result<Allocation<T, N>, SteeringError<T>> {
         let demand = self.demand(matrix, torque)?;
         let commands = self.inverted(matrix, &self.weights, demand)?;
-        Ok(allocation(matrix, commands, demand, 0))
+        allocation(matrix, commands, demand, 0)
     }
 
     /// The part of a preferred motion that gives no torque: `p - W Q^T (Q W Q^T)^-1 Q p`. Towards gimbal angles `q*`, p
@@ -129,8 +129,8 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
         finite("preferred motion", *preferred)?;
         self.check()?;
         let mut motion = *preferred;
-        for (motion, weight) in motion.iter_mut().zip(self.weights) {
-            if weight == zero() {
+        for ((motion, weight), column) in motion.iter_mut().zip(self.weights).zip(&matrix.columns) {
+            if weight == zero() || components(column).iter().all(|of| *of == zero()) {
                 *motion = zero();
             }
         }
@@ -140,7 +140,11 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
         for (motion, back) in motion.iter_mut().zip(back) {
             *motion = *motion - back;
         }
-        Ok(motion)
+        if motion.iter().all(|motion| motion.is_finite()) {
+            Ok(motion)
+        } else {
+            Err(SteeringError::Overflow)
+        }
     }
 
     /// `Q x` that is demanded: that of the devices, opposite to the torque on the hub, less the drift.
@@ -150,6 +154,7 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
         torque: &Vector3<T>,
     ) -> Result<Vec3<T>, SteeringError<T>> {
         finite("torque component", components(torque))?;
+        finite("drift component", components(&matrix.drift))?;
         self.check()?;
         Ok(neg(add(components(torque), components(&matrix.drift))))
     }
@@ -167,6 +172,16 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
             Inverse::Generalised { lambda, mu, dither: [a, b, c] } => [lambda, mu, a, b, c],
         };
         finite("parameter of the inverse", parameters)?;
+        let [lambda, _, dither @ ..] = parameters;
+        if lambda < zero() {
+            return Err(SteeringError::Argument { what: "lambda", index: 0, value: lambda });
+        }
+        // With every element below one half, E is positive definite.
+        let half = T::from_f64(0.5);
+        let large = dither.into_iter().enumerate().find(|(_, element)| element.abs() >= half);
+        if let Some((index, value)) = large {
+            return Err(SteeringError::Argument { what: "dither", index, value });
+        }
         if self.reference.is_finite() && self.reference > zero() {
             Ok(())
         } else {
@@ -184,7 +199,7 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     ) -> Result<[T; N], SteeringError<T>> {
         let q = &matrix.columns;
         let mut s = gram(q, weights);
-        self.add_robustness(&mut s, matrix);
+        self.add_robustness(&mut s, matrix, weights);
         let back = |d: Vec3<T>| -> Result<[T; N], SteeringError<T>> {
             let solution = solved(s, d)?;
             let mut commands = *weights;
@@ -204,13 +219,25 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     }
 
     /// Adds `lambda reference^2 E`.
-    fn add_robustness(&self, s: &mut [Vec3<T>; 3], matrix: &SteeringMatrix<T, N>) {
+    fn add_robustness(
+        &self,
+        s: &mut [Vec3<T>; 3],
+        matrix: &SteeringMatrix<T, N>,
+        weights: &[T; N],
+    ) {
         let ([lambda, mu], [e_23, e_13, e_12]) = match self.inverse {
             Inverse::Exact => return,
             Inverse::SingularityRobust { lambda, mu } => ([lambda, mu], [zero(); 3]),
             Inverse::Generalised { lambda, mu, dither } => ([lambda, mu], dither),
         };
-        let measure = matrix.measure(self.reference);
+        // Of the joints that may move.
+        let mut moving = *matrix;
+        for (column, weight) in moving.columns.iter_mut().zip(weights) {
+            if *weight == zero() {
+                *column = vector(zeros());
+            }
+        }
+        let measure = moving.measure(self.reference);
         let size = lambda * exponential(-(mu * measure)) * self.reference * self.reference;
         let one = one();
         let e = [[one, e_12, e_13], [e_12, one, e_23], [e_13, e_23, one]];
@@ -220,18 +247,22 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     }
 }
 
-/// With the torque error of commands.
+/// Commands with their torque error; an error where they are not finite.
 pub(super) fn allocation<T: Scalar, const N: usize>(
     matrix: &SteeringMatrix<T, N>,
     commands: [T; N],
     demand: Vec3<T>,
     bounded: usize,
-) -> Allocation<T, N> {
-    let torque_error = vector(sub(demand, product(&matrix.columns, &commands)));
-    Allocation { commands, torque_error, bounded }
+) -> Result<Allocation<T, N>, SteeringError<T>> {
+    let torque_error = sub(demand, product(&matrix.columns, &commands));
+    if commands.iter().chain(&torque_error).all(|number| number.is_finite()) {
+        Ok(Allocation { commands, torque_error: vector(torque_error), bounded })
+    } else {
+        Err(SteeringError::Overflow)
+    }
 }
 
-/// e to a power, by its nearest `f64`: a factor without a derivative.
+/// e to a power, by its nearest `f64`: a weight, of which no derivative is kept.
 fn exponential<T: Scalar>(power: T) -> T {
     T::from_f64(libm::exp(power.to_f64()))
 }

@@ -13,7 +13,8 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     ///
     /// Of the commands outside, the one that is furthest out, in units of the width of its bounds, is set to its bound
     /// and the others are inverted again, at most `N` times; where those left are singular, they are clipped as they
-    /// were. [`Allocation::torque_error`] says what no command gives.
+    /// were. A command that is at a bound stays there: [`Allocation::torque_error`] is what these commands lack, which
+    /// others within the bounds may give.
     ///
     /// # Errors
     ///
@@ -26,7 +27,8 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
     ) -> Result<Allocation<T, N>, SteeringError<T>> {
         for (index, [lower, upper]) in bounds.iter().enumerate() {
             if !(lower.is_finite() && upper.is_finite() && lower <= upper) {
-                return Err(SteeringError::Argument { what: "bound", index, value: *lower });
+                let value = if lower.is_finite() { *upper } else { *lower };
+                return Err(SteeringError::Argument { what: "bound", index, value });
             }
         }
         let demand = self.demand(matrix, torque)?;
@@ -58,7 +60,7 @@ impl<T: Scalar, const N: usize> SteeringLaw<T, N> {
             bounded += usize::from(!at && within != *command);
             *command = within;
         }
-        Ok(allocation(matrix, commands, demand, bounded))
+        allocation(matrix, commands, demand, bounded)
     }
 }
 

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, vector, zeros};
+use crate::numbers::vec3::{Vec3, add, components, cross, dot, neg, scale, vector, zeros};
 use crate::steering::error::SteeringError;
 use crate::steering::terms::SteeringTerms;
 
@@ -15,7 +15,7 @@ pub enum Steered {
     Rate,
     /// Its acceleration: a wheel.
     Acceleration,
-    /// Nothing: it keeps its rate.
+    /// Nothing: for the matrix it keeps its rate, for the servo its mode.
     #[default]
     Nothing,
 }
@@ -23,8 +23,10 @@ pub enum Steered {
 /// The moment about B that the hub exerts on the devices, `Q x + drift` for commands x, expressed in B; the torque on the
 /// hub is the opposite.
 ///
-/// Left out are what the accelerations of gimbals and those of the hub and of B require: [`SteeringTerms::moment`] has
-/// them.
+/// Columns and drift are those of the present rates: a rate that is commanded changes them in turn where the momentum
+/// depends on products of rates. Left out are what the accelerations of gimbals, of joints that are not commanded, of the
+/// hub and of B require: [`SteeringTerms::moment`] has them. Gravity and
+/// what else acts on the devices' bodies is in neither.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteeringMatrix<T, const N: usize> {
     /// Q: moment per command of each joint, zero where nothing is commanded; N m s for a rate, kg m^2 for an acceleration.
@@ -64,18 +66,18 @@ impl<T: Scalar, const N: usize> SteeringMatrix<T, N> {
         vector(product(&self.columns, commands))
     }
 
-    /// The torque on the hub for commands, `-(Q x + drift)`, N m.
+    /// `-(Q x + drift)`, N m: the torque on the hub for commands, as far as the matrix has it.
     #[must_use]
     pub fn torque(&self, commands: &[T; N]) -> Vector3<T> {
         let moment = add(product(&self.columns, commands), components(&self.drift));
-        vector(moment.map(|component| -component))
+        vector(neg(moment))
     }
 
     /// `det(Q Q^T) / reference^6`: zero where some direction gets no torque. Over
     /// [`Dual`](crate::Dual) numbers, with gimbal angles as variables, its derivatives are its gradient.
     ///
-    /// For gimbals `reference` is the momentum of a wheel, kg m^2/s, and the square root of this the measure of
-    /// Schaub, Vadali and Junkins (1998) and of Wie (2001).
+    /// For gimbals `reference` is the momentum of a wheel, kg m^2/s, not zero: with it this is the measure of Schaub,
+    /// Vadali and Junkins (1998) and of Wie (2001).
     #[must_use]
     pub fn measure(&self, reference: T) -> T {
         let per = reference.recip();

@@ -6,8 +6,8 @@
 //! - [`law`]: its inverses, weights, null motion; [`limits`]: within bounds; [`wheels`]: the least largest command;
 //! - [`servo`]: motor torques for commands.
 //!
-//! Nothing is kept between calls: what depends on time takes it as an argument. No heap, and every loop is bounded by
-//! the number of joints.
+//! Nothing is kept between calls: what depends on time takes it as an argument. No heap but that of a list of devices,
+//! and every loop is bounded by the number of joints.
 
 pub(crate) mod error;
 pub(crate) mod law;

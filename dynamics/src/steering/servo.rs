@@ -32,7 +32,7 @@ pub struct Servo<T, const N: usize> {
 /// What a servo demands of the motors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ServoTorques<D: Devices, const N: usize> {
-    /// Motor torques within their limits, N m (N); zero of a joint that is not commanded.
+    /// Motor torques within their limits, N m (N); of a joint that is not commanded that of the inputs.
     pub torques: [D::Scalar; N],
     /// How many are at their limit.
     pub limited: usize,
@@ -44,6 +44,8 @@ impl<D: Devices> Spacecraft<D> {
     /// Motor torques for commands: rates of gimbals, accelerations of wheels. By an evaluation in which the commanded
     /// joints have their accelerations prescribed, and the loads of its accelerations: coupling, imbalance, springs and
     /// friction are compensated as far as the model has them.
+    ///
+    /// A commanded joint is prescribed whatever mode the inputs have for it: to apply its torque, drive it.
     ///
     /// `feed_forward` is the derivative of each commanded rate, rad/s². Forces, gravity and the modes of joints that
     /// are not commanded are those of `inputs`.
@@ -89,9 +91,11 @@ impl<D: Devices> Spacecraft<D> {
         let mut motors = Motors { joint: 0, device: 0, torques: [zero(); N] };
         D::visit::<Shared<data::Loads>, _>(&self.devices, &loads.devices, &mut motors)?;
         let (mut torques, mut limited) = (motors.torques, 0);
-        for ((torque, limit), steered) in torques.iter_mut().zip(servo.limits).zip(servo.steered) {
+        let given = inputs.motors.values();
+        let joints = torques.iter_mut().zip(servo.limits).zip(servo.steered);
+        for (((torque, limit), steered), given) in joints.zip(given) {
             if steered == Steered::Nothing {
-                *torque = zero();
+                *torque = given;
             } else if torque.abs() > limit {
                 *torque = if *torque < zero() { -limit } else { limit };
                 limited += 1;

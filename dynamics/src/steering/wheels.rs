@@ -18,13 +18,15 @@ pub struct KeepOut<T = f64> {
 }
 
 impl<T: Scalar> KeepOut<T> {
-    /// The acceleration that leaves the band towards its nearer end, `gain (end - speed)`, rad/s^2; zero outside. For
+    /// The acceleration that leaves the band past its nearer end, rad/s^2: `gain` times the distance to a point that is a
+    /// tenth of the band's width beyond it; zero outside. Speeds have a sign: a band of both turns is two. For
     /// [`SteeringLaw::null_motion`].
     #[must_use]
     pub fn acceleration(&self, speed: T, gain: T) -> T {
         if speed > self.lower && speed < self.upper {
             let (below, above) = (speed - self.lower, self.upper - speed);
-            if below < above { -(gain * below) } else { gain * above }
+            let beyond = T::from_f64(0.1) * (self.upper - self.lower);
+            if below < above { -(gain * (below + beyond)) } else { gain * (above + beyond) }
         } else {
             zero()
         }
@@ -40,17 +42,27 @@ impl<T: Scalar, const N: usize> SteeringMatrix<T, N> {
     ///
     /// # Errors
     ///
-    /// [`SteeringError::Singular`] where the columns are in one plane, [`SteeringError::Argument`].
+    /// [`SteeringError::Singular`] where the columns are in one plane, [`SteeringError::Argument`],
+    /// [`SteeringError::Overflow`].
     pub fn least_largest(&self, torque: &Vector3<T>) -> Result<Allocation<T, N>, SteeringError<T>> {
         let demand = SteeringLaw::exact().demand(self, torque)?;
-        let q: [Vec3<T>; N] = self.columns.each_ref().map(components);
+        // Columns of order one: the normals below are products of several of them.
+        let columns = self.columns.each_ref().map(components);
+        let largest = columns.iter().fold(zero(), |most: T, q| most.max(dot(*q, *q))).sqrt();
+        if !(largest.is_finite() && largest > zero()) {
+            return Err(SteeringError::Singular { pivot: largest, bound: zero() });
+        }
+        let per = largest.recip();
+        let q: [Vec3<T>; N] = columns.map(|column| scale(per, column));
+        let demand = scale(per, demand);
         let mut commands = [zero(); N];
         let mut inside = [true; N];
         // The normal of a plane, then of a line in that plane; of what is along the line, the line itself.
         let (mut found, mut at) = (zero(), None);
         for (k, first) in q.iter().enumerate() {
             for second in q.iter().skip(k.saturating_add(1)) {
-                better(&q, &inside, cross(*first, *second), demand, &mut found, &mut at);
+                let Some(normal) = unit_normal(*first, *second) else { continue };
+                better(&q, &inside, normal, demand, &mut found, &mut at);
             }
         }
         let Some(normal) = at else {
@@ -59,7 +71,8 @@ impl<T: Scalar, const N: usize> SteeringMatrix<T, N> {
         let mut left = settle(&q, &mut inside, normal, demand, &mut commands);
         let (mut found, mut at) = (zero(), None);
         for (column, _) in q.iter().zip(inside).filter(|(_, inside)| *inside) {
-            better(&q, &inside, cross(normal, *column), left, &mut found, &mut at);
+            let Some(across) = unit_normal(normal, *column) else { continue };
+            better(&q, &inside, across, left, &mut found, &mut at);
         }
         if let Some(across) = at {
             left = settle(&q, &mut inside, across, left, &mut commands);
@@ -67,21 +80,29 @@ impl<T: Scalar, const N: usize> SteeringMatrix<T, N> {
             settle(&q, &mut inside, line, left, &mut commands);
         }
         // What rounding has left, by all of them.
-        let law = SteeringLaw { inverse: crate::Inverse::Exact, ..SteeringLaw::exact() };
+        let law = SteeringLaw::exact();
+        let demand = scale(largest, demand);
         let rest =
             law.inverted(self, &law.weights, sub(demand, product(&self.columns, &commands)))?;
         for (command, rest) in commands.iter_mut().zip(rest) {
             *command = *command + rest;
         }
-        Ok(allocation(self, commands, demand, 0))
+        allocation(self, commands, demand, 0)
     }
 }
 
-/// Whether a column is across a direction, beside rounding.
+/// Whether a column has a part along a unit normal. Two columns of a degree between them make a normal that is known to
+/// some 60 epsilons.
 fn is_across<T: Scalar>(column: Vec3<T>, normal: Vec3<T>) -> bool {
-    let along = dot(column, normal);
-    let tolerance = T::from_f64(64.0) * T::EPSILON;
-    along * along > tolerance * tolerance * dot(column, column) * dot(normal, normal)
+    dot(column, normal).abs() > T::from_f64(4096.0) * T::EPSILON
+}
+
+/// The unit normal of two directions; none where they are parallel to a hundredth of a degree, whose normal is rounding.
+fn unit_normal<T: Scalar>(a: Vec3<T>, b: Vec3<T>) -> Option<Vec3<T>> {
+    let normal = cross(a, b);
+    let size = dot(normal, normal).sqrt();
+    let both = (dot(a, a) * dot(b, b)).sqrt();
+    (size > T::from_f64(2e-4) * both).then(|| scale(size.recip(), normal))
 }
 
 /// Keeps the direction along which the demand is the largest share of what the columns inside give.

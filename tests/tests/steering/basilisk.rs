@@ -84,6 +84,7 @@ fn commands_are_those_of_basilisk() {
             core::array::from_fn(|k| if k % 2 == 0 { gamma_dot[k / 2] } else { spin_dot[k / 2] });
         let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (found, expected) in found.iter().zip(expected) {
+            assert!(found.is_finite());
             worst = worst.max((found - expected).abs() / size);
         }
     }
@@ -94,9 +95,9 @@ fn commands_are_those_of_basilisk() {
     assert!(worst < AGREEMENT && cases.len() == 20, "{worst:e}");
 }
 
-/// The comparison notices: another moment of the gimbals, another weight.
+/// The comparison notices another moment of a gimbal.
 #[test]
-fn a_change_of_an_inertia_or_a_weight_shows() {
+fn a_change_of_an_inertia_shows() {
     let Stored { mut cases, .. } = serde_json::from_str(TEXT).unwrap();
     let matrix = |case: &Case| case.terms().matrix(&STEERED);
     let before = matrix(&cases[0]);

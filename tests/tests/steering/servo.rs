@@ -82,15 +82,20 @@ fn rates_follow_their_commands_and_the_hub_turns_as_demanded() {
 }
 
 #[test]
-fn limits_hold_and_what_is_not_commanded_gets_nothing() {
+fn limits_hold_and_what_is_not_commanded_keeps_its_torque() {
     let (craft, state) = small();
-    let inputs: Inputs<Set<2>> = Inputs::none();
+    let mut inputs: Inputs<Set<2>> = Inputs::none();
+    inputs.motors[0].u_w = 0.25;
     let mut limited = servo();
     limited.limits = [1e-3; 6];
     limited.steered[2] = Steered::Nothing;
     let found = craft.servo(&limited, &state, &inputs, &[1.0; 6], &[0.0; 6]).unwrap();
-    assert!(found.limited > 0 && found.torques[2] == 0.0, "{found:?}");
-    assert!(found.torques.iter().all(|torque| torque.abs() <= 1e-3));
+    assert!(found.limited > 0 && found.torques[2] == 0.25, "{found:?}");
+    let others = found.torques.iter().enumerate().filter(|(joint, _)| *joint != 2);
+    assert!(
+        others.clone().count() == 5
+            && others.map(|(_, torque)| torque.abs()).all(|torque| torque <= 1e-3)
+    );
     limited.limits[4] = -1.0;
     let refused = craft.servo(&limited, &state, &inputs, &[1.0; 6], &[0.0; 6]).unwrap_err();
     assert_eq!(refused, SteeringError::Argument { what: "torque limit", index: 4, value: -1.0 });
