@@ -9,7 +9,7 @@ use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::results::loads::LoadAxes;
 use crate::sets::bundle::Shared;
-use crate::sets::devices::{DeviceSet, Devices, JointInfos, Visit};
+use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
@@ -62,10 +62,7 @@ impl<D: Devices> Spacecraft<D> {
         commands: &[D::Scalar; N],
         feed_forward: &[D::Scalar; N],
     ) -> Result<ServoTorques<D, N>, SteeringError<D::Scalar>> {
-        let expected = D::list::<JointInfos>(&self.devices).count();
-        if expected != N {
-            return Err(SteeringError::Joints { expected, found: N });
-        }
+        self.reject_joints(N)?;
         finite("command", *commands)?;
         finite("feed-forward", *feed_forward)?;
         finite("gain", servo.gains)?;

@@ -10,7 +10,8 @@ use crate::model::kind::{Kind, Steering};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{
-    Columns, Vec3, add, components, cross, finite, rotate, rotate_transposed, scale, vector, zeros,
+    Columns, Vec3, add, columns, components, cross, finite, rotate, rotate_transposed, scale,
+    vector, zeros,
 };
 use crate::sets::bundle::Shared;
 use crate::sets::devices::{DeviceSet, Devices, JointInfos, Visit};
@@ -72,7 +73,7 @@ impl<T: Scalar, const N: usize> SteeringTerms<T, N> {
         for (column, acceleration) in self.by_acceleration.iter().zip(*accelerations) {
             sum = add(sum, scale(acceleration, components(column)));
         }
-        let columns = crate::numbers::vec3::columns(&self.inertia);
+        let columns = columns(&self.inertia);
         sum = add(sum, rotate(&columns, components(omega_dot)));
         vector(add(sum, cross(components(&self.first_moment), components(r_b_n_ddot))))
     }
@@ -80,7 +81,7 @@ impl<T: Scalar, const N: usize> SteeringTerms<T, N> {
     fn is_finite(&self) -> bool {
         let vectors = [self.momentum, self.first_moment, self.gyroscopic];
         let all = self.by_rate.iter().chain(&self.by_acceleration).chain(&vectors);
-        let inertia = crate::numbers::vec3::columns(&self.inertia);
+        let inertia = columns(&self.inertia);
         all.map(components).chain(inertia).all(finite)
     }
 }
@@ -96,10 +97,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<SteeringTerms<D::Scalar, N>, SteeringError<D::Scalar>> {
-        let expected = D::list::<JointInfos>(&self.devices).count();
-        if expected != N {
-            return Err(SteeringError::Joints { expected, found: N });
-        }
+        self.reject_joints(N)?;
         self.reject_state(state)?;
         let mut terms = SteeringTerms::none();
         for (to, [_, rate]) in terms.rates.iter_mut().zip(state.devices.states()) {
@@ -113,6 +111,14 @@ impl<D: Devices> Spacecraft<D> {
         } else {
             Err(SolveError::Overflow { what: Quantity::Momentum }.into())
         }
+    }
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Rejects arrays of another length than there are joints.
+    pub(super) fn reject_joints(&self, found: usize) -> Result<(), SteeringError<D::Scalar>> {
+        let expected = D::list::<JointInfos>(&self.devices).count();
+        if expected == found { Ok(()) } else { Err(SteeringError::Joints { expected, found }) }
     }
 }
 
@@ -176,7 +182,7 @@ impl<T: Scalar, const N: usize> Sum<'_, T, N> {
         let [xx, xy, xz, yy, yz, zz] = found.inertia;
         let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         // Column by column: `mount [I] mount^T e`.
-        let [x, y, z] = crate::numbers::vec3::columns(&terms.inertia);
+        let [x, y, z] = columns(&terms.inertia);
         let columns = [(x, 0), (y, 1), (z, 2)].map(|(sum, axis): (Vec3<T>, usize)| {
             let unit = [0, 1, 2].map(|k| if k == axis { T::from_f64(1.0) } else { zero() });
             add(sum, rotate(mount, rotate(&inertia, rotate_transposed(mount, unit))))
