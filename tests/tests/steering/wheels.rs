@@ -34,14 +34,23 @@ fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// The least largest command by its dual: no direction demands more.
+/// The least largest command by its dual: no direction demands more. Sampled directions, then steps at random from the best
+/// one: where the torque is ahead its share has one maximum, since it is a linear function over a convex one.
 fn by_directions<const N: usize>(matrix: &SteeringMatrix<f64, N>, torque: Vector3<f64>) -> f64 {
     let mut random = Random::new(SEED);
     let share = |y: Vector3<f64>| {
         let sum: f64 = matrix.columns.iter().map(|q| q.dot(&y).abs()).sum();
         y.dot(&torque).abs() / sum
     };
-    (0..4000).map(|_| share(random.vector(1.0))).fold(0.0, f64::max)
+    let (mut best, mut found) = (torque, share(torque));
+    for k in 0..4000 {
+        let step = if k < 1000 { 1.0 } else { 0.995_f64.powi(k - 1000) };
+        let next = if k < 1000 { random.vector(1.0) } else { best + random.vector(step) };
+        if share(next) > found {
+            (best, found) = (next.normalize(), share(next));
+        }
+    }
+    found
 }
 
 #[test]
@@ -55,8 +64,8 @@ fn the_largest_command_is_the_least_that_can_be() {
         assert!((matrix.torque(&found.commands) - torque).norm() < 1e-13);
         assert!(found.torque_error.norm() < 1e-13);
         let (most, bound) = (largest(&found.commands), by_directions(&matrix, torque));
-        // Sampled directions come near the best one from below.
-        assert!(most >= bound * (1.0 - 1e-12) && most < 1.05 * bound, "{most} {bound}");
+        // Directions come near the best one from below.
+        assert!(most >= bound * (1.0 - 1e-12) && most < 1.001 * bound, "{most} {bound}");
         let least_norm = SteeringLaw::exact().allocate(&matrix, &torque).unwrap();
         assert!(most <= largest(&least_norm.commands) * (1.0 + 1e-12));
     }
