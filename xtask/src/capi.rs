@@ -131,11 +131,12 @@ fn same(outputs: &[(PathBuf, String)]) -> Result<(), String> {
 
 /// Builds both libraries, and runs their unit tests.
 fn built() -> Result<Host, String> {
-    let folder = target()?.join("flight");
-    let text = folder.to_string_lossy().into_owned();
-    let options = ["--manifest-path", MANIFEST, "--target-dir", &text, "--quiet"];
-    cargo(&[&["build", "--release"][..], &options].concat())?;
-    cargo(&[&["test"][..], &options].concat())?;
+    let (common, folder) = (target()?, target()?.join("flight"));
+    for (task, folder) in [(&["build", "--release"][..], &folder), (&["test"][..], &common)] {
+        let folder = folder.to_string_lossy();
+        let options = ["--manifest-path", MANIFEST, "--target-dir", &folder, "--quiet"];
+        cargo(&[task, &options].concat())?;
+    }
     let programs = folder.join("programs");
     std::fs::create_dir_all(&programs)
         .map_err(|error| format!("cannot make {}: {error}", programs.display()))?;

@@ -6,6 +6,7 @@
 //! multiplied out again; see [`super::factors`].
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
@@ -30,6 +31,8 @@ pub struct Prover<'a, 'g> {
     rings: Vec<[Ring<'g>; 2]>,
     unknowns: Unknowns<'g>,
     laws: Laws<'g>,
+    /// The last `prepare`, and what was read of it.
+    last: Option<(syn::ItemFn, Rc<Constants<'g>>)>,
 }
 
 /// A function in both readings.
@@ -52,7 +55,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let rings = kernels.iter().map(|_| [Ring::new(chain.graph), Ring::new(chain.graph)]);
         let unknowns = Unknowns::of_chain(chain);
         let laws = Laws::of_chain(chain);
-        Self { chain, rings: rings.collect(), kernels, unknowns, laws }
+        Self { chain, rings: rings.collect(), kernels, unknowns, laws, last: None }
     }
 
     /// One row per claim, per law, per block of the factors and per returned record.
@@ -65,7 +68,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let constants = self.constants(&file)?;
         let mut rows = self.of_constants(&constants);
         for index in 0..self.kernels.len() {
-            rows.extend(self.of_kernel(&file, &constants, index)?);
+            rows.extend(self.of_kernel(&file, &constants, index, |_| false)?);
         }
         Ok(rows)
     }
@@ -92,21 +95,35 @@ impl<'a, 'g> Prover<'a, 'g> {
         file: &syn::File,
         name: &str,
     ) -> Result<Vec<Comparison>, EmittedError> {
+        self.until(file, name, |_| false)
+    }
+
+    /// The rows of one function of a file to the first that is sought: what would come after it is not computed.
+    ///
+    /// # Errors
+    /// As [`Prover::function`].
+    pub fn until(
+        &mut self,
+        file: &syn::File,
+        name: &str,
+        sought: fn(&Comparison) -> bool,
+    ) -> Result<Vec<Comparison>, EmittedError> {
         let constants = self.constants(file)?;
         if name == "prepare" {
             return Ok(self.of_constants(&constants));
         }
         let missing = || EmittedError::NoFunction(name.to_owned());
         let index = self.kernels.iter().position(|k| k.name == name).ok_or_else(missing)?;
-        self.of_kernel(file, &constants, index)
+        self.of_kernel(file, &constants, index, sought)
     }
 
-    /// The rows of a kernel's function, which reads these constants.
+    /// The rows of a kernel's function, which reads these constants, to the first that is sought.
     fn of_kernel(
         &mut self,
         file: &syn::File,
         constants: &Constants<'g>,
         index: usize,
+        sought: fn(&Comparison) -> bool,
     ) -> Result<Vec<Comparison>, EmittedError> {
         let kernel = &self.kernels[index];
         let text = function(file, &kernel.name)?;
@@ -133,38 +150,49 @@ impl<'a, 'g> Prover<'a, 'g> {
             back.expanded.values.clone()
         };
         let [expanded, cut] = &mut self.rings[index];
-        let mut rows = claims(expanded, kernel, &assembled);
-        match kernel.name.as_str() {
-            "eliminate" => {
-                let named = |name: &str| assembled.get(name).copied();
-                let solved = self.unknowns.solved();
-                let who = "fn eliminate";
-                rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
-                rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
+        let mut rows = claims(expanded, kernel, &assembled, sought);
+        if !rows.iter().any(sought) {
+            match kernel.name.as_str() {
+                "eliminate" => {
+                    let named = |name: &str| assembled.get(name).copied();
+                    let solved = self.unknowns.solved();
+                    let who = "fn eliminate";
+                    rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
+                    let row = factors::of_elimination;
+                    rows.extend(row(cut, self.chain, &self.unknowns, &back.cut));
+                }
+                "constant_share" if !self.chain.mount_is_turned() => {
+                    rows.push(mounted::row(self.chain, &self.kernels, file)?);
+                }
+                "back_substitute" => {
+                    let row = factors::of_back_substitution;
+                    rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
+                }
+                "gravity" => {
+                    let named = |name: &str| back.expanded.values.get(name).copied();
+                    rows.extend(potential::rows(expanded, self.chain, named));
+                }
+                _ => {}
             }
-            "constant_share" if !self.chain.mount_is_turned() => {
-                rows.push(mounted::row(self.chain, &self.kernels, file)?);
-            }
-            "back_substitute" => {
-                let row = factors::of_back_substitution;
-                rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
-            }
-            "gravity" => {
-                let named = |name: &str| back.expanded.values.get(name).copied();
-                rows.extend(potential::rows(expanded, self.chain, named));
-            }
-            _ => {}
+            rows.push(result(cut, kernel, &back.cut));
         }
-        rows.push(result(cut, kernel, &back.cut));
         expanded.settle();
         cut.settle();
         Ok(rows)
     }
 
-    /// What the functions of a file share.
-    fn constants(&self, file: &syn::File) -> Result<Constants<'g>, EmittedError> {
-        let cuts = self.cuts(file)?;
-        Ok(Constants { prepare: self.prepare(file, &cuts)?, cuts })
+    /// What the functions of a file share: read once while neither `prepare` nor the cuts change.
+    fn constants(&mut self, file: &syn::File) -> Result<Rc<Constants<'g>>, EmittedError> {
+        let (text, cuts) = (function(file, "prepare")?, self.cuts(file)?);
+        if let Some((last, constants)) = &self.last
+            && constants.cuts == cuts
+            && last == text
+        {
+            return Ok(Rc::clone(constants));
+        }
+        let constants = Rc::new(Constants { prepare: self.prepare(text, &cuts)?, cuts });
+        self.last = Some((text.clone(), Rc::clone(&constants)));
+        Ok(constants)
     }
 
     /// The rows of `prepare`.
@@ -191,10 +219,9 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     fn prepare(
         &self,
-        file: &syn::File,
+        text: &syn::ItemFn,
         cuts: &BTreeSet<String>,
     ) -> Result<Readings<'g>, EmittedError> {
-        let text = function(file, "prepare")?;
         let raw = parameters_of(self.chain)
             .fields
             .into_iter()
@@ -271,10 +298,12 @@ impl<'a, 'g> Prover<'a, 'g> {
     }
 }
 
+/// The rows of a kernel's claims, to the first that is sought.
 fn claims<'g>(
     ring: &mut Ring<'g>,
     kernel: &Kernel<'g>,
     values: &FxHashMap<String, Expr<'g>>,
+    sought: fn(&Comparison) -> bool,
 ) -> Vec<Comparison> {
     let mut rows = Vec::new();
     for claim in &kernel.claims {
@@ -292,6 +321,9 @@ fn claims<'g>(
         let claimed = format!("fn {} = derivation", kernel.name);
         let heading = [claim.tag.as_str(), &claim.name, &claimed];
         rows.push(Comparison::new(ring, heading, &emitted, &reference));
+        if rows.last().is_some_and(sought) {
+            break;
+        }
     }
     rows
 }
