@@ -1,9 +1,7 @@
 //! Monomials with packed exponents and polynomials over them.
 //!
-//! Invariants: no zero coefficient is stored; four bits an exponent, none above fifteen; the order
-//! of monomials is that of their packed words, so every listing is the same in every run.
-
-use std::collections::BTreeMap;
+//! Invariants: no zero coefficient is stored; four bits an exponent, none above fifteen; terms are in the order of
+//! their monomials' packed words, so every listing is the same in every run.
 
 use super::NormalError;
 use crate::graph::{Rational, rational};
@@ -61,7 +59,7 @@ impl Monomial {
 /// A polynomial: the normal form of an expression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Polynomial {
-    terms: BTreeMap<Monomial, Rational>,
+    terms: Vec<(Monomial, Rational)>,
 }
 
 impl Polynomial {
@@ -77,43 +75,17 @@ impl Polynomial {
         Self { terms: terms.into_iter().collect() }
     }
 
-    /// Adds one term.
-    pub(super) fn add(
-        &mut self,
-        monomial: Monomial,
-        coefficient: Rational,
-    ) -> Result<(), NormalError> {
-        use std::collections::btree_map::Entry;
-        if coefficient == Rational::ZERO {
-            return Ok(());
-        }
-        match self.terms.entry(monomial) {
-            Entry::Vacant(place) => {
-                place.insert(coefficient);
-            }
-            Entry::Occupied(mut place) => {
-                let sum = rational::sum(*place.get(), coefficient);
-                match sum.ok_or(NormalError::Coefficient)? {
-                    sum if sum == Rational::ZERO => {
-                        place.remove();
-                    }
-                    sum => *place.get_mut() = sum,
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The terms in order.
     #[must_use]
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> {
-        self.terms.iter()
+        self.terms.iter().map(|(monomial, coefficient)| (monomial, coefficient))
     }
 
     /// The coefficient of a monomial, zero where it does not occur.
     #[must_use]
     pub fn coefficient(&self, monomial: &Monomial) -> Rational {
-        self.terms.get(monomial).copied().unwrap_or(Rational::ZERO)
+        let place = self.terms.binary_search_by_key(&monomial, |(other, _)| other);
+        place.map_or(Rational::ZERO, |place| self.terms[place].1)
     }
 
     /// How many terms there are.
@@ -133,26 +105,78 @@ impl Polynomial {
     /// # Errors
     /// When a coefficient gets too large.
     pub fn plus(&self, factor: Rational, other: &Self) -> Result<Self, NormalError> {
-        let mut made = self.clone();
-        made.accumulate(factor, other)?;
-        Ok(made)
+        Self::sum([(Rational::ONE, self), (factor, other)])
     }
 
-    /// Adds `factor * other`.
-    pub(super) fn accumulate(&mut self, factor: Rational, other: &Self) -> Result<(), NormalError> {
-        other.terms.iter().try_for_each(|(monomial, coefficient)| {
-            let scaled = rational::product(factor, *coefficient);
-            self.add(*monomial, scaled.ok_or(NormalError::Coefficient)?)
-        })
-    }
-
-    /// `factor * self`, for a factor that is not zero.
-    pub(super) fn scaled(&self, factor: Rational) -> Result<Self, NormalError> {
-        let mut made = self.clone();
-        for coefficient in made.terms.values_mut() {
-            let scaled = rational::product(factor, *coefficient);
-            *coefficient = scaled.ok_or(NormalError::Coefficient)?;
+    /// The sum of polynomials, each with a factor.
+    ///
+    /// # Errors
+    /// When a coefficient gets too large.
+    pub(super) fn sum<'a>(
+        summands: impl IntoIterator<Item = (Rational, &'a Self)>,
+    ) -> Result<Self, NormalError> {
+        let mut sum = Sum::default();
+        for (factor, summand) in summands {
+            for (monomial, coefficient) in &summand.terms {
+                let scaled = rational::product(factor, *coefficient);
+                sum.add(*monomial, scaled.ok_or(NormalError::Coefficient)?)?;
+            }
         }
-        Ok(made)
+        sum.polynomial()
+    }
+}
+
+/// How many terms a sum lists before it adds up those that are alike.
+const LISTED: usize = 1 << 14;
+
+/// Terms that are added up: listed first, since sorting a list takes a fraction of keeping it sorted.
+#[derive(Default)]
+pub(super) struct Sum {
+    /// What was added up, in order and each monomial once; then what was added since.
+    terms: Vec<(Monomial, Rational)>,
+    /// How many there were when they were added up.
+    added_up: usize,
+}
+
+impl Sum {
+    /// Adds one term.
+    ///
+    /// # Errors
+    /// When a coefficient gets too large.
+    pub(super) fn add(
+        &mut self,
+        monomial: Monomial,
+        coefficient: Rational,
+    ) -> Result<(), NormalError> {
+        self.terms.push((monomial, coefficient));
+        if self.terms.len() > LISTED + 2 * self.added_up { self.add_up() } else { Ok(()) }
+    }
+
+    /// The polynomial that they are.
+    ///
+    /// # Errors
+    /// When a coefficient gets too large.
+    pub(super) fn polynomial(mut self) -> Result<Polynomial, NormalError> {
+        self.add_up()?;
+        self.terms.shrink_to_fit();
+        Ok(Polynomial { terms: self.terms })
+    }
+
+    fn add_up(&mut self) -> Result<(), NormalError> {
+        // Stable, since it takes advantage of parts that are in order.
+        self.terms.sort_by_key(|(monomial, _)| *monomial);
+        let mut is_exact = true;
+        self.terms.dedup_by(|(next, taken), (kept, coefficient)| {
+            let is_same = next == kept;
+            if is_same {
+                let sum = rational::sum(*coefficient, *taken);
+                is_exact &= sum.is_some();
+                *coefficient = sum.unwrap_or(Rational::ZERO);
+            }
+            is_same
+        });
+        self.terms.retain(|(_, coefficient)| *coefficient != Rational::ZERO);
+        self.added_up = self.terms.len();
+        if is_exact { Ok(()) } else { Err(NormalError::Coefficient) }
     }
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use super::polynomial::{Monomial, Polynomial, VARIABLES};
+use super::polynomial::{Monomial, Polynomial, Sum, VARIABLES};
 use crate::graph::{Expr, Graph, Node, NodeId, Rational, SymbolId, rational};
 
 /// Why an expression has no normal form here.
@@ -146,20 +146,9 @@ impl<'g> Ring<'g> {
         found
     }
 
-    /// The sum of expanded summands; the longest of them is what the others are added to.
+    /// The sum of expanded summands.
     fn total(&self, summands: &[(Rational, NodeId)]) -> Result<Polynomial, NormalError> {
-        let length = |place: &usize| self.expanded[&summands[*place].1].len();
-        let longest = (0..summands.len()).max_by_key(length).unwrap_or_default();
-        let (before, rest) = summands.split_at(longest);
-        let others = before.iter().chain(rest.iter().skip(1));
-        let mut total = match rest.first() {
-            Some((sign, first)) => self.expanded[first].scaled(*sign)?,
-            None => Polynomial::default(),
-        };
-        for (sign, other) in others {
-            total.accumulate(*sign, &self.expanded[other])?;
-        }
-        Ok(total)
+        Polynomial::sum(summands.iter().map(|(sign, summand)| (*sign, &*self.expanded[summand])))
     }
 
     /// The sum that an abbreviation stands for.
@@ -218,19 +207,19 @@ impl<'g> Ring<'g> {
     /// # Errors
     /// When a power or a coefficient gets too large.
     pub fn times(&self, a: &Polynomial, b: &Polynomial) -> Result<Polynomial, NormalError> {
-        let mut made = Polynomial::default();
+        let mut made = Sum::default();
         for (x, k) in a.terms() {
             for (y, l) in b.terms() {
                 let coefficient = rational::product(*k, *l).ok_or(NormalError::Coefficient)?;
                 self.add_reduced(&mut made, x.times(y)?, coefficient)?;
             }
         }
-        Ok(made)
+        made.polynomial()
     }
 
     fn add_reduced(
         &self,
-        sum: &mut Polynomial,
+        sum: &mut Sum,
         monomial: Monomial,
         coefficient: Rational,
     ) -> Result<(), NormalError> {
