@@ -32,7 +32,7 @@ pub use body::{Counts, FunctionBody};
 pub use error::EmitError;
 pub use file::{Emitted, EmittedFile, of_kind};
 pub use functions::{Functions, functions};
-pub use shared::{every_kind, files, shared};
+pub use shared::{files, shared};
 pub use standalone::{StandaloneKernels, standalone_kernels, standalone_records};
 pub use target_crate::TargetCrate;
 pub use text::{capital, pretty_items, wrapped};

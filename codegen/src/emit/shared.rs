@@ -9,9 +9,8 @@ use super::file::{Emitted, EmittedFile, of_kind, record_text, rust_file, templat
 use super::target_crate::TargetCrate;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;
-use crate::graph::Graph;
 use crate::kernel::shared_records;
-use crate::kinds::{Entry, KINDS, REGISTRY};
+use crate::kinds::{Entry, REGISTRY};
 
 /// Every file of the emitted code and the table of operations, for these chains.
 ///
@@ -66,15 +65,4 @@ pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>,
     context.insert("factoring", &factoring);
     let text = tera.render("operations.md", &context)?;
     Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
-}
-
-/// Derives every kind and lays out the files.
-///
-/// # Errors
-/// When a file cannot be laid out.
-pub fn every_kind() -> Result<Vec<EmittedFile>, EmitError> {
-    let graphs: Vec<_> = KINDS.iter().map(|_| Graph::new()).collect();
-    let pairs = graphs.iter().zip(KINDS);
-    let chains: Vec<_> = pairs.map(|(graph, kind)| Chain::new(graph, kind)).collect();
-    files(&chains)
 }

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use precess_codegen::derivation::chain::Chain;
-use precess_codegen::emit::files;
+use precess_codegen::emit::{TargetCrate, of_kind};
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::proof::{Comparison, EmittedError, Prover, Verdict};
@@ -31,8 +31,8 @@ const ALL: [&str; 14] = [
 /// The kernels of the DGVSCMG, emitted once for all tests.
 static TEXT: LazyLock<String> = LazyLock::new(|| {
     let graph = Graph::new();
-    let files = files(&[Chain::new(&graph, &DGVSCMG)]).unwrap();
-    files.into_iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap().text
+    let emitted = of_kind(&Chain::new(&graph, &DGVSCMG), TargetCrate::Dynamics).unwrap();
+    emitted.files.into_iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap().text
 });
 
 fn emitted() -> syn::File {
