@@ -40,7 +40,9 @@ pub(super) fn device_file(
     signatures: &Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let records = [structure(kind), joints(kind), motors(kind), per_joint(kind)];
-    let items = Items { kind, signatures }.all();
+    let of_kind = Items { kind, signatures };
+    let by_number = target.dynamics_name().map(|dynamics| of_kind.by_number(dynamics));
+    let items = of_kind.all();
     let items = quote!(#(#records)* #items);
     let imports = imports(&target.dynamics()?, &items);
     let mut context = Context::new();
@@ -50,6 +52,7 @@ pub(super) fn device_file(
     context.insert("hash", &fnv1a64(&(made_from + include_str!("templates/device.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("items", &pretty_items(quote!(#imports #items)));
+    context.insert("by_number", &by_number.unwrap_or_default());
     rust_file(target.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
 }
 
@@ -98,6 +101,14 @@ pub(super) fn moments(body: &Body) -> Vec<String> {
     names
 }
 
+/// Whether an inertia has products.
+fn has_products(body: &Body) -> bool {
+    match body.inertia {
+        Inertia::Full(_) => true,
+        Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => false,
+    }
+}
+
 /// The outermost body and the name of its offset, where it is a rotor that can be off balance.
 pub(super) fn imbalanced(kind: &Kind) -> Option<(&Body, &'static str)> {
     let Link { joint, body, .. } = kind.links.last()?;
@@ -105,15 +116,11 @@ pub(super) fn imbalanced(kind: &Kind) -> Option<(&Body, &'static str)> {
         Centre::On(_, offset) => offset,
         Centre::Free(_) | Centre::At => return None,
     };
-    let full = match body.inertia {
-        Inertia::Full(_) => true,
-        Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => false,
-    };
     let turns = match joint.motion {
         Motion::Turn(_) => true,
         Motion::Slide(_) => false,
     };
-    (turns && full).then_some((body, offset))
+    (turns && has_products(body)).then_some((body, offset))
 }
 
 fn field(name: &str, doc: &str, ty: &TokenStream) -> TokenStream {
@@ -150,7 +157,7 @@ fn structure(kind: &Kind) -> TokenStream {
         );
         doc.push_str(&kept);
     }
-    if kind.links.iter().any(|link| matches!(link.body.inertia, Inertia::Full(_))) {
+    if kind.links.iter().any(|link| has_products(&link.body)) {
         doc.push_str(
             "\n\nProducts of inertia have the sign of the tensor's entries: `J_13` is entry 13.",
         );

@@ -25,7 +25,7 @@ impl Items<'_> {
             let inertia = match body.inertia {
                 Inertia::Full(_) => own(inertia_name(body)),
                 Inertia::Point => quote!(no_inertia()),
-                _ => {
+                Inertia::Diagonal(_) | Inertia::Symmetric(..) => {
                     let [xx, _, _, yy, _, zz] = body.inertia.names().map(Option::unwrap_or_default);
                     let moments = [xx, yy, zz].map(own);
                     quote!(diagonal([#(#moments),*]))
@@ -89,10 +89,12 @@ fn of_body(link: &Link) -> Vec<TokenStream> {
     }
     match body.inertia {
         Inertia::Full(_) => fields.push(set(inertia_name(body), &quote!(bodies.#of.inertia))),
-        _ => fields.extend(moments(body).iter().map(|name| {
-            let entry = format_ident!("m{}", &name[name.len() - 2..]);
-            set(name, &quote!(bodies.#of.inertia.#entry))
-        })),
+        Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => {
+            fields.extend(moments(body).iter().map(|name| {
+                let entry = format_ident!("m{}", &name[name.len() - 2..]);
+                set(name, &quote!(bodies.#of.inertia.#entry))
+            }));
+        }
     }
     fields
 }

@@ -60,7 +60,9 @@ impl Items<'_> {
         let mut arguments: Vec<_> = tip.mass.iter().map(|mass| set(mass, &quote!(T))).collect();
         match tip.inertia {
             Inertia::Full(_) => arguments.push(set(inertia_name(tip), &quote!(Matrix3<T>))),
-            _ => arguments.extend(moments(tip).iter().map(|name| set(name, &quote!(T)))),
+            Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => {
+                arguments.extend(moments(tip).iter().map(|name| set(name, &quote!(T))));
+            }
         }
         let mut fields = vec![quote!(mount: unit())];
         for (k, link) in self.links().iter().enumerate() {
@@ -79,7 +81,9 @@ impl Items<'_> {
             }
             match body.inertia {
                 Inertia::Full(_) => fields.push(given(&inertia_name(body), quote!(no_inertia()))),
-                _ => fields.extend(moments(body).iter().map(|name| given(name, quote!(zero())))),
+                Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => {
+                    fields.extend(moments(body).iter().map(|name| given(name, quote!(zero()))));
+                }
             }
         }
         fields.push(quote!(passive: PerJoint::all(Passive::none())));
@@ -129,7 +133,6 @@ impl Items<'_> {
                 }
             }
         };
-        let states: Vec<_> = coordinates.iter().chain(&rates).map(ToString::to_string).collect();
         let parts = [
             quote! {
                 impl<V: Value> PerJoint<V> {
@@ -151,8 +154,6 @@ impl Items<'_> {
                     }
                 }
             },
-            map_and_zip("Joints", ["T", "Value"], &states),
-            map_and_zip("PerJoint", ["V", "Value"], &bodies),
             values(quote!(T), quote!(MotorTorques), &self.each(|link| ident(link.joint.torque))),
             values(
                 quote!(T),
@@ -161,6 +162,17 @@ impl Items<'_> {
             ),
         ];
         quote!(#(#parts)*)
+    }
+
+    /// What changes and joins records of joints number by number, line by line.
+    pub(super) fn by_number(&self, dynamics: &str) -> Vec<String> {
+        let mut states = self.each(|link| link.joint.coordinate);
+        states.extend(self.each(|link| link.joint.rate));
+        let bodies = self.each(|link| body_name(&link.body));
+        let mut lines = map_and_zip(dynamics, "Joints", ["T", "Value"], &states);
+        lines.push(String::new());
+        lines.extend(map_and_zip(dynamics, "PerJoint", ["V", "Value"], &bodies));
+        lines
     }
 
     /// The kernels, over any number.
@@ -330,7 +342,9 @@ impl Items<'_> {
                     let inertia = own(inertia_name(body));
                     fields.extend(taken(&names, quote!(entries(&#inertia))));
                 }
-                _ => fields.extend(moments(body).iter().map(|name| field(name))),
+                Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => {
+                    fields.extend(moments(body).iter().map(|name| field(name)));
+                }
             }
         }
         quote! {

@@ -156,12 +156,7 @@ pub(super) fn kind_file(
             describe(own, lines, &stated);
         }
     }
-    let mut texts: Vec<_> = records.iter().map(record_text).collect();
-    if matches!(target, TargetCrate::Standalone(_)) {
-        for record in &mut texts {
-            record.by_number.clear();
-        }
-    }
+    let texts: Vec<_> = records.iter().map(|record| record_text(record, target)).collect();
     let read = |name: &String| {
         let alone = matches!(target, TargetCrate::Standalone(_));
         let taken = |part: &Part| part.inputs.iter().any(|(_, record)| record.name == *name);
@@ -225,7 +220,7 @@ pub(super) fn describe(
     }
 }
 
-pub(super) fn record_text(record: &Record) -> RecordText {
+pub(super) fn record_text(record: &Record, target: TargetCrate<'_>) -> RecordText {
     let field = |field: &crate::kernel::Field| FieldText {
         name: field.name.clone(),
         doc: wrapped(&field.doc, COMMENT - 4),
@@ -238,12 +233,12 @@ pub(super) fn record_text(record: &Record) -> RecordText {
         name: record.name.clone(),
         doc: wrapped(&record.doc, COMMENT),
         fields: record.fields.iter().map(field).collect(),
-        by_number: if LANED.contains(&record.name.as_str()) {
-            let names: Vec<_> = record.fields.iter().map(|field| field.name.as_str()).collect();
-            let functions = map_and_zip(&record.name, ["T", "Copy"], &names);
-            pretty_items(functions).lines().map(str::to_owned).collect()
-        } else {
-            Vec::new()
+        by_number: match target.dynamics_name() {
+            Some(dynamics) if LANED.contains(&record.name.as_str()) => {
+                let names: Vec<_> = record.fields.iter().map(|field| field.name.as_str()).collect();
+                map_and_zip(dynamics, &record.name, ["T", "Copy"], &names)
+            }
+            _ => Vec::new(),
         },
     }
 }

@@ -30,8 +30,10 @@ pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
 /// When a template fails or a file would not parse.
 pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     let tera = templates()?;
-    let rust_file = |name: &str, text| rust_file(TargetCrate::Dynamics.path(name), text);
-    let records: Vec<_> = shared_records().iter().map(record_text).collect();
+    let target = TargetCrate::Dynamics;
+    let rust_file = |name: &str, text| rust_file(target.path(name), text);
+    let records = shared_records();
+    let records: Vec<_> = records.iter().map(|record| record_text(record, target)).collect();
     let mut context = Context::new();
     context.insert(
         "hash",

@@ -50,12 +50,9 @@ pub fn standalone_kernels(
 pub fn standalone_records(command: &str) -> Result<EmittedFile, EmitError> {
     let shared = shared_records();
     let records = shared.iter().filter(|record| OF_HUB.contains(&record.name.as_str()));
-    let mut records: Vec<_> = records.map(record_text).collect();
-    for record in &mut records {
-        record.by_number.clear();
-    }
-    let mut context = Context::new();
     let target = TargetCrate::Standalone(command);
+    let records: Vec<_> = records.map(|record| record_text(record, target)).collect();
+    let mut context = Context::new();
     context.insert("command", target.command());
     context.insert("hash", &fnv1a64(&format!("{shared:?}")));
     context.insert("records", &records);

@@ -39,11 +39,17 @@ impl TargetCrate<'_> {
 
     /// What the dynamics crate is called there.
     pub(super) fn dynamics(self) -> Result<Path, EmitError> {
-        let name = match self {
-            Self::Dynamics | Self::Standalone(_) => "crate",
-            Self::External(dynamics) => dynamics,
-        };
+        let name = self.dynamics_name().unwrap_or("crate");
         syn::parse_str(name).map_err(|error| EmitError::Syntax(name.to_owned(), error))
+    }
+
+    /// The name of the dynamics crate there; none where there is none.
+    pub(super) fn dynamics_name(&self) -> Option<&str> {
+        match self {
+            Self::Dynamics => Some("crate"),
+            Self::External(dynamics) => Some(dynamics),
+            Self::Standalone(_) => None,
+        }
     }
 
     /// What brings in these records of the hub, and `Real`.

@@ -178,73 +178,14 @@ pub struct Prepared<T> {
     pub second_moment_33: T,
 }
 
-impl<T: Copy> Prepared<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Prepared<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Prepared<W> {
-        Prepared {
-            mount_12: join(self.mount_12, other.mount_12),
-            mount_13: join(self.mount_13, other.mount_13),
-            mount_22: join(self.mount_22, other.mount_22),
-            mount_23: join(self.mount_23, other.mount_23),
-            mount_32: join(self.mount_32, other.mount_32),
-            mount_33: join(self.mount_33, other.mount_33),
-            r_w_b_bx: join(self.r_w_b_bx, other.r_w_b_bx),
-            r_w_b_by: join(self.r_w_b_by, other.r_w_b_by),
-            r_w_b_bz: join(self.r_w_b_bz, other.r_w_b_bz),
-            m_w: join(self.m_w, other.m_w),
-            j_11: join(self.j_11, other.j_11),
-            j_22: join(self.j_22, other.j_22),
-            second_moment_12: join(self.second_moment_12, other.second_moment_12),
-            i_w_b_12: join(self.i_w_b_12, other.i_w_b_12),
-            second_moment_13: join(self.second_moment_13, other.second_moment_13),
-            i_w_b_13: join(self.i_w_b_13, other.i_w_b_13),
-            second_moment_23: join(self.second_moment_23, other.second_moment_23),
-            i_w_b_23: join(self.i_w_b_23, other.i_w_b_23),
-            i_w_b_11: join(self.i_w_b_11, other.i_w_b_11),
-            i_w_b_22: join(self.i_w_b_22, other.i_w_b_22),
-            i_w_b_33: join(self.i_w_b_33, other.i_w_b_33),
-            mc_bx: join(self.mc_bx, other.mc_bx),
-            mc_by: join(self.mc_by, other.mc_by),
-            mc_bz: join(self.mc_bz, other.mc_bz),
-            n_w_bx: join(self.n_w_bx, other.n_w_bx),
-            n_w_by: join(self.n_w_by, other.n_w_by),
-            n_w_bz: join(self.n_w_bz, other.n_w_bz),
-            i_moving_11: join(self.i_moving_11, other.i_moving_11),
-            i_moving_12: join(self.i_moving_12, other.i_moving_12),
-            i_moving_13: join(self.i_moving_13, other.i_moving_13),
-            i_moving_22: join(self.i_moving_22, other.i_moving_22),
-            i_moving_23: join(self.i_moving_23, other.i_moving_23),
-            i_moving_33: join(self.i_moving_33, other.i_moving_33),
-            constant_mr_bx: join(self.constant_mr_bx, other.constant_mr_bx),
-            constant_mr_by: join(self.constant_mr_by, other.constant_mr_by),
-            constant_mr_bz: join(self.constant_mr_bz, other.constant_mr_bz),
-            constant_i_11: join(self.constant_i_11, other.constant_i_11),
-            constant_i_12: join(self.constant_i_12, other.constant_i_12),
-            constant_i_13: join(self.constant_i_13, other.constant_i_13),
-            constant_i_22: join(self.constant_i_22, other.constant_i_22),
-            constant_i_23: join(self.constant_i_23, other.constant_i_23),
-            constant_i_33: join(self.constant_i_33, other.constant_i_33),
-            k_0: join(self.k_0, other.k_0),
-            k_1: join(self.k_1, other.k_1),
-            second_moment_11: join(self.second_moment_11, other.second_moment_11),
-            second_moment_22: join(self.second_moment_22, other.second_moment_22),
-            second_moment_33: join(self.second_moment_33, other.second_moment_33),
-        }
-    }
-}
+crate::map_and_zip!(Prepared<T: Copy> {
+    mount_12, mount_13, mount_22, mount_23, mount_32, mount_33, r_w_b_bx, r_w_b_by, r_w_b_bz, m_w,
+    j_11, j_22, second_moment_12, i_w_b_12, second_moment_13, i_w_b_13, second_moment_23, i_w_b_23,
+    i_w_b_11, i_w_b_22, i_w_b_33, mc_bx, mc_by, mc_bz, n_w_bx, n_w_by, n_w_bz, i_moving_11,
+    i_moving_12, i_moving_13, i_moving_22, i_moving_23, i_moving_33, constant_mr_bx, constant_mr_by,
+    constant_mr_bz, constant_i_11, constant_i_12, constant_i_13, constant_i_22, constant_i_23,
+    constant_i_33, k_0, k_1, second_moment_11, second_moment_22, second_moment_33,
+});
 
 /// Joint rates, each relative to the parent body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -344,30 +285,7 @@ pub struct Gains<T> {
     pub free_w: T,
 }
 
-impl<T: Copy> Gains<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Gains<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Gains<W> {
-        Gains {
-            gain_w_w1: join(self.gain_w_w1, other.gain_w_w1),
-            gain_w_w2: join(self.gain_w_w2, other.gain_w_w2),
-            gain_w_w3: join(self.gain_w_w3, other.gain_w_w3),
-            free_w: join(self.free_w, other.free_w),
-        }
-    }
-}
+crate::map_and_zip!(Gains<T: Copy> { gain_w_w1, gain_w_w2, gain_w_w3, free_w });
 
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -387,27 +305,7 @@ pub struct JointAccelerations<T> {
     pub spin_dot: T,
 }
 
-impl<T: Copy> JointAccelerations<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &JointAccelerations<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> JointAccelerations<W> {
-        JointAccelerations {
-            spin_dot: join(self.spin_dot, other.spin_dot),
-        }
-    }
-}
+crate::map_and_zip!(JointAccelerations<T: Copy> { spin_dot });
 
 /// Axes of the bodies and origins of their joints, expressed in the device's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

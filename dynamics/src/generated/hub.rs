@@ -129,62 +129,12 @@ pub struct HubShare<T> {
     pub i_moving_33: T,
 }
 
-impl<T: Copy> HubShare<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> HubShare<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &HubShare<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> HubShare<W> {
-        HubShare {
-            m_vv_11: join(self.m_vv_11, other.m_vv_11),
-            m_vv_12: join(self.m_vv_12, other.m_vv_12),
-            m_vv_13: join(self.m_vv_13, other.m_vv_13),
-            m_vv_22: join(self.m_vv_22, other.m_vv_22),
-            m_vv_23: join(self.m_vv_23, other.m_vv_23),
-            m_vv_33: join(self.m_vv_33, other.m_vv_33),
-            m_vw_11: join(self.m_vw_11, other.m_vw_11),
-            m_vw_12: join(self.m_vw_12, other.m_vw_12),
-            m_vw_13: join(self.m_vw_13, other.m_vw_13),
-            m_vw_21: join(self.m_vw_21, other.m_vw_21),
-            m_vw_22: join(self.m_vw_22, other.m_vw_22),
-            m_vw_23: join(self.m_vw_23, other.m_vw_23),
-            m_vw_31: join(self.m_vw_31, other.m_vw_31),
-            m_vw_32: join(self.m_vw_32, other.m_vw_32),
-            m_vw_33: join(self.m_vw_33, other.m_vw_33),
-            m_ww_11: join(self.m_ww_11, other.m_ww_11),
-            m_ww_12: join(self.m_ww_12, other.m_ww_12),
-            m_ww_13: join(self.m_ww_13, other.m_ww_13),
-            m_ww_22: join(self.m_ww_22, other.m_ww_22),
-            m_ww_23: join(self.m_ww_23, other.m_ww_23),
-            m_ww_33: join(self.m_ww_33, other.m_ww_33),
-            h_v_1: join(self.h_v_1, other.h_v_1),
-            h_v_2: join(self.h_v_2, other.h_v_2),
-            h_v_3: join(self.h_v_3, other.h_v_3),
-            h_w_1: join(self.h_w_1, other.h_w_1),
-            h_w_2: join(self.h_w_2, other.h_w_2),
-            h_w_3: join(self.h_w_3, other.h_w_3),
-            mr_moving_bx: join(self.mr_moving_bx, other.mr_moving_bx),
-            mr_moving_by: join(self.mr_moving_by, other.mr_moving_by),
-            mr_moving_bz: join(self.mr_moving_bz, other.mr_moving_bz),
-            i_moving_11: join(self.i_moving_11, other.i_moving_11),
-            i_moving_12: join(self.i_moving_12, other.i_moving_12),
-            i_moving_13: join(self.i_moving_13, other.i_moving_13),
-            i_moving_22: join(self.i_moving_22, other.i_moving_22),
-            i_moving_23: join(self.i_moving_23, other.i_moving_23),
-            i_moving_33: join(self.i_moving_33, other.i_moving_33),
-        }
-    }
-}
+crate::map_and_zip!(HubShare<T: Copy> {
+    m_vv_11, m_vv_12, m_vv_13, m_vv_22, m_vv_23, m_vv_33, m_vw_11, m_vw_12, m_vw_13, m_vw_21,
+    m_vw_22, m_vw_23, m_vw_31, m_vw_32, m_vw_33, m_ww_11, m_ww_12, m_ww_13, m_ww_22, m_ww_23,
+    m_ww_33, h_v_1, h_v_2, h_v_3, h_w_1, h_w_2, h_w_3, mr_moving_bx, mr_moving_by, mr_moving_bz,
+    i_moving_11, i_moving_12, i_moving_13, i_moving_22, i_moving_23, i_moving_33,
+});
 
 /// Constant share of the hub: the mass of a device, and the part of its first moment and
 /// inertia about B that no joint changes, expressed in B.

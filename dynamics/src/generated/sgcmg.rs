@@ -349,140 +349,19 @@ pub struct Prepared<T> {
     pub k_46: T,
 }
 
-impl<T: Copy> Prepared<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Prepared<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Prepared<W> {
-        Prepared {
-            mount_11: join(self.mount_11, other.mount_11),
-            mount_12: join(self.mount_12, other.mount_12),
-            mount_13: join(self.mount_13, other.mount_13),
-            mount_21: join(self.mount_21, other.mount_21),
-            mount_22: join(self.mount_22, other.mount_22),
-            mount_23: join(self.mount_23, other.mount_23),
-            mount_31: join(self.mount_31, other.mount_31),
-            mount_32: join(self.mount_32, other.mount_32),
-            mount_33: join(self.mount_33, other.mount_33),
-            r_g_b_bx: join(self.r_g_b_bx, other.r_g_b_bx),
-            r_g_b_by: join(self.r_g_b_by, other.r_g_b_by),
-            r_g_b_bz: join(self.r_g_b_bz, other.r_g_b_bz),
-            r_gc_g_gx: join(self.r_gc_g_gx, other.r_gc_g_gx),
-            r_gc_g_gy: join(self.r_gc_g_gy, other.r_gc_g_gy),
-            m_g: join(self.m_g, other.m_g),
-            i_g_11: join(self.i_g_11, other.i_g_11),
-            i_g_12: join(self.i_g_12, other.i_g_12),
-            i_g_13: join(self.i_g_13, other.i_g_13),
-            i_g_22: join(self.i_g_22, other.i_g_22),
-            i_g_23: join(self.i_g_23, other.i_g_23),
-            i_g_33: join(self.i_g_33, other.i_g_33),
-            l_g_x: join(self.l_g_x, other.l_g_x),
-            l_g_y: join(self.l_g_y, other.l_g_y),
-            l_g_z: join(self.l_g_z, other.l_g_z),
-            d: join(self.d, other.d),
-            m_w: join(self.m_w, other.m_w),
-            j_11: join(self.j_11, other.j_11),
-            j_12: join(self.j_12, other.j_12),
-            j_13: join(self.j_13, other.j_13),
-            j_22: join(self.j_22, other.j_22),
-            j_23: join(self.j_23, other.j_23),
-            j_33: join(self.j_33, other.j_33),
-            m_d: join(self.m_d, other.m_d),
-            r_gc_b_bz: join(self.r_gc_b_bz, other.r_gc_b_bz),
-            arm_g_dz: join(self.arm_g_dz, other.arm_g_dz),
-            k_0: join(self.k_0, other.k_0),
-            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
-            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
-            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
-            k_1: join(self.k_1, other.k_1),
-            k_2: join(self.k_2, other.k_2),
-            k_3: join(self.k_3, other.k_3),
-            k_4: join(self.k_4, other.k_4),
-            k_5: join(self.k_5, other.k_5),
-            k_6: join(self.k_6, other.k_6),
-            mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
-            mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
-            mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
-            i_g_g_11: join(self.i_g_g_11, other.i_g_g_11),
-            i_g_g_12: join(self.i_g_g_12, other.i_g_g_12),
-            i_g_g_13: join(self.i_g_g_13, other.i_g_g_13),
-            i_g_g_22: join(self.i_g_g_22, other.i_g_g_22),
-            i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
-            i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
-            mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
-            k_7: join(self.k_7, other.k_7),
-            k_8: join(self.k_8, other.k_8),
-            k_9: join(self.k_9, other.k_9),
-            k_10: join(self.k_10, other.k_10),
-            k_11: join(self.k_11, other.k_11),
-            k_12: join(self.k_12, other.k_12),
-            k_13: join(self.k_13, other.k_13),
-            k_14: join(self.k_14, other.k_14),
-            k_15: join(self.k_15, other.k_15),
-            k_16: join(self.k_16, other.k_16),
-            k_17: join(self.k_17, other.k_17),
-            k_18: join(self.k_18, other.k_18),
-            k_19: join(self.k_19, other.k_19),
-            k_20: join(self.k_20, other.k_20),
-            mr_g_base_gy: join(self.mr_g_base_gy, other.mr_g_base_gy),
-            i_g_base_12: join(self.i_g_base_12, other.i_g_base_12),
-            i_g_base_13: join(self.i_g_base_13, other.i_g_base_13),
-            i_g_base_23: join(self.i_g_base_23, other.i_g_base_23),
-            i_g_base_33: join(self.i_g_base_33, other.i_g_base_33),
-            i_w_base_12: join(self.i_w_base_12, other.i_w_base_12),
-            i_w_base_22: join(self.i_w_base_22, other.i_w_base_22),
-            reach_bx: join(self.reach_bx, other.reach_bx),
-            reach_by: join(self.reach_by, other.reach_by),
-            reach_bz: join(self.reach_bz, other.reach_bz),
-            k_21: join(self.k_21, other.k_21),
-            k_22: join(self.k_22, other.k_22),
-            k_23: join(self.k_23, other.k_23),
-            constant_mr_bx: join(self.constant_mr_bx, other.constant_mr_bx),
-            constant_mr_by: join(self.constant_mr_by, other.constant_mr_by),
-            constant_mr_bz: join(self.constant_mr_bz, other.constant_mr_bz),
-            constant_i_11: join(self.constant_i_11, other.constant_i_11),
-            constant_i_12: join(self.constant_i_12, other.constant_i_12),
-            constant_i_13: join(self.constant_i_13, other.constant_i_13),
-            constant_i_22: join(self.constant_i_22, other.constant_i_22),
-            constant_i_23: join(self.constant_i_23, other.constant_i_23),
-            constant_i_33: join(self.constant_i_33, other.constant_i_33),
-            k_24: join(self.k_24, other.k_24),
-            k_25: join(self.k_25, other.k_25),
-            k_26: join(self.k_26, other.k_26),
-            k_27: join(self.k_27, other.k_27),
-            k_28: join(self.k_28, other.k_28),
-            k_29: join(self.k_29, other.k_29),
-            k_30: join(self.k_30, other.k_30),
-            k_31: join(self.k_31, other.k_31),
-            k_32: join(self.k_32, other.k_32),
-            k_33: join(self.k_33, other.k_33),
-            k_34: join(self.k_34, other.k_34),
-            k_35: join(self.k_35, other.k_35),
-            k_36: join(self.k_36, other.k_36),
-            k_37: join(self.k_37, other.k_37),
-            k_38: join(self.k_38, other.k_38),
-            k_39: join(self.k_39, other.k_39),
-            k_40: join(self.k_40, other.k_40),
-            k_41: join(self.k_41, other.k_41),
-            k_42: join(self.k_42, other.k_42),
-            k_43: join(self.k_43, other.k_43),
-            k_44: join(self.k_44, other.k_44),
-            k_45: join(self.k_45, other.k_45),
-            k_46: join(self.k_46, other.k_46),
-        }
-    }
-}
+crate::map_and_zip!(Prepared<T: Copy> {
+    mount_11, mount_12, mount_13, mount_21, mount_22, mount_23, mount_31, mount_32, mount_33,
+    r_g_b_bx, r_g_b_by, r_g_b_bz, r_gc_g_gx, r_gc_g_gy, m_g, i_g_11, i_g_12, i_g_13, i_g_22, i_g_23,
+    i_g_33, l_g_x, l_g_y, l_g_z, d, m_w, j_11, j_12, j_13, j_22, j_23, j_33, m_d, r_gc_b_bz,
+    arm_g_dz, k_0, mr_wc_w_wy, i_w_w_11, i_w_w_33, k_1, k_2, k_3, k_4, k_5, k_6, mr_gc_g_gx,
+    mr_gc_g_gy, mr_gc_g_gz, i_g_g_11, i_g_g_12, i_g_g_13, i_g_g_22, i_g_g_23, i_g_g_33, mr_d_g_gx,
+    k_7, k_8, k_9, k_10, k_11, k_12, k_13, k_14, k_15, k_16, k_17, k_18, k_19, k_20, mr_g_base_gy,
+    i_g_base_12, i_g_base_13, i_g_base_23, i_g_base_33, i_w_base_12, i_w_base_22, reach_bx,
+    reach_by, reach_bz, k_21, k_22, k_23, constant_mr_bx, constant_mr_by, constant_mr_bz,
+    constant_i_11, constant_i_12, constant_i_13, constant_i_22, constant_i_23, constant_i_33, k_24,
+    k_25, k_26, k_27, k_28, k_29, k_30, k_31, k_32, k_33, k_34, k_35, k_36, k_37, k_38, k_39, k_40,
+    k_41, k_42, k_43, k_44, k_45, k_46,
+});
 
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -758,33 +637,9 @@ pub struct Gains<T> {
     pub free_g: T,
 }
 
-impl<T: Copy> Gains<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Gains<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Gains<W> {
-        Gains {
-            gain_g_v1: join(self.gain_g_v1, other.gain_g_v1),
-            gain_g_v2: join(self.gain_g_v2, other.gain_g_v2),
-            gain_g_v3: join(self.gain_g_v3, other.gain_g_v3),
-            gain_g_w1: join(self.gain_g_w1, other.gain_g_w1),
-            gain_g_w2: join(self.gain_g_w2, other.gain_g_w2),
-            gain_g_w3: join(self.gain_g_w3, other.gain_g_w3),
-            free_g: join(self.free_g, other.free_g),
-        }
-    }
-}
+crate::map_and_zip!(Gains<T: Copy> {
+    gain_g_v1, gain_g_v2, gain_g_v3, gain_g_w1, gain_g_w2, gain_g_w3, free_g,
+});
 
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -806,28 +661,7 @@ pub struct JointAccelerations<T> {
     pub spin_dot: T,
 }
 
-impl<T: Copy> JointAccelerations<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &JointAccelerations<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> JointAccelerations<W> {
-        JointAccelerations {
-            gamma_ddot: join(self.gamma_ddot, other.gamma_ddot),
-            spin_dot: join(self.spin_dot, other.spin_dot),
-        }
-    }
-}
+crate::map_and_zip!(JointAccelerations<T: Copy> { gamma_ddot, spin_dot });
 
 /// Axes of the bodies and origins of their joints, expressed in the device's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -116,53 +116,11 @@ pub struct Prepared<T> {
     pub k_5: T,
 }
 
-impl<T: Copy> Prepared<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Prepared<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Prepared<W> {
-        Prepared {
-            mount_11: join(self.mount_11, other.mount_11),
-            mount_12: join(self.mount_12, other.mount_12),
-            mount_13: join(self.mount_13, other.mount_13),
-            mount_21: join(self.mount_21, other.mount_21),
-            mount_22: join(self.mount_22, other.mount_22),
-            mount_23: join(self.mount_23, other.mount_23),
-            mount_31: join(self.mount_31, other.mount_31),
-            mount_32: join(self.mount_32, other.mount_32),
-            mount_33: join(self.mount_33, other.mount_33),
-            r_s_b_bx: join(self.r_s_b_bx, other.r_s_b_bx),
-            r_s_b_by: join(self.r_s_b_by, other.r_s_b_by),
-            r_s_b_bz: join(self.r_s_b_bz, other.r_s_b_bz),
-            m_s: join(self.m_s, other.m_s),
-            k_0: join(self.k_0, other.k_0),
-            k_1: join(self.k_1, other.k_1),
-            i_s_b_11: join(self.i_s_b_11, other.i_s_b_11),
-            second_moment_23: join(self.second_moment_23, other.second_moment_23),
-            i_s_b_23: join(self.i_s_b_23, other.i_s_b_23),
-            mc_by: join(self.mc_by, other.mc_by),
-            mc_bz: join(self.mc_bz, other.mc_bz),
-            f_s_bx: join(self.f_s_bx, other.f_s_bx),
-            f_s_by: join(self.f_s_by, other.f_s_by),
-            f_s_bz: join(self.f_s_bz, other.f_s_bz),
-            k_2: join(self.k_2, other.k_2),
-            k_3: join(self.k_3, other.k_3),
-            k_4: join(self.k_4, other.k_4),
-            k_5: join(self.k_5, other.k_5),
-        }
-    }
-}
+crate::map_and_zip!(Prepared<T: Copy> {
+    mount_11, mount_12, mount_13, mount_21, mount_22, mount_23, mount_31, mount_32, mount_33,
+    r_s_b_bx, r_s_b_by, r_s_b_bz, m_s, k_0, k_1, i_s_b_11, second_moment_23, i_s_b_23, mc_by, mc_bz,
+    f_s_bx, f_s_by, f_s_bz, k_2, k_3, k_4, k_5,
+});
 
 /// Positions along the sliding joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -305,33 +263,9 @@ pub struct Gains<T> {
     pub free_s: T,
 }
 
-impl<T: Copy> Gains<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &Gains<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> Gains<W> {
-        Gains {
-            gain_s_v1: join(self.gain_s_v1, other.gain_s_v1),
-            gain_s_v2: join(self.gain_s_v2, other.gain_s_v2),
-            gain_s_v3: join(self.gain_s_v3, other.gain_s_v3),
-            gain_s_w1: join(self.gain_s_w1, other.gain_s_w1),
-            gain_s_w2: join(self.gain_s_w2, other.gain_s_w2),
-            gain_s_w3: join(self.gain_s_w3, other.gain_s_w3),
-            free_s: join(self.free_s, other.free_s),
-        }
-    }
-}
+crate::map_and_zip!(Gains<T: Copy> {
+    gain_s_v1, gain_s_v2, gain_s_v3, gain_s_w1, gain_s_w2, gain_s_w3, free_s,
+});
 
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -351,27 +285,7 @@ pub struct JointAccelerations<T> {
     pub x_ddot: T,
 }
 
-impl<T: Copy> JointAccelerations<T> {
-    /// The record with each of its numbers changed.
-    #[inline(always)]
-    #[must_use]
-    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
-    /// Two records joined number by number.
-    #[inline(always)]
-    #[must_use]
-    pub fn zip<U: Copy, W>(
-        &self,
-        other: &JointAccelerations<U>,
-        mut join: impl FnMut(T, U) -> W,
-    ) -> JointAccelerations<W> {
-        JointAccelerations {
-            x_ddot: join(self.x_ddot, other.x_ddot),
-        }
-    }
-}
+crate::map_and_zip!(JointAccelerations<T: Copy> { x_ddot });
 
 /// Axes of the bodies and origins of their joints, expressed in the device's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

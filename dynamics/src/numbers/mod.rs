@@ -8,6 +8,7 @@ pub(crate) mod each;
 pub(crate) mod lane;
 #[cfg(feature = "lanes")]
 pub(crate) mod laned;
+mod map_and_zip;
 pub(crate) mod real;
 pub(crate) mod sincos;
 #[cfg(test)]
