@@ -45,7 +45,11 @@ fn refusal(description: &Description) -> String {
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn the_committed_files_are_what_is_derived() {
-    for (name, _) in MISSIONS {
+    let committed = MISSIONS.map(|(name, _)| name).into_iter();
+    let committed: Vec<_> =
+        committed.filter(|name| folder(name).join("Cargo.toml").is_file()).collect();
+    assert_eq!(committed, ["imaging_satellite", "four_wheels"]);
+    for name in committed {
         for file in baked(&description(name)).files {
             let found = fs::read_to_string(folder(name).join(&file.path)).unwrap_or_default();
             assert!(found == file.text, "{name}/{} is stale; run `cargo xtask bake`", file.path);

@@ -8,7 +8,7 @@ use xtask::run::root;
 use super::suites::{How, Suite, When};
 
 /// The packages of the suites and their folders.
-const FOLDERS: [(&str, &str); 22] = [
+const FOLDERS: [(&str, &str); 19] = [
     ("precess-codegen", "codegen"),
     ("precess-bake", "codegen/bake"),
     ("precess-description", "codegen/description"),
@@ -22,9 +22,6 @@ const FOLDERS: [(&str, &str); 22] = [
     ("precess-baked", "tests/baked"),
     ("four-wheels", "tests/baked/four_wheels"),
     ("imaging-satellite", "tests/baked/imaging_satellite"),
-    ("imaging-satellite-constants", "tests/baked/imaging_satellite_constants"),
-    ("parked-spare", "tests/baked/parked_spare"),
-    ("table1", "tests/baked/table1"),
     ("precess-attack", "tests/attack"),
     ("precess", "sim"),
     ("xtask", "xtask"),

@@ -78,19 +78,29 @@ const MOVED: &[(&str, &str)] = &[
     ("dynamics/src/validation/imbalance_checks.rs ", "dynamics/src/validation/imbalance_tests.rs "),
 ];
 
-/// Tests that went with what they tested: why, and their lines in the list.
-const REMOVED: &[(&str, &[&str])] = &[(
-    "products and sums that are rounded once were removed: there is one result",
-    &[
-        "codegen/tests/mutation/sites.rs a_product_that_is_one_operation_with_a_sum_is_a_site",
-        "dynamics/src/numbers/real.rs mul_add_rounds_the_product_first",
-        "dynamics/src/numbers/sincos_checks.rs fused_sines_are_next_to_the_others",
-        "tests/tests/dynamics/lane_loads.rs fused_loads_agree_to_rounding",
-        "tests/tests/dynamics/lanes.rs fused_spacecraft_answers_all_questions_of_a_plain_one",
-        "tests/tests/dynamics/lanes.rs services_agree_with_higher_precision",
-        "tests/tests/dynamics/parameter_batch.rs fused_lanes_agree_to_rounding",
-    ],
-)];
+/// Tests that are no longer in the sources: why, and beginnings of their lines in the list.
+const REMOVED: &[(&str, &[&str])] = &[
+    (
+        "crates that the suite `agreement` of `precess-baked` emits, whose tests it runs",
+        &[
+            "tests/baked/imaging_satellite_constants/",
+            "tests/baked/parked_spare/",
+            "tests/baked/table1/",
+        ],
+    ),
+    (
+        "products and sums that are rounded once were removed: there is one result",
+        &[
+            "codegen/tests/mutation/sites.rs a_product_that_is_one_operation_with_a_sum_is_a_site",
+            "dynamics/src/numbers/real.rs mul_add_rounds_the_product_first",
+            "dynamics/src/numbers/sincos_checks.rs fused_sines_are_next_to_the_others",
+            "tests/tests/dynamics/lane_loads.rs fused_loads_agree_to_rounding",
+            "tests/tests/dynamics/lanes.rs fused_spacecraft_answers_all_questions_of_a_plain_one",
+            "tests/tests/dynamics/lanes.rs services_agree_with_higher_precision",
+            "tests/tests/dynamics/parameter_batch.rs fused_lanes_agree_to_rounding",
+        ],
+    ),
+];
 
 /// Folders that hold tests, from the root.
 const FOLDERS: [&str; 7] = ["codegen", "dynamics", "flight", "python", "sim", "tests", "xtask"];
@@ -178,7 +188,9 @@ fn read(line: &str) -> (String, u64) {
 #[test]
 fn no_test_and_no_case_of_the_list_is_lost() {
     let now = list(&root());
-    let removed = |line: &&str| REMOVED.iter().any(|(_, lines)| lines.contains(line));
+    let removed = |line: &&str| {
+        REMOVED.iter().flat_map(|(_, lines)| *lines).any(|beginning| line.starts_with(beginning))
+    };
     let lost: Vec<_> = BEFORE
         .lines()
         .filter(|line| !removed(line))
@@ -194,8 +206,9 @@ fn no_test_and_no_case_of_the_list_is_lost() {
 fn a_removed_test_is_of_the_list_and_gone() {
     let now = list(&root());
     for line in REMOVED.iter().flat_map(|(_, lines)| *lines) {
-        assert!(BEFORE.lines().any(|before| before == *line), "{line} is not in the list");
-        assert!(!now.contains_key(*line), "{line} is there");
+        let of_list = BEFORE.lines().any(|before| before.starts_with(line));
+        assert!(of_list, "{line} is not in the list");
+        assert!(!now.keys().any(|name| name.starts_with(line)), "{line} is there");
     }
 }
 
