@@ -13,7 +13,7 @@
 //! prescribed ([`HubMode`]); [`Spacecraft::loads`] returns the motor torques that this needs and
 //! the load on every joint, [`Spacecraft::ledger`] the power of every source;
 //! [`Spacecraft::derivatives`] and [`Spacecraft::parameter_derivatives`] differentiate what they
-//! compute.
+//! compute. Many states at a time: `lanes::Batch`, with the feature `lanes`.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

@@ -7,7 +7,7 @@ use crate::program::DERIVE;
 use xtask::capi::MANIFEST;
 use xtask::run::{cargo, program, target};
 
-/// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
+/// `regen --check`, `bake --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
 /// broken generated file is named as such before anything tries to compile it.
 pub(crate) fn check() -> Result<(), String> {
     DERIVE.run(&["regen", "--check", "--quiet"])?;

@@ -39,7 +39,7 @@ enum Command {
     /// Derive, prove and write kernels of one spacecraft; without a file, those of the tests
     #[command(disable_help_flag = true)]
     Bake(Forwarded),
-    /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
+    /// The quick loop: `regen --check`, `bake --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
     /// Format and clippy, warnings denied
@@ -49,7 +49,7 @@ enum Command {
     /// time, and check that a law of physics fails
     #[command(disable_help_flag = true)]
     Mutate(Forwarded),
-    /// Test each promise once; everything with `--all`, what a change can break with `--for`
+    /// Test most promises, each once; everything with `--all`, what a change can break with `--for`
     #[command(
         after_help = "Examples: cargo xtask test\n          cargo xtask test --for dynamics/src/solve\n          cargo xtask test --all"
     )]

@@ -2,7 +2,7 @@
 //!
 //! | to evaluate | use |
 //! |---|---|
-//! | one state after another | [`Spacecraft`](crate::Spacecraft) |
+//! | one state | [`Spacecraft`](crate::Spacecraft) |
 //! | many states, or their runs, of one spacecraft or of one each | [`Batch`] |
 //! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] |
 //! | a batch on several threads, with the feature `threads` | `on_threads` |
@@ -22,6 +22,9 @@
 //! scalar path: of a run, at most 32 steps at a time. So does whatever fails in a lane, which is how
 //! its error is found; the other lanes keep their results. So do groups of spacecraft of which one has
 //! a vector of another length than the first of the batch: all of them, for the whole run.
+//!
+//! A `Batch` takes no flexible structure, no isolated platform, no `BuiltIn`, no `Option` of a device, no
+//! attitude but a `Quaternion`, and no `f32`: evaluate these by `Spacecraft`, one state after another.
 //!
 //! Wrenches, a central field, the lumped model and dry friction are computed before the elimination,
 //! for those groups of lanes of which one has them: where none has, they cost nothing.

@@ -1,4 +1,4 @@
-//! `test`: each promise once; with `--all` everything; with `--for` what a change can break.
+//! `test`: most promises, each once; with `--all` everything; with `--for` what a change can break.
 //!
 //! Test programs are built first and then run, as many at a time as there are cores. What is built for others (boards,
 //! Python, reports) goes on beside them, in build folders of its own. What each suite took is in a table at the

@@ -70,7 +70,7 @@ const OUTSIDE: &[&str] = &["tests/outside"];
 /// What is stored of the engines, and the scripts that store it.
 const ENGINES: &[&str] = &["tests/engines", "tests/fixtures"];
 /// The desktop tool, whichever of its commands.
-const DESKTOP: &[&str] = &["sim/Cargo.toml", "sim/craft", "sim/src", "scenarios"];
+const DESKTOP: &[&str] = &["sim/Cargo.toml", "sim/craft", "sim/schema", "sim/src", "scenarios"];
 /// What goes on board.
 const BOARD: &[&str] = &["flight"];
 /// Pages.
@@ -129,20 +129,40 @@ pub(crate) const SUITES: &[Suite] = &[
     command(&["demo"], When::All, &[GENERATOR, SOLVER, DESKTOP]),
     // The generator.
     always("precess-codegen", "lib", &[GENERATOR]),
-    always("precess-codegen", "c_kernels", &[GENERATOR, SOLVER, OUTSIDE]),
-    always("precess-codegen", "chains", &[GENERATOR]),
+    always(
+        "precess-codegen",
+        "c_kernels",
+        &[GENERATOR, SOLVER, OUTSIDE, &["codegen/tests/c_kernels", "docs/c.md"]],
+    ),
+    always("precess-codegen", "chains", &[GENERATOR, &["codegen/tests/chains.rs"]]),
     always(
         "precess-codegen",
         "external_kind",
-        &[GENERATOR, SOLVER, OUTSIDE, &["codegen/tests", "docs"]],
+        &[GENERATOR, SOLVER, OUTSIDE, &["codegen/tests/external_kind", "docs/adding-a-kind.md"]],
     ),
-    always("precess-codegen", "flexible_wheels", &[GENERATOR]),
-    always("precess-codegen", "limits", &[GENERATOR]),
-    always("precess-codegen", "modes", &[GENERATOR]),
-    always("precess-codegen", "mutation", &[GENERATOR]),
-    always("precess-codegen", "passes", &[GENERATOR]),
-    always("precess-codegen", "point_masses", &[GENERATOR]),
-    always("precess-codegen", "registry", &[GENERATOR, SOLVER, DESKTOP, BOARD, PAGES]),
+    always(
+        "precess-codegen",
+        "flexible_wheels",
+        &[GENERATOR, &["codegen/tests/flexible_wheels.rs"]],
+    ),
+    always("precess-codegen", "limits", &[GENERATOR, &["codegen/tests/limits.rs"]]),
+    always("precess-codegen", "modes", &[GENERATOR, &["codegen/tests/modes.rs"]]),
+    always(
+        "precess-codegen",
+        "mutation",
+        &[GENERATOR, &["codegen/tests/mutation", "codegen/tests/folder"]],
+    ),
+    always("precess-codegen", "passes", &[GENERATOR, &["codegen/tests/passes.rs"]]),
+    always(
+        "precess-codegen",
+        "point_masses",
+        &[GENERATOR, &["codegen/tests/point_masses.rs", "codegen/tests/folder"]],
+    ),
+    always(
+        "precess-codegen",
+        "registry",
+        &[GENERATOR, SOLVER, DESKTOP, BOARD, PAGES, &["codegen/tests/registry.rs"]],
+    ),
     always("precess-bake", "lib", &[GENERATOR, BAKING]),
     always("precess-bake", "c_reference", &[GENERATOR, BAKING]),
     always("precess-bake", "missions", &[GENERATOR, BAKING]),
@@ -150,7 +170,14 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-description", "lib", &[BAKING]),
     always("precess-review", "lib", &[GENERATOR, &["codegen/review"]]),
     always("precess-review", "physics", &[GENERATOR, &["codegen/review", "tests/fixtures"]]),
-    always("precess-review", "printed", &[GENERATOR, &["codegen/review"]]),
+    always(
+        "precess-review",
+        "printed",
+        &[
+            GENERATOR,
+            &["codegen/review", "codegen/tests/folder", "docs/errata.md", "docs/letter.md"],
+        ],
+    ),
     all(
         "precess-derive",
         "bin",
@@ -213,34 +240,50 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-baked", "operations", &[BAKING]),
     always("four-wheels", "reference", &[BAKING]),
     always("imaging-satellite", "reference", &[BAKING]),
-    always("imaging-satellite-constants", "lib", &[BAKING]),
-    always("imaging-satellite-constants", "reference", &[BAKING]),
-    always("parked-spare", "reference", &[BAKING]),
-    always("table1", "reference", &[BAKING]),
     all("precess-attack", "numbers", &[&["tests/attack"]]),
     all("precess-attack", "printed", &[SOLVER, LANES, &["tests/attack"]]),
     all("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),
-    always("precess", "campaign", &[SOLVER, DESKTOP, &["sim/tests/campaign"]]),
-    always("precess", "command", &[SOLVER, DESKTOP, &["sim/tests/command.rs"]]),
+    always("precess", "campaign", &[SOLVER, DESKTOP, &["sim/tests/campaign", "sim/tests/shared"]]),
+    always(
+        "precess",
+        "command",
+        &[SOLVER, DESKTOP, &["sim/tests/command.rs", "sim/tests/shared", "tests/baked"]],
+    ),
     always("precess", "corpus", &[SOLVER, DESKTOP, &["sim/tests/corpus.rs", "sim/fuzz"]]),
     always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
     always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
-    always("precess", "jitter", &[SOLVER, DESKTOP, &["sim/tests/jitter"]]),
-    always("precess", "kill", &[DESKTOP, &["sim/tests/kill.rs"]]),
+    always(
+        "precess",
+        "jitter",
+        &[SOLVER, DESKTOP, &["sim/tests/jitter", "sim/examples", "docs/imbalance-map.md"]],
+    ),
+    always("precess", "kill", &[DESKTOP, &["sim/tests/kill.rs", "sim/tests/shared"]]),
     always("precess", "known_answers", &[SOLVER, DESKTOP, &["sim/tests/known_answers.rs"]]),
-    always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs"]]),
-    always("precess", "picture", &[SOLVER, DESKTOP, &["docs"]]),
+    always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs", "sim/tests/shared"]]),
+    always("precess", "picture", &[SOLVER, DESKTOP, &["sim/tests/picture.rs", "docs"]]),
     always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms.rs"]]),
-    always("precess", "reported", &[SOLVER, DESKTOP, &["sim/tests/reported"]]),
-    always("precess", "scenarios", &[SOLVER, DESKTOP, &["docs"]]),
+    always(
+        "precess",
+        "reported",
+        &[SOLVER, DESKTOP, &["sim/tests/reported", "docs/commands.md", "docs/scenarios.md"]],
+    ),
+    always("precess", "scenarios", &[SOLVER, DESKTOP, &["sim/tests/scenarios.rs", "docs"]]),
     always("precess", "schema", &[DESKTOP, &["sim/tests/schema"]]),
     always("precess", "sources", &[SOLVER, DESKTOP, &["sim/tests/sources"]]),
-    always("precess", "spectra", &[SOLVER, DESKTOP, &["sim/tests/spectra"]]),
-    always("precess", "structure", &[SOLVER, DESKTOP, &["sim/tests/structure", "tests/engines"]]),
-    always("precess", "table1", &[SOLVER, DESKTOP, REFERENCES, &["codegen/review"]]),
+    always("precess", "spectra", &[SOLVER, DESKTOP, &["sim/tests/spectra", "sim/tests/shared"]]),
+    always(
+        "precess",
+        "structure",
+        &[SOLVER, DESKTOP, &["sim/tests/structure", "sim/tests/shared", "tests/engines"]],
+    ),
+    always(
+        "precess",
+        "table1",
+        &[SOLVER, DESKTOP, REFERENCES, &["sim/tests/table1.rs", "codegen/review"]],
+    ),
     // The workbench.
     always("xtask", "lib", &[&["xtask/src"]]),
     always("xtask", "bin", &[&["xtask/src", "xtask/features", "Cargo.toml"]]),
