@@ -146,27 +146,17 @@ impl<T: Scalar, E: Eliminate<T>, W: DeviceSet<Scalar = T>> Row<'_, '_, '_, T, E,
             let copies = bodies_of.insert([K::all(Wrench::none()); WIDEST]);
             copy::<K, N, Bodies<T>, W>(bodies, first, copies.get_mut(..count)?)?;
         }
-        // Lanes without a device repeat the last.
-        let last = count.saturating_sub(1);
-        let (joints, motors, modes) = (&joints_of, &motors_of, &modes_of);
-        let members = core::array::from_fn(
-            #[inline(always)]
-            |lane| {
-                let lane = lane.min(last);
-                let bodies = bodies_of.as_ref().map(|bodies| of_lane(bodies, lane));
-                let (motors, modes) = (of_lane(motors, lane), of_lane(modes, lane));
-                (of_lane(joints, lane), JointInputs { motors, modes, bodies })
-            },
-        );
+        let of_lane = |MemberIndex(lane)| {
+            let bodies = match &bodies_of {
+                Some(bodies) => Some(bodies.get(lane)?),
+                None => None,
+            };
+            let (motors, modes) = (motors_of.get(lane)?, modes_of.get(lane)?);
+            Some((joints_of.get(lane)?, JointInputs { motors, modes, bodies }))
+        };
+        let members = members(0, count, of_lane)?;
         Some(elimination.group(group, members))
     }
-}
-
-/// What a lane has; of no lane there is, the first's.
-#[inline(always)]
-fn of_lane<M>(all: &[M; WIDEST], lane: usize) -> &M {
-    let [first, ..] = all;
-    all.get(lane).unwrap_or(first)
 }
 
 /// Copies of the data of devices in a row in the structures of their kind; none where they are of another.

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use super::blocks::DeviceBlocks;
 use super::registers::Registers;
-use super::thresholds::fewest;
+use super::thresholds::side_by_side;
 use crate::equations::device::Device;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
@@ -34,12 +34,12 @@ pub(crate) fn group<'a, K: Kind>(
         Some(registers) if K::Scalar::IS_F64 => registers.width(),
         _ => return (1, None),
     };
-    let devices: Vec<_> = devices.take(widest).collect();
-    let count = devices.len();
-    let Some(registers) = Registers::for_devices(count) else { return (1, None) };
-    if count < fewest(K::NAME, K::JOINTS.len(), registers.width()) {
+    let mut devices: Vec<_> = devices.take(widest).collect();
+    let Some(count) = side_by_side(K::NAME, K::JOINTS.len(), devices.len(), widest) else {
         return (1, None);
-    }
+    };
+    devices.truncate(count);
+    let Some(registers) = Registers::for_devices(count) else { return (1, None) };
     let mut weight = Block::ZERO;
     (0..count).for_each(|lane| weight.put(lane, 1.0));
     let made = |blocks| {
