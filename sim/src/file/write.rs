@@ -19,8 +19,8 @@ use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
-    Action, AppliedWrench, Drive, Format, IntegratorChoice, Member, Profile, Scenario, Statistic,
-    StopAction, Target, WrenchAxes, body_key, joint_key,
+    Action, AppliedWrench, BodyPoint, Drive, Format, IntegratorChoice, Member, Profile, Scenario,
+    Statistic, StopAction, Target, WrenchAxes, body_key, joint_key,
 };
 
 /// The text.
@@ -59,6 +59,10 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
     devices(out, s)?;
     for wrench in &s.wrenches {
         applied(out, s, wrench)?;
+    }
+    for BodyPoint { name, body, position } in &s.points {
+        writeln!(out, "\n[[point]]\nname = {}\non = {}", quoted(name), target(s, *body))?;
+        writeln!(out, "position = {}", vector(position, "m"))?;
     }
     for of in &s.disturbances {
         source::write(out, s, of)?;
@@ -261,13 +265,16 @@ fn keys_of(profile: &Profile, unit: &str) -> String {
     }
 }
 
+fn target(s: &Scenario, body: Target) -> String {
+    match body {
+        Target::Hub => quoted("hub"),
+        Target::Joint(joint) => quoted(&joint_name(s, joint)),
+        Target::Node(node) => quoted(structure::node_name(s, node)),
+    }
+}
+
 fn applied(out: &mut String, s: &Scenario, wrench: &AppliedWrench) -> Written {
-    let on = match wrench.body {
-        Target::Hub => "hub".to_owned(),
-        Target::Joint(joint) => joint_name(s, joint),
-        Target::Node(node) => structure::node_name(s, node).to_owned(),
-    };
-    writeln!(out, "\n[[wrench]]\non = {}", quoted(&on))?;
+    writeln!(out, "\n[[wrench]]\non = {}", target(s, wrench.body))?;
     for (key, three, unit) in [("force", &wrench.force, "N"), ("moment", &wrench.moment, "N m")] {
         let [x, y, z] = three.each_ref().map(|profile| of_profile(profile, unit));
         writeln!(out, "{key} = {{ x = {x}, y = {y}, z = {z} }}")?;

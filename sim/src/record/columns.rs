@@ -8,6 +8,7 @@
 
 mod disturbances;
 mod orbit;
+mod points;
 mod quantity;
 mod structure;
 
@@ -58,6 +59,7 @@ impl Columns {
             of_joint(&mut columns, name, joint, info);
         }
         structure::columns(&mut columns, scenario);
+        points::columns(&mut columns, scenario);
         disturbances::columns(&mut columns, scenario);
         totals(&mut columns);
         for (index, (name, member)) in scenario.members().enumerate() {

@@ -113,6 +113,7 @@ impl Scenario {
         errors.extend(self.check_hub());
         errors.extend(self.check_names());
         errors.extend(self.check_joints());
+        errors.extend(self.check_points());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {

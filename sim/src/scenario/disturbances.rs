@@ -78,6 +78,7 @@ impl Scenario {
         }
         let columns = format!("source_{name}");
         let points = self.structure.iter().flat_map(|of| &of.points).map(|point| &point.name);
+        let points = points.chain(self.points.iter().map(|point| &point.name));
         let known = self.names.iter().chain(points).any(|known| *known == columns);
         known.then(|| format!("`{columns}` names other columns, of a device or point; rename one"))
     }

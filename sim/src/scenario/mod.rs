@@ -7,6 +7,7 @@
 //! Invariants of a checked scenario ([`Scenario::check`]): names of devices are unique; every
 //! joint number, time and bound is in range; [`Scenario::spacecraft`] succeeds.
 
+mod body_point;
 mod check;
 mod description;
 mod disturbances;
@@ -27,6 +28,7 @@ use precess_description::Turn;
 use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Quaternion, Spacecraft, State};
 
+pub use body_point::BodyPoint;
 pub use check::ScenarioError;
 pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
@@ -82,6 +84,8 @@ pub struct Scenario {
     pub stops: Vec<EndStop>,
     /// Wrenches from outside.
     pub wrenches: Vec<AppliedWrench>,
+    /// Points of the hub and of the devices' bodies whose motion is recorded.
+    pub points: Vec<BodyPoint>,
     /// Empirical sources of force and torque.
     pub disturbances: Vec<Disturbance>,
     /// Changes of drives at times, in the order of time.

@@ -13,9 +13,7 @@ use precess_dynamics::{
 };
 
 use super::check::range;
-use super::reserved::is_reserved;
 use super::{Scenario, ScenarioError, Set, Target, WrenchAxes, set_of};
-use crate::names::{NameFault, column_name_fault};
 use crate::structure::{COORDINATES, Mode, RigidMass};
 
 /// A flexible structure.
@@ -244,25 +242,10 @@ impl Scenario {
         }
         for (index, point) in structure.points.iter().enumerate() {
             let name = point.name.as_str();
-            if let Some(fault) = column_name_fault(name) {
-                let remedy = match fault {
-                    NameFault::Column => {
-                        format!("; write `name = \"camera\"` and `node = \"{name}\"`")
-                    }
-                    _ => String::new(),
-                };
-                let message = format!("{fault}{remedy}");
-                errors.push(range(&format!("structure.point.{name}.name"), message));
-            }
             let earlier = structure.points.iter().take(index).any(|other| other.name == name);
-            let group = is_reserved(name);
-            if earlier || group || self.names.iter().any(|device| device == name) {
-                let message = format!(
-                    "`{name}` names other columns, of a device, a point or a group; choose \
-                     another name, and give the node by `node`"
-                );
-                errors.push(range(&format!("structure.point.{name}.name"), message));
-            }
+            let remedy =
+                format!("write another name, `name = \"camera\"`, and `node = \"{name}\"`");
+            errors.extend(self.point_name_error(("structure.point", name), earlier, &remedy));
         }
         errors
     }

@@ -15,7 +15,7 @@ const SCENARIO: &str = "format = 1\n[hub]\nmass = \"50 kg\"\ninertia = \"9, 8, 7
     imbalance.static = \"0.1 g cm\"\nwheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\", rate = \"3000 rpm\" }\n";
 
 /// Tables with a name, each with the key of its list: `@` is the name.
-const NAMED: [(&str, &str); 10] = [
+const NAMED: [(&str, &str); 11] = [
     ("device", "name = @\nkind = \"slosh_mass\"\nslosh_mass.mass = \"1 kg\"\n"),
     ("platform", "name = @\nmass = \"1 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n"),
     (
@@ -30,6 +30,7 @@ const NAMED: [(&str, &str); 10] = [
     ("crossing", "name = @\ncolumn = \"rw.spin\"\nvalue = \"1 rpm\"\n"),
     ("at", "name = @\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"\n"),
     ("wrench", "name = @\non = \"hub\"\nforce = \"0, 0, 1 mN\"\n"),
+    ("point", "name = @\nposition = \"0, 0, 1 cm\"\n"),
     ("structure.node", "name = @\nposition = \"0, 0, 1 m\"\n"),
     ("structure.point", "name = @\nnode = \"tip\"\n"),
 ];

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 39] = [
+const OTHERS: [&str; 40] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -75,6 +75,7 @@ const OTHERS: [&str; 39] = [
      inertia = \"1, 1, 1 g m^2\"\nx_slide = { corner_frequency = \"9 Hz\" }\n\
      z_turn = { torque = \"1 mN m\" }\n\
      mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }",
+    "[[point]]\nname = \"a\"\non = \"rw.wheel\"\nposition = \"0, 0, 1 cm\"",
     "[[wrench]]\non = \"hub\"\nforce = { x = \"1 N\" }\nmoment = { z = \"1 N m\" }",
     "[[source]]\nname = \"tones\"\non = \"hub\"\nwheel = \"rw.wheel\"\npoint = \"0, 0, 1 cm\"\n\
      seed = 1\nmount = { axis = [0, 0, 1], angle = \"30 deg\" }\n[[source.harmonic]]\nnumber = 2.5\n\

@@ -63,6 +63,26 @@ impl Chain {
         members(set).into_iter().map(chain).collect()
     }
 
+    /// The number of the first joint in the set.
+    pub(super) fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The number of the last one.
+    pub(super) fn tip(&self) -> usize {
+        (self.first + self.bodies.len()).saturating_sub(1)
+    }
+
+    /// The mount: columns are the device's axes, expressed in those of the base.
+    pub(super) fn mount(&self) -> Matrix3<f64> {
+        self.mount
+    }
+
+    /// The bodies and their joints, from the base to the tip.
+    pub(super) fn bodies(&self) -> &[(BodyParameters<f64>, &'static JointInfo)] {
+        &self.bodies
+    }
+
     /// The number of the platform's chain whose tip is the base; none on the hub.
     pub(crate) fn on(&self) -> Option<usize> {
         self.on
@@ -125,15 +145,7 @@ pub(crate) fn momenta(
     mut each: impl FnMut(BodyMomentum),
 ) {
     let nb = state.attitude.dcm().transpose();
-    // Every point and axis is expressed in B, every velocity is inertial.
-    let b = Frame {
-        axes: Matrix3::identity(),
-        omega: state.omega,
-        origin: nb.tr_mul(&state.r_b_n),
-        velocity: nb.tr_mul(&state.r_b_n_dot),
-        far: magnitude(&state.r_b_n),
-        fast: magnitude(&state.r_b_n_dot),
-    };
+    let b = Frame::of_hub(state);
     let mut in_n = |body: BodyMomentum| {
         each(BodyMomentum { linear: nb * body.linear, angular: nb * body.angular, ..body });
     };
@@ -159,21 +171,34 @@ pub(crate) fn magnitude(vector: &Vector3<f64>) -> f64 {
 
 /// A frame on a moving body.
 #[derive(Clone, Copy)]
-struct Frame {
+pub(super) struct Frame {
     /// Columns: the frame's axes expressed in B.
-    axes: Matrix3<f64>,
-    omega: Vector3<f64>,
+    pub(super) axes: Matrix3<f64>,
+    pub(super) omega: Vector3<f64>,
     /// From the inertial origin, expressed in B, as all below.
-    origin: Vector3<f64>,
-    velocity: Vector3<f64>,
+    pub(super) origin: Vector3<f64>,
+    pub(super) velocity: Vector3<f64>,
     /// Sums of the magnitudes of the terms of origin and velocity.
     far: f64,
     fast: f64,
 }
 
 impl Frame {
+    /// That of the hub. Every point and axis is expressed in B, every velocity is inertial.
+    pub(super) fn of_hub(state: &CraftState) -> Self {
+        let nb = state.attitude.dcm().transpose();
+        Self {
+            axes: Matrix3::identity(),
+            omega: state.omega,
+            origin: nb.tr_mul(&state.r_b_n),
+            velocity: nb.tr_mul(&state.r_b_n_dot),
+            far: magnitude(&state.r_b_n),
+            fast: magnitude(&state.r_b_n_dot),
+        }
+    }
+
     /// The same body, the origin moved by an offset expressed in the frame's axes.
-    fn moved(&self, offset: Vector3<f64>) -> Self {
+    pub(super) fn moved(&self, offset: Vector3<f64>) -> Self {
         let offset = self.axes * offset;
         let turning = self.omega.cross(&offset);
         Self {
@@ -186,7 +211,7 @@ impl Frame {
     }
 
     /// The child body of a joint at this frame.
-    fn jointed(&self, info: &JointInfo, [coordinate, rate]: [f64; 2]) -> Self {
+    pub(super) fn jointed(&self, info: &JointInfo, [coordinate, rate]: [f64; 2]) -> Self {
         let axis = self.axes * unit(info);
         if info.slides {
             let moved = self.moved(unit(info) * coordinate);
@@ -210,7 +235,7 @@ impl Frame {
 }
 
 /// The axis of a joint, expressed in its parent's axes and in its child's.
-fn unit(info: &JointInfo) -> Vector3<f64> {
+pub(super) fn unit(info: &JointInfo) -> Vector3<f64> {
     let mut axis = Vector3::zeros();
     axis[info.axis.min(2)] = 1.0;
     axis

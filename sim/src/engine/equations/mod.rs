@@ -5,5 +5,6 @@ mod disturbances;
 pub(super) mod inputs;
 pub(super) mod kinematics;
 pub(super) mod packing;
+pub(crate) mod points;
 pub(super) mod run_quantities;
 pub(super) mod system;

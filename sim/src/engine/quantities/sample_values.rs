@@ -13,11 +13,14 @@ use precess_dynamics::{
 use super::drift::energies;
 use super::member_loads::MemberLoads;
 use crate::disturbance::Six;
+use crate::engine::equations::points::{
+    Accelerations, PointMotion as BodyPointMotion, point_motion,
+};
 use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::rotation::{inverse, product, to_vector};
-use crate::scenario::{OrbitalFrame, Scenario, roll_pitch_yaw};
+use crate::scenario::{BodyPoint, OrbitalFrame, Scenario, roll_pitch_yaw};
 use precess_craft::{CraftInputs, CraftState};
 
 /// The numbers of a sample, and what has to be computed for them.
@@ -37,6 +40,8 @@ pub(crate) struct SampleValues {
     reference: [f64; 4],
     /// The recorded points of the structure.
     points: Vec<Point>,
+    /// Those of bodies; none where no column shows them.
+    body_points: Vec<BodyPoint>,
 }
 
 /// A recorded point of the structure, and what is computed of it.
@@ -68,6 +73,7 @@ struct Computed<'a> {
     motors: Option<Vec<(f64, Mode)>>,
     loads: Option<MemberLoads>,
     points: &'a [Point],
+    body_points: Vec<BodyPointMotion>,
     /// Force and moment of each disturbance.
     disturbances: Vec<Six<f64>>,
 }
@@ -95,6 +101,14 @@ impl SampleValues {
             acceleration: None,
         });
         let points = points.collect();
+        let of_bodies = quantities.iter().any(|quantity| {
+            matches!(
+                quantity,
+                Quantity::BodyPointPosition(..)
+                    | Quantity::BodyPointVelocity(..)
+                    | Quantity::BodyPointAcceleration(..)
+            )
+        });
         Self {
             numbers: vec![0.0; quantities.len()],
             accelerations: quantities.iter().any(Quantity::is_acceleration),
@@ -109,6 +123,7 @@ impl SampleValues {
             inputs: None,
             reference: numbers(&scenario.reference),
             points,
+            body_points: if of_bodies { scenario.points.clone() } else { Vec::new() },
             quantities,
         }
     }
@@ -162,6 +177,22 @@ impl SampleValues {
                 point.acceleration = Some(craft.point_acceleration(&point.place, state, found)?);
             }
         }
+        let joints: Vec<_> = state.devices.states().collect();
+        let accelerations = found.map(|found| SampleAccelerations {
+            b: found.r_b_n_ddot,
+            omega_dot: found.omega_dot,
+            joints: found.devices.values().collect(),
+        });
+        let of_points = accelerations.as_ref().map(|of| Accelerations {
+            b: of.b,
+            omega_dot: of.omega_dot,
+            joints: &of.joints,
+        });
+        let chains = system.acting.chains();
+        let body_points = self.body_points.iter();
+        let body_points =
+            body_points.map(|point| point_motion(point, chains, state, &joints, of_points));
+        let body_points = body_points.collect();
         let computed = Computed {
             moment,
             turns,
@@ -172,15 +203,12 @@ impl SampleValues {
             orbit: self.orbit.then(|| in_orbit(state)).flatten(),
             rotation: to_vector(product(inverse(self.reference), numbers(&state.attitude))),
             momentum,
-            joints: state.devices.states().collect(),
-            accelerations: found.map(|found| SampleAccelerations {
-                b: found.r_b_n_ddot,
-                omega_dot: found.omega_dot,
-                joints: found.devices.values().collect(),
-            }),
+            joints,
+            accelerations,
             motors: inputs.map(|of| of.motors.values().zip(of.modes.values()).collect()),
             loads,
             points: &self.points,
+            body_points,
             disturbances: if self.disturbances {
                 system.acting.disturbances(held_from, state)
             } else {
@@ -204,6 +232,7 @@ impl Computed<'_> {
             let [coordinate, rate] = self.joints.get(joint).copied().unwrap_or([f64::NAN; 2]);
             [coordinate + turns * TAU, rate]
         };
+        let of_body = |point: usize| self.body_points.get(point);
         let loads = self.loads.as_ref();
         let q = state.attitude;
         let known = match quantity {
@@ -259,6 +288,11 @@ impl Computed<'_> {
             Quantity::PointAcceleration(point, axis) => {
                 let acceleration = self.points.get(point).and_then(|point| point.acceleration);
                 acceleration.map(|found| found.acceleration[axis])
+            }
+            Quantity::BodyPointPosition(point, axis) => of_body(point).map(|of| of.position[axis]),
+            Quantity::BodyPointVelocity(point, axis) => of_body(point).map(|of| of.velocity[axis]),
+            Quantity::BodyPointAcceleration(point, axis) => {
+                of_body(point).map(|of| of.acceleration[axis])
             }
         };
         known.unwrap_or(f64::NAN)

@@ -2,6 +2,7 @@
 
 mod changes;
 mod conservation;
+mod points;
 mod stops;
 mod table1;
 mod wrenches;
@@ -77,6 +78,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
         drives: vec![free; joints],
         stops: Vec::new(),
         wrenches: Vec::new(),
+        points: Vec::new(),
         disturbances: Vec::new(),
         changes: Vec::new(),
         crossings: Vec::new(),

@@ -1,4 +1,5 @@
-//! What happens over time: `[[at]]`, changes at times, and `[[wrench]]`, wrenches from outside.
+//! What happens over time: `[[at]]`, changes at times, and `[[wrench]]`, wrenches from outside; and `[[point]]`, points
+//! of bodies that are recorded.
 
 use std::path::Path;
 
@@ -11,7 +12,9 @@ use crate::file::read::devices::body::drive;
 use crate::file::read::devices::joint_measures::JointMeasures;
 use crate::file::read::devices::joints::Joints;
 use crate::file::read::values::drive::profile;
-use crate::scenario::{Action, AppliedWrench, Change, Profile, Settings, Target, WrenchAxes};
+use crate::scenario::{
+    Action, AppliedWrench, BodyPoint, Change, Profile, Settings, Target, WrenchAxes,
+};
 use crate::units::{Measure, Plain};
 
 /// `[[at]]`: `time`, `joint`, and `brake = true`, `locked = true`, a `torque`, an `acceleration`;
@@ -91,14 +94,7 @@ fn wrench(
     if !keys.has("on") {
         keys.missing("on", "on = \"hub\"");
     }
-    let body = match keys.text("on") {
-        None => None,
-        Some(name) if structure.is_some_and(|structure| structure.has_node(name)) => {
-            structure.and_then(|structure| structure.used(name)).map(Target::Node)
-        }
-        Some("hub") => Some(Target::Hub),
-        Some(name) => joints.find(keys, "on", name).map(Target::Joint),
-    };
+    let body = keys.text("on").and_then(|name| target(keys, name, joints, structure));
     let force = three(keys, "force", Measure::FORCE, folder);
     let moment = three(keys, "moment", Measure::TORQUE, folder);
     let point = keys.vector("point", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
@@ -109,6 +105,41 @@ fn wrench(
     }
     keys.finish();
     Some(AppliedWrench { body: body?, force: force?, moment: moment?, point, axes })
+}
+
+/// The body of a name in `on`: a node, the hub, or the child body of a joint.
+fn target(
+    keys: &Keys<'_>,
+    name: &str,
+    joints: &Joints,
+    structure: Option<&Structure>,
+) -> Option<Target> {
+    match name {
+        name if structure.is_some_and(|structure| structure.has_node(name)) => {
+            structure.and_then(|structure| structure.used(name)).map(Target::Node)
+        }
+        "hub" => Some(Target::Hub),
+        name => joints.find(keys, "on", name).map(Target::Joint),
+    }
+}
+
+/// `[[point]]`: `name`, `on`, `position`; points whose motion is recorded.
+pub(super) fn points(
+    keys: &Keys<'_>,
+    joints: &Joints,
+    structure: Option<&Structure>,
+) -> Vec<BodyPoint> {
+    let tables = keys.tables("point").into_iter().filter_map(|keys| {
+        if !keys.has("name") {
+            keys.missing("name", "name = \"accelerometer\"");
+        }
+        let name = keys.text("name");
+        let body = target(&keys, keys.text("on").unwrap_or("hub"), joints, structure);
+        let position = keys.vector("position", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+        keys.finish();
+        Some(BodyPoint { name: name?.to_owned(), body: body?, position })
+    });
+    tables.collect()
 }
 
 /// Three components: constants as a vector, or profiles by axis:

@@ -188,6 +188,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let gravity = settings::gravity(&keys);
     let changes = changes_and_wrenches::changes(&keys, &joints, settings.as_ref(), folder);
     let wrenches = changes_and_wrenches::wrenches(&keys, &joints, structure.as_ref(), folder);
+    let points = changes_and_wrenches::points(&keys, &joints, structure.as_ref());
     let known = sources::SourceContext {
         devices: &devices,
         joints: &joints,
@@ -224,6 +225,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         drives,
         stops,
         wrenches,
+        points,
         disturbances,
         changes,
         crossings,

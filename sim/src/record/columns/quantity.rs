@@ -40,6 +40,10 @@ pub(crate) enum Quantity {
     PointSigma(usize, usize),
     PointOmega(usize, usize),
     PointAcceleration(usize, usize),
+    /// Of a point of a body.
+    BodyPointPosition(usize, usize),
+    BodyPointVelocity(usize, usize),
+    BodyPointAcceleration(usize, usize),
     /// Of a disturbance: a component of force, 0 to 2, or moment, 3 to 5.
     Disturbance(usize, usize),
 }
@@ -79,10 +83,13 @@ impl Quantity {
             | Self::Work
             | Self::Lost
             | Self::ModalCoordinate(_)
-            | Self::ModalRate(_) => Source::State,
-            Self::HubAcceleration(_) | Self::OmegaDot(_) | Self::JointAcceleration(_) => {
-                Source::Accelerations
-            }
+            | Self::ModalRate(_)
+            | Self::BodyPointPosition(..)
+            | Self::BodyPointVelocity(..) => Source::State,
+            Self::HubAcceleration(_)
+            | Self::OmegaDot(_)
+            | Self::JointAcceleration(_)
+            | Self::BodyPointAcceleration(..) => Source::Accelerations,
             Self::Torque(_) => Source::Motors,
             Self::Energy => Source::Energy,
             Self::Linear(_) | Self::Angular(_) => Source::Momentum,

@@ -164,6 +164,18 @@ fn found(
             let texts = ["inertial acceleration", "Acceleration"];
             of_point((14, point), texts, unit::ACCELERATION, ["a", AXES[axis]], column)
         }
+        Quantity::BodyPointPosition(point, axis) => {
+            let texts = ["inertial position", "Position"];
+            of_point((18, 3 * point), texts, unit::LENGTH, ["r", AXES[axis]], column)
+        }
+        Quantity::BodyPointVelocity(point, axis) => {
+            let texts = ["inertial velocity", "Velocity"];
+            of_point((18, 3 * point + 1), texts, unit::VELOCITY, ["v", AXES[axis]], column)
+        }
+        Quantity::BodyPointAcceleration(point, axis) => {
+            let texts = ["inertial acceleration", "Acceleration"];
+            of_point((18, 3 * point + 2), texts, unit::ACCELERATION, ["a", AXES[axis]], column)
+        }
         Quantity::ModalCoordinate(mode) => {
             of_modes(15, "modal coordinates", unit::MODAL, "η", mode)
         }
