@@ -95,8 +95,12 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
     ) -> Result<Linearization<D, S>, DerivativeError<D::Scalar>> {
-        let states: Vec<_> = self.state_variables(inputs).collect();
-        let by_inputs: Vec<_> = self.input_variables(inputs).collect();
+        let joints = inputs.modes.values().count();
+        let variables = joints.saturating_add(S::modes(self)).saturating_mul(2).saturating_add(12);
+        let (mut states, mut by_inputs) =
+            (Vec::with_capacity(variables), Vec::with_capacity(variables));
+        states.extend(self.state_variables(inputs));
+        by_inputs.extend(self.input_variables(inputs));
         let rows = self.outputs(outputs);
         let matrix = |rows: usize, columns: usize| DMatrix::from_element(rows, columns, zero());
         let (mut a, mut b) =
@@ -123,7 +127,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
                 let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
                 of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
                 fill.column(variable, &hub, of_joints, slopes);
-                if !slopes.iter().chain(&*results).all(|number| number.is_finite()) {
+                if !(are_finite(slopes) & are_finite(of_hub) & are_finite(of_joints)) {
                     return Err(DerivativeError::NotFinite { variable: number });
                 }
             }
@@ -185,6 +189,18 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
     }
 }
 
+/// Whether all numbers are finite: zero times each, summed side by side, is.
+fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
+    let (fours, rest) = numbers.as_chunks::<4>();
+    let mut sums = [zero::<T>(); 4];
+    for four in fours {
+        for (sum, number) in sums.iter_mut().zip(four) {
+            *sum = *sum + *number * zero();
+        }
+    }
+    sums.iter().chain(rest).all(|number| number.is_finite())
+}
+
 /// The columns of a matrix, empty where it has no rows.
 fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [T]> {
     let (rows, columns) = matrix.shape();
@@ -238,14 +254,23 @@ impl<T: Scalar> Fill<T> {
             _ => {}
         }
         let rows = [moves, turns, rotate_transposed(&self.bn, along_b), hub.omega_dot];
-        of_hub.iter_mut().zip(rows.into_iter().flatten()).for_each(|(to, from)| *to = from);
+        for (to, from) in of_hub.as_chunks_mut::<3>().0.iter_mut().zip(rows) {
+            *to = from;
+        }
         let halves = of_joints.split_at_mut_checked(self.moving.len());
         let Some((coordinates, rates)) = halves else { return };
-        for ((coordinate, rate), joint) in coordinates.iter_mut().zip(rates).zip(&self.moving) {
-            if by == Variable::Rate(*joint) {
-                *coordinate = one();
+        if rates.len() == joints.len() {
+            rates.copy_from_slice(joints);
+        } else {
+            for (rate, joint) in rates.iter_mut().zip(&self.moving) {
+                *rate = joints.get(*joint).copied().unwrap_or_else(zero);
             }
-            *rate = joints.get(*joint).copied().unwrap_or_else(zero);
+        }
+        if let Variable::Rate(joint) = by
+            && let Some(place) = self.moving.iter().position(|moving| *moving == joint)
+            && let Some(coordinate) = coordinates.get_mut(place)
+        {
+            *coordinate = one();
         }
     }
 }

@@ -49,8 +49,8 @@ impl<T: Scalar> Load<T> {
 
     /// Of a column in the device's axes.
     fn turned<K: Kind<Scalar = T>>(column: &LoadColumn<K>, mount: &Columns<T>) -> Self {
-        let wrench = [&column.hub.force, &column.hub.moment];
-        let [[a, b, c], [d, e, f]] = wrench.map(|v| rotate(mount, components(v)));
+        let [a, b, c] = rotate(mount, components(&column.hub.force));
+        let [d, e, f] = rotate(mount, components(&column.hub.moment));
         let mut load = Self { hub: [a, b, c, d, e, f], ..Self::none() };
         load.joints.iter_mut().zip(column.joints.values()).for_each(|(to, from)| *to = from);
         load
@@ -58,21 +58,24 @@ impl<T: Scalar> Load<T> {
 
     /// Adds a multiple.
     fn add(&mut self, factor: T, other: &Self) {
-        let sums = self.hub.iter_mut().chain(&mut self.joints);
-        for (to, from) in sums.zip(other.hub.iter().chain(&other.joints)) {
+        for (to, from) in self.hub.iter_mut().zip(&other.hub) {
+            *to = *to + factor * *from;
+        }
+        for (to, from) in self.joints.iter_mut().zip(&other.joints) {
             *to = *to + factor * *from;
         }
     }
 
     /// By components along B, of those by components along the device's axes.
     fn by_b(columns: [Self; 3], mount: &Columns<T>) -> [Self; 3] {
-        [0, 1, 2].map(|axis| {
+        let by = |axis: usize| {
             let mut sum = Self::none();
             for (column, own) in columns.iter().zip(mount) {
                 sum.add(own[axis], column);
             }
             sum
-        })
+        };
+        [by(0), by(1), by(2)]
     }
 }
 
@@ -121,9 +124,9 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
             }
             loads
         };
-        let by_hub = |columns: [LoadColumn<K>; 3]| {
-            let turned = columns.map(|column| Load::turned::<K>(&column, &device.mount));
-            Load::by_b(turned, &device.mount)
+        let by_hub = |[x, y, z]: &[LoadColumn<K>; 3]| {
+            let turned = |column| Load::turned::<K>(column, &device.mount);
+            Load::by_b([turned(x), turned(y), turned(z)], &device.mount)
         };
         let mut free = [false; MAX_JOINTS];
         let modes = given.modes.values().zip(K::JOINTS);
@@ -136,8 +139,8 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
             coordinates: each(&found.coordinates),
             rates: each(&found.rates),
             accelerations: each(&found.accelerations),
-            omega: by_hub(found.omega),
-            omega_dot: by_hub(found.omega_dot),
+            omega: by_hub(&found.omega),
+            omega_dot: by_hub(&found.omega_dot),
         };
         let passive = joints.states().zip(device.passive.values()).enumerate();
         for (joint, ([_, rate], passive)) in passive {

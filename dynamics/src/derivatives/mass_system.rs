@@ -15,10 +15,15 @@ use crate::numbers::symmetric::Symmetric;
 /// Numbers of the hub: along the axes of B of the translation, then of the rotation.
 pub(super) type Six<T> = [T; 6];
 
+/// How many joints are computed side by side.
+const TOGETHER: usize = 4;
+
 /// The mass matrix, eliminated.
 #[derive(Debug)]
 pub(super) struct MassSystem<T> {
     devices: Vec<Eliminated<T>>,
+    /// Of all joints, some side by side: `M_jj⁻¹ M_jh`, by how much less a free joint accelerates where the hub does.
+    gains: Vec<[[T; TOGETHER]; 6]>,
     /// The inverse of what is left for the hub, by columns; none where its accelerations are given.
     hub: Option<[Six<T>; 6]>,
 }
@@ -33,7 +38,7 @@ struct Eliminated<T> {
     factors: [[T; MAX_JOINTS]; MAX_JOINTS],
     /// Of each free joint, the loads of the hub by its acceleration.
     coupling: [Six<T>; MAX_JOINTS],
-    /// `M_jj⁻¹ M_jh`: by how much less a free joint accelerates where the hub does.
+    /// `M_jj⁻¹ M_jh`.
     gains: [Six<T>; MAX_JOINTS],
 }
 
@@ -53,7 +58,18 @@ impl<T: Scalar> MassSystem<T> {
             }
             inverse(&matrix)
         });
-        Self { devices: eliminated, hub: system }
+        let of_joints = eliminated.iter().flat_map(|of| of.gains.iter().take(of.count));
+        let mut gains = Vec::with_capacity(eliminated.len().saturating_mul(MAX_JOINTS));
+        for (number, of) in of_joints.enumerate() {
+            if number % TOGETHER == 0 {
+                gains.push([[zero(); TOGETHER]; 6]);
+            }
+            let group = gains.last_mut().into_iter().flatten();
+            for (to, gain) in group.zip(of) {
+                to[number % TOGETHER] = *gain;
+            }
+        }
+        Self { devices: eliminated, gains, hub: system }
     }
 
     /// The accelerations of hub and joints where the loads of the hub change by `hub`, those of the devices from the
@@ -93,15 +109,25 @@ impl<T: Scalar> MassSystem<T> {
             }
             base
         });
-        let mut out = out.iter_mut();
-        for (index, device) in self.devices.iter().enumerate() {
-            let own = index.checked_sub(first).and_then(|place| by_loads.get(place));
-            for joint in 0..device.count {
-                let Some(to) = out.next() else { return base };
-                let by_load = own.and_then(|of| of.get(joint)).copied().unwrap_or_else(zero);
-                let gains = device.gains.get(joint).copied().unwrap_or([zero(); 6]);
-                *to = gains.iter().zip(&base).fold(-by_load, |sum, (g, b)| sum - *g * *b);
+        // Of joints on which no load changes minus zero, as the negative of their load.
+        out.fill(-zero::<T>());
+        let mut start = self.devices.iter().take(first).map(|device| device.count).sum();
+        for (device, loads) in self.devices.iter().skip(first).zip(by_loads) {
+            let end = device.count.saturating_add(start);
+            for (to, load) in out.get_mut(start..end).unwrap_or_default().iter_mut().zip(loads) {
+                *to = -*load;
             }
+            start = end;
+        }
+        for (to, gains) in out.chunks_mut(TOGETHER).zip(&self.gains) {
+            let mut sums = [zero(); TOGETHER];
+            sums.iter_mut().zip(&*to).for_each(|(sum, number)| *sum = *number);
+            for (gains, base) in gains.iter().zip(base) {
+                for (sum, gain) in sums.iter_mut().zip(gains) {
+                    *sum = *sum - *gain * base;
+                }
+            }
+            to.iter_mut().zip(sums).for_each(|(to, sum)| *to = sum);
         }
         base
     }
