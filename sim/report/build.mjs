@@ -4,6 +4,7 @@
 //   node build.mjs --out DIR       writes the same files into another folder
 //   node check.mjs                 opens a sample page in Chromium and checks it
 //   node check.mjs --page FILE     checks a report that the program has written
+//   node check-figures.mjs FILE .. measures the texts of all figures of pages
 //
 // The output depends on the sources and on package-lock.json only. dist/sources.sha256 holds their digests: a unit
 // test of the Rust program computes them again, and `cargo xtask reports` builds again and compares every file.

@@ -1,5 +1,6 @@
 //! `reports`: builds the script and the style of the report from their sources, compares every file with the committed
-//! one, and checks two pages in a browser: the sample, and a run of Table 1.
+//! one, and checks two pages in a browser: the sample, and a run of Table 1. Of these, and of a page of each command that
+//! writes one, it measures the texts of all figures.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -49,7 +50,8 @@ pub(crate) fn reports() -> Result<(), String> {
         say!("{files}");
         return Ok(());
     }
-    let checks = check(&[], &folder.join("sample"))? + check_run(&folder)?;
+    let checks =
+        check(&[], &folder.join("sample"))? + check_run(&folder)? + check_figures(&folder)?;
     say!("{files}, {checks} checks in the browser");
     Ok(())
 }
@@ -93,6 +95,68 @@ fn check_run(folder: &Path) -> Result<usize, String> {
     run(tool.args(["run", &scenario, "--force", "--out"]).arg(&results))?;
     let page = results.join(format!("{SCENARIO}.html"));
     check(&["--page", &page.to_string_lossy()], &folder.join(SCENARIO))
+}
+
+/// Commands that write a page with figures, and that page.
+const PAGES: [(&[&str], &str); 6] = [
+    (&["run", "scenarios/every-kind.toml"], "every-kind.html"),
+    (
+        &["jitter", "scenarios/budgets/imaging-satellite-jitter.toml"],
+        "imaging-satellite-jitter.html",
+    ),
+    (&["jitter", "scenarios/budgets/wheel-data-sheet-jitter.toml"], "wheel-data-sheet-jitter.html"),
+    (
+        &[
+            "sweep",
+            "scenarios/wheel-data-sheet.toml",
+            "--over",
+            "device.rw.wheel.rate=600..6000 rpm:3",
+        ],
+        "wheel-data-sheet-sweep.html",
+    ),
+    (
+        &[
+            "montecarlo",
+            "scenarios/wheel-data-sheet.toml",
+            "--plan",
+            "scenarios/plans/wheel-imbalance.toml",
+            "--samples",
+            "4",
+        ],
+        "wheel-data-sheet-montecarlo.html",
+    ),
+    (&["fit", MEASUREMENT], "rw-fit.html"),
+];
+
+/// Where the example of a measurement is written, from the root.
+const MEASUREMENT: &str = "target/reports/fit/wheel-measurement.toml";
+
+/// Writes a page of each command and measures the texts of its figures; returns how many texts there are.
+fn check_figures(folder: &Path) -> Result<usize, String> {
+    let results = folder.join("figures");
+    let measurement = root().join(MEASUREMENT);
+    let example = measurement.parent().unwrap_or(folder);
+    fs::create_dir_all(example).map_err(|error| format!("{}: {error}", example.display()))?;
+    if !measurement.is_file() {
+        run(Command::new(tool()?).args(["fit", "--example"]).arg(example))?;
+    }
+    let mut command = node("node", &["check-figures.mjs"]);
+    command.arg(folder.join(format!("run/{SCENARIO}.html")));
+    for (arguments, page) in PAGES {
+        // Other codes say that a requirement is violated, or that a model does not hold.
+        let mut tool = Command::new(tool()?);
+        tool.args(arguments).args(["--force", "--out"]).arg(&results).current_dir(root());
+        let ended = tool.output().map_err(|error| format!("{arguments:?}: {error}"))?;
+        let page = results.join(page);
+        if !page.is_file() {
+            let errors = String::from_utf8_lossy(&ended.stderr);
+            return Err(format!("{arguments:?} wrote no {}: {errors}", page.display()));
+        }
+        command.arg(page);
+    }
+    let printed = output(&mut command)?;
+    eprint!("{printed}");
+    passed(&printed).ok_or_else(|| format!("check-figures.mjs printed no number: {printed}"))
 }
 
 /// Checks a page and writes pictures into a folder; returns how many checks passed.

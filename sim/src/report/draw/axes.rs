@@ -1,5 +1,7 @@
 //! What every figure with axes has: title, mesh, labels and frame; and the SVG file around a drawing.
 
+use std::borrow::Cow;
+
 use plotters::coord::ranged1d::{BoldPoints, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -13,6 +15,10 @@ use crate::report::error::DrawError;
 const TICKS: usize = 12;
 /// Width of a digit in units of the size of its type.
 const DIGIT: f64 = 0.6;
+/// Width of a letter in units of the size of its type.
+const LETTER: f64 = 0.52;
+/// The smallest type of a title.
+const TITLE_MIN: f64 = 10.0;
 /// Of the title of a vertical axis, and between it, the labels and the ticks.
 const BESIDE: f64 = 26.0;
 
@@ -26,11 +32,43 @@ pub(in crate::report) struct Space {
     pub(in crate::report) below: f64,
 }
 
-/// The title of a drawing, above its first panel.
+/// The title of a drawing, above its first panel: in smaller type where it is long, and cut at a word where it is still
+/// wider than the drawing, whose description has all of it.
 pub(in crate::report) fn title(area: &Area<'_>, words: &str) -> Result<(), DrawError> {
-    let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(words, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+    let (wide, _) = area.dim_in_pixel();
+    let room = f64::from(wide) / f64::from(px(1.0)) - LEFT;
+    let letters = crate::spectra::float(words.chars().count());
+    let size = (room / (LETTER * letters)).clamp(TITLE_MIN, TYPE);
+    let style = text(size, INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let shown = shortened(words, room / (LETTER * size));
+    area.draw_text(&shown, &style, (px(LEFT), px(0.62 * ABOVE)))?;
     Ok(())
+}
+
+/// The first words, of at most so many letters; with an ellipsis where some are left out.
+fn shortened(words: &str, letters: f64) -> Cow<'_, str> {
+    let fits = |text: &str| crate::spectra::float(text.chars().count()) <= letters;
+    if fits(words) {
+        return words.into();
+    }
+    let ends = words.char_indices().filter(|(_, letter)| *letter == ' ').map(|(at, _)| at);
+    let cut = ends.map(|at| format!("{}…", &words[..at])).take_while(|text| fits(text)).last();
+    // A word of its own that is too long.
+    let some =
+        (1..).zip(words.chars()).take_while(|(count, _)| crate::spectra::float(*count) < letters);
+    cut.unwrap_or_else(|| some.map(|(_, letter)| letter).chain(['…']).collect()).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shortened;
+
+    #[test]
+    fn a_title_is_cut_at_a_word() {
+        assert_eq!(shortened("a limit at 3000 rpm", 19.0), "a limit at 3000 rpm");
+        assert_eq!(shortened("a limit at 3000 rpm", 18.0), "a limit at 3000…");
+        assert_eq!(shortened("mikrovibration", 9.0), "mikrovib…");
+    }
 }
 
 /// Draws axes with a mesh, their labels and a frame.

@@ -1,0 +1,76 @@
+// Measures the texts of every figure of given pages in Chromium, at two widths: each is inside its figure, and no two
+// overlap. Themes change colours and move nothing. Pages that scroll sideways are named, too. CHROMIUM names the browser where it is not at
+// /usr/bin/chromium.
+
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const pages = process.argv.slice(2);
+const QUIET = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-sandbox'];
+const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+/** Runs in the page: what is wrong with the texts of its figures, and how many there are. */
+function measure() {
+  const found = { faults: [], texts: 0 };
+  const slack = 1;
+  const seen = (element) => {
+    const style = getComputedStyle(element);
+    return style.visibility !== 'hidden' && style.display !== 'none' && Number(style.opacity) > 0;
+  };
+  for (const figure of document.querySelectorAll('svg')) {
+    const whole = figure.getBoundingClientRect();
+    if (whole.width === 0 || !seen(figure)) continue;
+    const label = figure.closest('figure, section')?.querySelector('figcaption, h2, h3, h4')?.textContent.trim() ?? 'a figure';
+    const texts = [...figure.querySelectorAll('text')].filter((text) => text.textContent.trim() !== '' && seen(text));
+    const boxes = texts.map((text) => [text.getBoundingClientRect(), text.textContent.trim(), text]);
+    found.texts += boxes.length;
+    for (const [box, text] of boxes) {
+      const out = [whole.left - box.left, box.right - whole.right, whole.top - box.top, box.bottom - whole.bottom];
+      const most = Math.max(...out);
+      if (most > slack) found.faults.push(`${label}: "${text}" is cut by ${most.toFixed(1)} px`);
+    }
+    for (let i = 0; i < boxes.length; i += 1) {
+      for (let j = 0; j < i; j += 1) {
+        const [a, name, one] = boxes[i];
+        const [b, other, two] = boxes[j];
+        // A turned text has a box that is larger than it.
+        if (one.closest('[transform*="rotate"]') || two.closest('[transform*="rotate"]')) {
+          if (!(one.closest('[transform*="rotate(-90"]') || two.closest('[transform*="rotate(-90"]'))) continue;
+        }
+        const x = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const y = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        // Boxes of lines of text have some pixels above and below the letters.
+        if (x > slack && y > 0.25 * Math.min(a.height, b.height)) {
+          found.faults.push(`${label}: "${name}" is over "${other}" by ${x.toFixed(1)} x ${y.toFixed(1)} px`);
+        }
+      }
+    }
+  }
+  const wide = document.documentElement.scrollWidth - window.innerWidth;
+  if (wide > slack) found.faults.push(`the page scrolls sideways by ${wide} px`);
+  return found;
+}
+
+const browser = await chromium.launch({ executablePath, args: QUIET });
+let faults = 0;
+let texts = 0;
+for (const page of pages) {
+  for (const width of [1400, 400]) {
+    const context = await browser.newContext({ viewport: { width, height: 900 } });
+    const tab = await context.newPage();
+    await tab.goto(pathToFileURL(page).href);
+    const found = await tab.evaluate(measure);
+    texts += found.texts;
+    for (const fault of new Set(found.faults)) {
+      faults += 1;
+      console.error(`${page}, ${width} px: ${fault}`);
+    }
+    await context.close();
+  }
+}
+await browser.close();
+if (faults > 0) {
+  console.error(`${faults} faults`);
+  process.exit(1);
+}
+console.log(`${texts} checks passed: texts of figures on ${pages.length} pages`);
