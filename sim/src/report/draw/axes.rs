@@ -59,18 +59,6 @@ fn shortened(words: &str, letters: f64) -> Cow<'_, str> {
     cut.unwrap_or_else(|| some.map(|(_, letter)| letter).chain(['…']).collect()).into()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::shortened;
-
-    #[test]
-    fn a_title_is_cut_at_a_word() {
-        assert_eq!(shortened("a limit at 3000 rpm", 19.0), "a limit at 3000 rpm");
-        assert_eq!(shortened("a limit at 3000 rpm", 18.0), "a limit at 3000…");
-        assert_eq!(shortened("mikrovibration", 9.0), "mikrovib…");
-    }
-}
-
 /// Draws axes with a mesh, their labels and a frame.
 pub(in crate::report) fn axes<'a, 's, X, Y>(
     area: &'a Area<'s>,
@@ -116,4 +104,16 @@ pub(in crate::report) fn svg_file(
 ) -> Result<String, DrawError> {
     let drawn = document(&format!("<style>\n{THEME}</style>\n"))?;
     Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shortened;
+
+    #[test]
+    fn a_title_is_cut_at_a_word() {
+        assert_eq!(shortened("a limit at 3000 rpm", 19.0), "a limit at 3000 rpm");
+        assert_eq!(shortened("a limit at 3000 rpm", 18.0), "a limit at 3000…");
+        assert_eq!(shortened("mikrovibration", 9.0), "mikrovib…");
+    }
 }

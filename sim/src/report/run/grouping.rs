@@ -41,8 +41,7 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
         else {
             continue;
         };
-        let name = column.name.clone();
-        let frame = column.frame.clone().unwrap_or_default();
+        let (name, frame) = (column.name.clone(), column.frame.clone().unwrap_or_default());
         let curve = Curve { column: index, name, label, frame, departure };
         let new = || Chart { part, slug, title, axis, family, curves: Vec::new() };
         groups.entry(key).or_insert_with(new).curves.push(curve);
@@ -164,18 +163,9 @@ fn found(
             let texts = ["inertial acceleration", "Acceleration"];
             of_point((14, point), texts, unit::ACCELERATION, ["a", AXES[axis]], column)
         }
-        Quantity::BodyPointPosition(point, axis) => {
-            let texts = ["inertial position", "Position"];
-            of_point((18, 3 * point), texts, unit::LENGTH, ["r", AXES[axis]], column)
-        }
-        Quantity::BodyPointVelocity(point, axis) => {
-            let texts = ["inertial velocity", "Velocity"];
-            of_point((18, 3 * point + 1), texts, unit::VELOCITY, ["v", AXES[axis]], column)
-        }
-        Quantity::BodyPointAcceleration(point, axis) => {
-            let texts = ["inertial acceleration", "Acceleration"];
-            of_point((18, 3 * point + 2), texts, unit::ACCELERATION, ["a", AXES[axis]], column)
-        }
+        Quantity::BodyPointPosition(point, axis) => of_body_point(0, point, axis, column),
+        Quantity::BodyPointVelocity(point, axis) => of_body_point(1, point, axis, column),
+        Quantity::BodyPointAcceleration(point, axis) => of_body_point(2, point, axis, column),
         Quantity::ModalCoordinate(mode) => {
             of_modes(15, "modal coordinates", unit::MODAL, "η", mode)
         }
@@ -308,6 +298,16 @@ fn of_point(
     }
 }
 
+/// Place, velocity and acceleration of a point of a body, by their order.
+fn of_body_point(order: usize, point: usize, axis: usize, column: &Column) -> ChartColumn {
+    let (what, title, family, symbol) = match order {
+        0 => ("inertial position", "Position", unit::LENGTH, "r"),
+        1 => ("inertial velocity", "Velocity", unit::VELOCITY, "v"),
+        _ => ("inertial acceleration", "Acceleration", unit::ACCELERATION, "a"),
+    };
+    of_point((18, 3 * point + order), [what, title], family, [symbol, AXES[axis]], column)
+}
+
 /// All modes in one chart.
 fn of_modes(
     rank: usize,
@@ -369,11 +369,12 @@ fn of_load(
 
 /// A chart of too many curves as several.
 fn split(chart: Chart) -> Vec<Chart> {
-    if chart.curves.len() <= CURVES_MAX {
+    let count = chart.curves.len();
+    let parts = count.div_ceil(CURVES_MAX);
+    if parts <= 1 {
         return vec![chart];
     }
-    let parts = chart.curves.len().div_ceil(CURVES_MAX);
-    let size = chart.curves.len().div_ceil(parts);
+    let size = count.div_ceil(parts);
     let numbered = chart.curves.chunks(size).enumerate().map(|(index, curves)| Chart {
         slug: format!("{}-{}", chart.slug, index + 1),
         title: format!("{}, {} of {parts}", chart.title, index + 1),
