@@ -1,6 +1,6 @@
 //! `reports`: builds the script and the style of the report from their sources, compares every file with the committed
-//! one, and checks two pages in a browser: the sample, and a run of Table 1. Of these, and of a page of each command that
-//! writes one, it measures the texts of all figures.
+//! one, and checks two pages in a browser: the sample, and a run of Table 1. Of the figures
+//! that each command draws, in files and on pages, it measures the texts.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -97,9 +97,9 @@ fn check_run(folder: &Path) -> Result<usize, String> {
     check(&["--page", &page.to_string_lossy()], &folder.join(SCENARIO))
 }
 
-/// Commands that write a page with figures, and that page.
+/// Commands that write figures, and one of the files of each.
 const PAGES: [(&[&str], &str); 6] = [
-    (&["run", "scenarios/every-kind.toml"], "every-kind.html"),
+    (&["plot", "scenarios/every-kind.toml"], "every-kind-angular-velocity.svg"),
     (
         &["jitter", "scenarios/budgets/imaging-satellite-jitter.toml"],
         "imaging-satellite-jitter.html",
@@ -125,35 +125,44 @@ const PAGES: [(&[&str], &str); 6] = [
         ],
         "wheel-data-sheet-montecarlo.html",
     ),
-    (&["fit", MEASUREMENT], "rw-fit.html"),
+    (&["fit"], "rw-fit.html"),
 ];
 
-/// Where the example of a measurement is written, from the root.
-const MEASUREMENT: &str = "target/reports/fit/wheel-measurement.toml";
+/// Exit codes of a command that has done its work: complete, a requirement is violated or a model does not hold, a
+/// requirement could not be evaluated.
+const DONE: [i32; 3] = [0, 2, 3];
 
-/// Writes a page of each command and measures the texts of its figures; returns how many texts there are.
+/// Writes the figures of each command and measures the texts of all, in files and on pages; returns how many there are.
 fn check_figures(folder: &Path) -> Result<usize, String> {
-    let results = folder.join("figures");
-    let measurement = root().join(MEASUREMENT);
-    let example = measurement.parent().unwrap_or(folder);
-    fs::create_dir_all(example).map_err(|error| format!("{}: {error}", example.display()))?;
-    if !measurement.is_file() {
-        run(Command::new(tool()?).args(["fit", "--example"]).arg(example))?;
+    let [results, example] = ["figures", "fit"].map(|name| folder.join(name));
+    for folder in [&results, &example] {
+        if folder.exists() {
+            fs::remove_dir_all(folder)
+                .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
+        }
     }
-    let mut command = node("node", &["check-figures.mjs"]);
-    command.arg(folder.join(format!("run/{SCENARIO}.html")));
+    run(Command::new(tool()?).args(["fit", "--example"]).arg(&example))?;
     for (arguments, page) in PAGES {
-        // Other codes say that a requirement is violated, or that a model does not hold.
         let mut tool = Command::new(tool()?);
-        tool.args(arguments).args(["--force", "--out"]).arg(&results).current_dir(root());
+        tool.args(arguments);
+        if arguments == ["fit"] {
+            tool.arg(example.join("wheel-measurement.toml"));
+        }
+        tool.arg("--out").arg(&results).current_dir(root());
         let ended = tool.output().map_err(|error| format!("{arguments:?}: {error}"))?;
         let page = results.join(page);
-        if !page.is_file() {
+        if !(page.is_file() && ended.status.code().is_some_and(|code| DONE.contains(&code))) {
             let errors = String::from_utf8_lossy(&ended.stderr);
-            return Err(format!("{arguments:?} wrote no {}: {errors}", page.display()));
+            return Err(format!("{arguments:?}, {}: {errors}", ended.status));
         }
-        command.arg(page);
     }
+    let mut command = node("node", &["check-figures.mjs"]);
+    let is_drawn = |name: &String| {
+        Path::new(name).extension().is_some_and(|ending| ending == "svg" || ending == "html")
+    };
+    let mut files: Vec<_> = names(&results)?.into_iter().filter(is_drawn).collect();
+    files.sort();
+    command.args(files.iter().map(|name| results.join(name)));
     let printed = output(&mut command)?;
     eprint!("{printed}");
     passed(&printed).ok_or_else(|| format!("check-figures.mjs printed no number: {printed}"))

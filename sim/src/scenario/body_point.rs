@@ -25,7 +25,7 @@ impl Scenario {
         if let (Some(_), Some(point)) = (&self.structure, self.points.first()) {
             let message = "points of a flexible structure are its nodes; write it as \
                            `[[structure.point]]`, with a `node`";
-            errors.push(range(&format!("point.{}", point.name), message.to_owned()));
+            return vec![range(&format!("point.{}", point.name), message.to_owned())];
         }
         let joints = self.joints().count();
         for (index, BodyPoint { name, body, position }) in self.points.iter().enumerate() {

@@ -243,8 +243,8 @@ impl Scenario {
         for (index, point) in structure.points.iter().enumerate() {
             let name = point.name.as_str();
             let earlier = structure.points.iter().take(index).any(|other| other.name == name);
-            let remedy =
-                format!("write another name, `name = \"camera\"`, and `node = \"{name}\"`");
+            let node = structure.nodes.get(point.node).map_or("", |node| node.name.as_str());
+            let remedy = format!("choose another `name`, with `node = \"{node}\"`");
             errors.extend(self.point_name_error(("structure.point", name), earlier, &remedy));
         }
         errors

@@ -57,7 +57,14 @@ fn every_key_has_its_error() {
             with("name = \"tip\"\n[[", "name = \"top\"\n[["),
             "no node of the structure is named `top`",
         ),
-        (with("name = \"tip\"\n[[", "name = \"rw\"\nnode = \"tip\"\n[["), "names other columns"),
+        (
+            with("name = \"tip\"\n[[", "name = \"rw\"\nnode = \"tip\"\n[["),
+            "a point or a group; choose another `name`, with `node = \"tip\"`",
+        ),
+        (
+            with("[[structure.point]]", "[[point]]\nname = \"imu\"\n[[structure.point]]"),
+            "points of a flexible structure are its nodes",
+        ),
         (
             with("name = \"tip\"\n[[", "name = \"A 1\"\nnode = \"tip\"\n[["),
             "is not lower-case letters",

@@ -38,6 +38,12 @@ fn what_is_no_spacecraft_is_said_with_its_place() {
     let hub = |inertia: &str| HEAD.replace("9, 8, 7", inertia);
     let panel = |keys: &str| format!("{HEAD}{PANEL}{keys}");
     for (text, parts) in [
+        (format!("{HEAD}[[point]]\nname = \"omega\"\n"), ["`omega` names other columns", "^^^"]),
+        (
+            format!("{HEAD}[[point]]\nname = \"a\"\n[[point]]\nname = \"a\"\n"),
+            ["two of `point` are named `a`", "^^^"],
+        ),
+        (format!("{HEAD}[[point]]\nname = \"a\"\non = \"rw.rim\"\n"), ["named `rw.rim`", "^^^"]),
         (hub("0, 0, 0"), ["hub of 0, 0, 0 kg m^2", "^^^"]),
         (hub("0, 8, 8"), ["has moments above zero", "^^^"]),
         (hub("inf, 8, 7"), ["`inf` is no number", "^^^"]),

@@ -236,7 +236,7 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
     always("precess-derivatives", "linearize", &[SOLVER, REFERENCES, &["tests/derivatives"]]),
     always("precess-ledger", "ledger_and_loads", &[SOLVER, REFERENCES, &["tests/ledger"]]),
-    always("precess-baked", "agreement", &[SOLVER, REFERENCES, BAKING]),
+    always("precess-baked", "agreement", &[GENERATOR, SOLVER, REFERENCES, BAKING]),
     always("precess-baked", "operations", &[BAKING]),
     always("four-wheels", "reference", &[BAKING]),
     always("imaging-satellite", "reference", &[BAKING]),
@@ -296,7 +296,7 @@ pub(crate) const SUITES: &[Suite] = &[
         &[SOLVER, BOARD, BAKING, &["xtask/distribute", "docs"]],
     ),
     command(&["engines"], When::All, &[ENGINES]),
-    command(&["reports"], When::All, &[&["sim/report", "sim/src/report"]]),
+    command(&["reports"], When::All, &[DESKTOP, &["sim/report", "scenarios"]]),
     command(
         &["python", "--quick"],
         When::All,

@@ -30,8 +30,8 @@ const FEWEST: [(&str, [usize; 2]); 7] = [
     ("dgvscmg", [2, 5]),
 ];
 
-/// The fewest devices of other kinds: of one joint or two, and of more.
-const OTHERS: [[usize; 2]; 2] = [[3, 5], [2, 5]];
+/// The fewest devices of other kinds: of one joint, of two, and of more.
+const OTHERS: [[usize; 2]; 3] = [[3, 6], [3, 5], [2, 5]];
 
 /// How many of so many devices of a kind, of so many joints, are evaluated side by side where the widest
 /// registers hold `widest` numbers; none if one after another takes less time.
@@ -42,8 +42,12 @@ pub(super) fn side_by_side(
     widest: usize,
 ) -> Option<usize> {
     let of_kind = FEWEST.iter().find(|(name, _)| *name == kind);
-    let [short, long] = OTHERS;
-    let others = if joints > 2 { long } else { short };
+    let [of_one, of_two, of_more] = OTHERS;
+    let others = match joints {
+        0 | 1 => of_one,
+        2 => of_two,
+        _ => of_more,
+    };
     let [in_four, in_eight] = of_kind.map_or(others, |(_, fewest)| *fewest);
     match devices.min(widest) {
         many if many > FOUR && many < in_eight => Some(FOUR),
@@ -70,6 +74,6 @@ mod tests {
     fn five_gyros_are_one_group() {
         assert_eq!(side_by_side("dgvscmg", 3, 5, 8), Some(5));
         // A kind of another crate, with a joint.
-        assert_eq!([2, 5].map(|devices| side_by_side("own", 1, devices, 8)), [None, Some(5)]);
+        assert_eq!([2, 5].map(|devices| side_by_side("own", 1, devices, 8)), [None, Some(4)]);
     }
 }

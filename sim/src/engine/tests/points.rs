@@ -93,6 +93,21 @@ fn motions(scenario: &Scenario, craft: &Craft, state: &CraftState) -> Vec<PointM
     points.map(|point| point_motion(point, &chains, state, &joints, Some(of))).collect()
 }
 
+#[test]
+fn an_acceleration_is_along_the_axes_of_its_body() {
+    let columns = crate::record::Columns::from_scenario(&read(MOVING)).expect("columns");
+    let frame = |name: &str| {
+        let column = columns.as_slice().iter().find(|column| column.name == name);
+        column.and_then(|column| column.frame.clone()).expect("a frame")
+    };
+    for (point, body) in
+        [("of_hub", "B"), ("of_platform", "iso.platform"), ("of_gimbal", "cmg.outer_gimbal")]
+    {
+        assert_eq!(frame(&format!("{point}.acceleration_x")), body);
+        assert_eq!(frame(&format!("{point}.velocity_x")), "N");
+    }
+}
+
 /// Differences of fourth order, of steps in which the wheel turns by a hundredth: about 1e-9.
 #[test]
 fn velocity_and_acceleration_are_the_derivatives_of_the_place() {

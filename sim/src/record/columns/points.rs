@@ -1,7 +1,7 @@
 //! Columns of points that move with the hub or with a device's body.
 
 use super::{Column, Quantity, vector};
-use crate::scenario::{BodyPoint, Scenario, Target, joint_key};
+use crate::scenario::{BodyPoint, Scenario, Target, body_key};
 
 /// Place and velocity in N, acceleration in the axes of the body.
 pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
@@ -12,7 +12,7 @@ pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
         };
         let axes = body.map_or_else(
             || "B".to_owned(),
-            |(_, device, info)| format!("{device}.{}", joint_key(info)),
+            |(_, device, info)| format!("{device}.{}", body_key(info)),
         );
         let of = [
             (

@@ -81,7 +81,8 @@ fn stated(Description { name, hub, device, .. }: &Description, to: &mut String) 
 /// Runs cargo in the workspace.
 fn cargo(folder: &Path, arguments: &[&str]) {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(arguments).args(["--offline", "--quiet"]).current_dir(folder);
+    cargo.args(arguments).args(["--offline", "--quiet", "--target-dir", "target"]);
+    cargo.current_dir(folder);
     // Flags of the outer build are not for crates of users.
     for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET", "CARGO_TARGET_DIR"]
     {
@@ -95,12 +96,6 @@ fn cargo(folder: &Path, arguments: &[&str]) {
 
 /// What the program finds of these states.
 pub(crate) fn found(name: &str, states: &[Drawn]) -> Vec<Option<Found>> {
-    let program = workspace().join("target/debug/program");
-    let mut child = Command::new(program)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
     let mut lines = String::new();
     for Drawn { omega, force, torque_b, joints } in states {
         let joints = joints.iter().flatten();
@@ -112,14 +107,30 @@ pub(crate) fn found(name: &str, states: &[Drawn]) -> Vec<Option<Found>> {
         }
         lines.push('\n');
     }
+    let text = answer(lines);
+    assert_eq!(text.lines().count(), states.len(), "a line for each state");
+    text.lines().zip(states).map(|(line, drawn)| read(line, drawn)).collect()
+}
+
+/// The folded spacecraft with all its constants, as its crate prints them.
+pub(crate) fn folded() -> String {
+    answer("constants\n".to_owned()).trim_end().to_owned()
+}
+
+/// What the program prints for these lines.
+fn answer(lines: String) -> String {
+    let program = workspace().join("target/debug/program");
+    let mut child = Command::new(program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
     let mut input = child.stdin.take().expect("an input");
     let writer = thread::spawn(move || input.write_all(lines.as_bytes()));
     let output = child.wait_with_output().expect("the program ends");
     writer.join().expect("a thread").expect("a reader");
-    assert!(output.status.success(), "{name}: {}", output.status);
-    let text = String::from_utf8(output.stdout).expect("text");
-    assert_eq!(text.lines().count(), states.len(), "a line for each state");
-    text.lines().zip(states).map(|(line, drawn)| read(line, drawn)).collect()
+    assert!(output.status.success(), "{}", output.status);
+    String::from_utf8(output.stdout).expect("text")
 }
 
 /// The accelerations of a line, of as many joints as the state has.

@@ -151,10 +151,11 @@ fn folded_values_give_the_bits_of_the_constructor() {
         ),
     })
     .expect("as assumed");
+    // The digits of a number tell its bits, the sign of a zero included.
+    assert_eq!(emitted::folded(), format!("{values:?}"));
     let states: Vec<_> = (0..STATES).map(|seed| drawn(&description, seed)).collect();
     let expected: Vec<_> = states.iter().map(|drawn| accelerations(&values, drawn)).collect();
     let found = emitted::found("imaging_satellite_constants", &states);
-    // The digits of a number tell its bits, the sign of a zero included.
     for (seed, (found, expected)) in found.iter().zip(&expected).enumerate() {
         assert_eq!(format!("{found:?}"), format!("{expected:?}"), "state {seed}");
     }
