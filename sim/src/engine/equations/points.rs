@@ -27,11 +27,11 @@ pub(crate) struct PointMotion {
 }
 
 /// Accelerations of the hub, inertial of B and angular, both expressed in B; and of the joints.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Accelerations<'a> {
+#[derive(Clone, Debug)]
+pub(crate) struct Accelerations {
     pub(crate) b: Vector3<f64>,
     pub(crate) omega_dot: Vector3<f64>,
-    pub(crate) joints: &'a [f64],
+    pub(crate) joints: Vec<f64>,
 }
 
 /// The motion of a point; `joints` are those of the set.
@@ -40,7 +40,7 @@ pub(crate) fn point_motion(
     chains: &[Chain],
     state: &CraftState,
     joints: &[[f64; 2]],
-    accelerations: Option<Accelerations<'_>>,
+    accelerations: Option<&Accelerations>,
 ) -> PointMotion {
     let nan = Vector3::repeat(f64::NAN);
     let [acceleration, omega_dot] = match accelerations {
@@ -48,7 +48,7 @@ pub(crate) fn point_motion(
         None => [nan; 2],
     };
     let b = MovingFrame { frame: Frame::of_hub(state), acceleration, omega_dot };
-    let known = accelerations.map_or(&[][..], |of| of.joints);
+    let known = accelerations.map_or(&[][..], |of| &of.joints);
     let body = match point.body {
         Target::Joint(joint) => of_body(chains, joint, &b, joints, known),
         Target::Hub | Target::Node(_) => b,

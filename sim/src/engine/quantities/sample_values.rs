@@ -68,7 +68,7 @@ struct Computed<'a> {
     momentum: Option<Momentum>,
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
-    accelerations: Option<SampleAccelerations>,
+    accelerations: Option<Accelerations>,
     /// Motor and mode of each joint.
     motors: Option<Vec<(f64, Mode)>>,
     loads: Option<MemberLoads>,
@@ -76,13 +76,6 @@ struct Computed<'a> {
     body_points: Vec<BodyPointMotion>,
     /// Force and moment of each disturbance.
     disturbances: Vec<Six<f64>>,
-}
-
-/// Accelerations: inertial of B and angular of the hub, both expressed in B, and of each joint.
-struct SampleAccelerations {
-    b: Vector3<f64>,
-    omega_dot: Vector3<f64>,
-    joints: Vec<f64>,
 }
 
 impl SampleValues {
@@ -178,20 +171,15 @@ impl SampleValues {
             }
         }
         let joints: Vec<_> = state.devices.states().collect();
-        let accelerations = found.map(|found| SampleAccelerations {
+        let accelerations = found.map(|found| Accelerations {
             b: found.r_b_n_ddot,
             omega_dot: found.omega_dot,
             joints: found.devices.values().collect(),
         });
-        let of_points = accelerations.as_ref().map(|of| Accelerations {
-            b: of.b,
-            omega_dot: of.omega_dot,
-            joints: &of.joints,
-        });
         let chains = system.acting.chains();
         let body_points = self.body_points.iter();
-        let body_points =
-            body_points.map(|point| point_motion(point, chains, state, &joints, of_points));
+        let body_points = body_points
+            .map(|point| point_motion(point, chains, state, &joints, accelerations.as_ref()));
         let body_points = body_points.collect();
         let computed = Computed {
             moment,

@@ -88,9 +88,9 @@ fn motions(scenario: &Scenario, craft: &Craft, state: &CraftState) -> Vec<PointM
     let found = craft.accelerations(state, &craft.no_inputs()).expect("accelerations");
     let joints: Vec<_> = state.devices.states().collect();
     let of_joints: Vec<_> = precess_dynamics::Each::values(&found.devices).collect();
-    let of = Accelerations { b: found.r_b_n_ddot, omega_dot: found.omega_dot, joints: &of_joints };
+    let of = Accelerations { b: found.r_b_n_ddot, omega_dot: found.omega_dot, joints: of_joints };
     let points = scenario.points.iter();
-    points.map(|point| point_motion(point, &chains, state, &joints, Some(of))).collect()
+    points.map(|point| point_motion(point, &chains, state, &joints, Some(&of))).collect()
 }
 
 #[test]
