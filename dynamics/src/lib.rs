@@ -110,6 +110,8 @@ pub use flexible::results::point::{PointAcceleration, PointMotion};
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
+pub use isolation::carrier::Carrier;
+pub use isolation::panel::CarryingPanel;
 pub use isolation::parameters::Platform;
 pub use isolation::suspension::{Coupled, Strut, Suspension};
 pub use model::joint_array::{JointArray, MAX_JOINTS};
@@ -127,9 +129,9 @@ pub use results::ledger::{Ledger, Power};
 pub use results::loads::{LoadAxes, Loads};
 pub use results::momentum::{About, CentreOfMass, EnergyAndMomentum, Momentum};
 pub use sets::built_in::{BuiltIn, BuiltInKind};
+pub use sets::carrying::{Carrying, Isolated, OnPanel};
 pub use sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 pub use sets::devices::{DeviceSet, Devices, FixedSet};
-pub use sets::isolated::Isolated;
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;
 pub use solve::state::{Accelerations, State};
@@ -144,7 +146,7 @@ pub use validation::imbalance::{Imbalance, WheelImbalance};
 pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};
 
-/// Data of a platform's joints, by name, and of an [`Isolated`] set.
+/// Data of a platform's joints, by name, and of a [`Carrying`] set.
 pub mod platform {
     pub use crate::isolation::records::{Data, JointAccelerations, Joints, MotorTorques, PerJoint};
 }
@@ -153,15 +155,15 @@ pub mod platform {
 pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
-    pub use crate::isolation::platform_elimination::PlatformConstants;
+    pub use crate::isolation::carrier_elimination::CarrierConstants;
     pub use crate::sets::bundle::{Bundle, Given, Maybe, MemberIndex, Part, Shared, Unique};
+    pub use crate::sets::carrying::PreparedCarrying;
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
     #[doc(hidden)]
     pub use crate::sets::groups::set_groups_of_enum;
-    pub use crate::sets::isolated::PreparedIsolated;
     pub use crate::sets::kind_data::{KindData, KindDataMut};
     pub use crate::sets::per_device::OnMount;
     pub use crate::sets::per_device::{

@@ -109,7 +109,7 @@ fn typed() -> (Spacecraft<TypedSet>, State<TypedSet>, Inputs<TypedSet>) {
         damping: 20.0,
     });
     let isolated = Isolated {
-        platform: Platform {
+        carrier: Platform {
             mount: Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0),
             r_p_b: Vector3::new(0.0, 0.0, 0.4),
             r_pc_p: Vector3::new(0.0, 0.0, 0.02),
@@ -130,13 +130,13 @@ fn typed() -> (Spacecraft<TypedSet>, State<TypedSet>, Inputs<TypedSet>) {
     let mut state: State<TypedSet> = State::at_rest();
     state.omega = Vector3::new(0.02, -0.01, 0.03);
     state.devices.0.phi = 0.01;
-    state.devices.1.platform.x = 0.0001;
-    state.devices.1.platform.alpha_dot = 0.002;
+    state.devices.1.carrier.x = 0.0001;
+    state.devices.1.carrier.alpha_dot = 0.002;
     state.devices.1.carried[0].spin = 120.0;
     state.devices.1.carried[1].spin = -110.0;
     let mut inputs: Inputs<TypedSet> = Inputs::none();
-    inputs.motors.1.platform.f_z = 0.3;
-    inputs.modes.1.platform.y_turn = Mode::Locked;
+    inputs.motors.1.carrier.f_z = 0.3;
+    inputs.modes.1.carrier.y_turn = Mode::Locked;
     (craft, state, inputs)
 }
 
@@ -176,10 +176,10 @@ fn loads_below_and_above_the_isolator_are_those_of_the_library() {
         };
         Vector3::new(component("x"), component("y"), component("z"))
     };
-    assert_eq!(first("iso.mount.force"), loads.platform.mount.force);
-    assert_eq!(first("iso.mount.moment"), loads.platform.mount.moment);
+    assert_eq!(first("iso.mount.force"), loads.carrier.mount.force);
+    assert_eq!(first("iso.mount.moment"), loads.carrier.mount.moment);
     assert_eq!(first("rw2.mount.force"), loads.carried[1].mount.force);
-    assert_eq!(first("iso.platform.load_force"), loads.platform.joints.platform.force);
+    assert_eq!(first("iso.platform.load_force"), loads.carrier.joints.platform.force);
     let r = Vector3::new(0.0, 0.1, 0.1);
     let [one, two] = [loads.carried[0].mount, loads.carried[1].mount];
     assert_eq!(first("iso.carried.force"), one.force + two.force);
@@ -187,7 +187,7 @@ fn loads_below_and_above_the_isolator_are_those_of_the_library() {
     assert!((first("iso.carried.moment") - moment).norm() <= 1e-15 * moment.norm());
     assert!(one.force.norm() > 0.0 && (one.force + two.force).norm() > 0.0);
     // A locked turn holds a moment; the five bodies without mass have no columns.
-    assert_eq!(samples.column("iso.u_y").expect("a column")[0], loads.platform.motors.y_turn);
+    assert_eq!(samples.column("iso.u_y").expect("a column")[0], loads.carrier.motors.y_turn);
     assert!(samples.column("iso.x_slide.load_force_x").is_none());
 }
 
@@ -198,7 +198,7 @@ fn corner_frequencies_of_turns_are_those_of_the_inertia_with_devices() {
         "z_turn = { corner_frequency = \"5 Hz\", damping_ratio = 0.1 }",
     );
     let scenario = read(&text);
-    let z_turn = scenario.devices.1[0].platform.passive.platform;
+    let z_turn = scenario.devices.1[0].carrier.passive.platform;
     // About z through P: the platform's 0.15, each wheel's 0.01, and 3 kg at 0.1 m; the wheels'
     // centres of mass are 10 µm off.
     let offset = |y: f64| 3.0 * y * y;

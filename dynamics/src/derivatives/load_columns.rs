@@ -6,6 +6,7 @@ use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
+use crate::isolation::carrier::Carrier;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kind, LoadColumn};
 use crate::model::mode::Mode;
@@ -13,8 +14,8 @@ use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed};
 use crate::sets::bundle::{Bundle, Given, Shared};
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 
 /// Derivatives by one variable: of force and moment about B that the hub exerts on a device, B axes, and of what each
@@ -156,10 +157,10 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        _: <Moving as Bundle<T>>::Of<'_, Isolated<D>>,
+        _: &PreparedCarrying<C, D>,
+        _: <Moving as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), NotEmitted> {
         Err(NotEmitted)
     }

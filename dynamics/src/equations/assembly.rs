@@ -18,7 +18,7 @@ use crate::numbers::vec3::{Vec3, add};
 
 /// The hub's equations so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Assembly<T> {
+pub struct Assembly<T> {
     /// Mass of hub and devices, kg.
     mass: T,
     /// What acts from outside: force, and moment about B.

@@ -7,7 +7,7 @@ pub(crate) type Six<T> = [T; 6];
 
 /// Forces of a suspension on the joints, and its energy.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Forces<T> {
+pub struct Forces<T> {
     pub(crate) springs: Six<T>,
     pub(crate) dampers: Six<T>,
     /// V, J.

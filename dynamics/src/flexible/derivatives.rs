@@ -9,13 +9,14 @@ use crate::flexible::equations::stability::OwnLimit;
 use crate::flexible::modal::inputs::ModalInputs;
 use crate::flexible::modal::state::{ModalAccelerations, ModalState};
 use crate::flexible::modal::storage::{Flexible, ModalStorage};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::map;
 use crate::sets::bundle::{Bundle, Shared, Unique};
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::OnMount;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::spacecraft::Spacecraft;
@@ -47,12 +48,12 @@ impl<T: Scalar> Visit<T, Shared<OnMount>> for NthMount {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        mount: <Shared<OnMount> as Bundle<T>>::Of<'_, Isolated<D>>,
+        _: &PreparedCarrying<C, D>,
+        mount: <Shared<OnMount> as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        self.next(mount.platform);
+        self.next(mount.carrier);
         Ok(())
     }
 }
@@ -83,12 +84,12 @@ impl<T: Scalar, F: Fn(usize) -> usize> Visit<T, Unique<OnMount>> for WriteMounts
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        to: <Unique<OnMount> as Bundle<T>>::Of<'_, Isolated<D>>,
+        _: &PreparedCarrying<C, D>,
+        to: <Unique<OnMount> as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        to.platform = self.next();
+        to.carrier = self.next();
         Ok(())
     }
 }

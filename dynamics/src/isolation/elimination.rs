@@ -1,8 +1,9 @@
-//! The six joints of a platform eliminated into the equations of its base.
+//! The joints of a carrier eliminated into the equations of its base: the six of a platform, the hinge of a
+//! panel.
 //!
-//! What the platform and its devices exert on the joints is `f = M a + b` about P, with M of the
-//! platform as one rigid body with what it carries, less what the carried joints take out of it.
-//! From the platform inwards each joint with direction s, (I4):
+//! What carrier and carried devices exert on the joints is `f = M a + b` about P, with M of the
+//! carrier as one rigid body with what it carries, less what the carried joints take out of it.
+//! From the tip inwards each joint with direction s, (I4):
 //!
 //! ```text
 //! U = M s,   d = s . U,   w = driven / d,   k = w (u - s . b) + given
@@ -10,7 +11,7 @@
 //! ```
 //!
 //! a is the acceleration without this joint and those outboard of it. The bodies between the joints
-//! have no mass, so M and b stay those about P. At last, with p from B to P and C the platform's
+//! have no mass, so M and b stay those about P. At last, with p from B to P and C the carrier's
 //! axes in the base,
 //!
 //! ```text
@@ -24,38 +25,38 @@ use crate::equations::assembly::Assembly;
 use crate::equations::hub::HubConstants;
 use crate::equations::system::System;
 use crate::generated::hub::{BodyAcceleration, HubShare};
-use crate::isolation::motion::{Motion, Spatial, plus_scaled, product};
-use crate::isolation::records::{JointAccelerations, PerJoint};
+use crate::isolation::motion::{Motion, Moving, Spatial, plus_scaled, product};
+use crate::model::kind::JointInfo;
 use crate::model::mode::Drive;
 use crate::numbers::each::Value;
-use crate::numbers::real::Real;
+use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{
     Columns, Vec3, add, cross, dot, map, rotate, rotate_transposed, scale, sub,
 };
 
-/// What is left of a platform, with what it carries, once its joints are eliminated.
+/// What is left of a carrier of N joints, with what it carries, once its joints are eliminated.
 #[derive(Clone, Copy, Debug)]
-pub struct Eliminated<T> {
+pub struct Eliminated<T, const N: usize> {
     pub(crate) share: HubShare<T>,
-    pub(crate) gains: Gains<T>,
+    pub(crate) gains: Gains<T, N>,
     /// Pivot, and diagonal with every carried joint locked, of each joint.
-    pub(crate) pivots: PerJoint<[T; 2]>,
+    pub(crate) pivots: [[T; 2]; N],
 }
 
-/// How platform and joints follow the base.
+/// How carrier and joints follow the base.
 #[derive(Clone, Copy, Debug)]
-pub struct Gains<T> {
+pub struct Gains<T, const N: usize> {
     /// C, by columns.
     axes: Columns<T>,
     /// p, base axes.
     p: Vec3<T>,
     bias: Spatial<T>,
-    directions: [Spatial<T>; 6],
+    directions: [Spatial<T>; N],
     /// `w U` of each joint.
-    follow: [Spatial<T>; 6],
+    follow: [Spatial<T>; N],
     /// k of each joint.
-    given: [T; 6],
+    given: [T; N],
 }
 
 /// Moment of a force at p, for each unit force: the columns of `tilde(p)`.
@@ -117,27 +118,26 @@ fn add_dyad<T: Real>(m: &mut System<T>, f: &Spatial<T>, u: &Spatial<T>) {
     m.m_vw = [add(x, scale(a, f[0])), add(y, scale(b, f[0])), add(z, scale(c, f[0]))];
 }
 
-/// Eliminates the joints of a platform. `assembly` has platform and carried devices about P,
-/// expressed in platform axes, the carried joints eliminated; `field` is (I5).
+/// Eliminates the joints of a carrier. `assembly` has carrier and carried devices about P,
+/// expressed in carrier axes, the carried joints eliminated; `field` is (I5).
 #[inline(always)]
-pub(crate) fn eliminate<T: Real + Value>(
-    motion: &Motion<T>,
+pub(crate) fn eliminate<T: Real + Value, const N: usize>(
+    Moving { motion, directions }: &Moving<T, N>,
     field: Vec3<T>,
     assembly: &Assembly<T>,
-    drives: &PerJoint<Drive<T>>,
-) -> Eliminated<T> {
+    drives: [Drive<T>; N],
+) -> Eliminated<T, N> {
     let body = assembly.body();
     let System { h_v, h_w, .. } = assembly.system(motion.omega);
     let mut taken = assembly.taken();
     let mut bias: Spatial<T> = [map(h_v, |h| -h), map(h_w, |h| -h)];
     let zero = body.m_b.like(0.0);
-    let directions = motion.directions();
-    let mut follow = [[[zero; 3]; 2]; 6];
-    let mut given = [zero; 6];
-    let mut pivots = [[zero; 2]; 6];
+    let mut follow = [[[zero; 3]; 2]; N];
+    let mut given = [zero; N];
+    let mut pivots = [[zero; 2]; N];
     // Each reversed by itself: a reversed `zip` compares lengths, and could panic.
     let results = follow.iter_mut().rev().zip(given.iter_mut().rev()).zip(pivots.iter_mut().rev());
-    let joints = directions.iter().rev().zip(drives.array().into_iter().rev()).zip(results);
+    let joints = directions.iter().rev().zip(drives.into_iter().rev()).zip(results);
     for ((direction, drive), ((follow, given), pivot)) in joints {
         let of_body = rigid(&body, *direction);
         let u = plus_scaled(of_body, zero.like(-1.0), times(&taken, *direction));
@@ -155,8 +155,15 @@ pub(crate) fn eliminate<T: Real + Value>(
     let exerted = [add(left[0], bias[0]), add(left[1], bias[1])];
     Eliminated {
         share: share(motion, &body, &taken, exerted),
-        gains: Gains { axes: motion.axes, p: motion.p, bias: of_motion, directions, follow, given },
-        pivots: PerJoint::of(pivots),
+        gains: Gains {
+            axes: motion.axes,
+            p: motion.p,
+            bias: of_motion,
+            directions: *directions,
+            follow,
+            given,
+        },
+        pivots,
     }
 }
 
@@ -209,34 +216,31 @@ fn share<T: Real + Value>(
     }
 }
 
-impl<T: Real + Value> Gains<T> {
-    /// Accelerations of the joints and of the platform, about P in platform axes, from those of
-    /// the base. With a central field that of the platform is the one seen from what falls with
+impl<T: Real + Value, const N: usize> Gains<T, N> {
+    /// Accelerations of the joints and of the carrier, about P in carrier axes, from those of
+    /// the base. With a central field that of the carrier is the one seen from what falls with
     /// the field at P.
     #[inline(always)]
-    pub(crate) fn outward(
-        &self,
-        base: &BodyAcceleration<T>,
-    ) -> (JointAccelerations<T>, Spatial<T>) {
+    pub(crate) fn outward(&self, base: &BodyAcceleration<T>) -> ([T; N], Spatial<T>) {
         let linear = [base.r_b_n_ddot_bx, base.r_b_n_ddot_by, base.r_b_n_ddot_bz];
         let angular = [base.omega_dot_bx, base.omega_dot_by, base.omega_dot_bz];
         let at_p = add(linear, cross(angular, self.p));
         let turned = [rotate_transposed(&self.axes, at_p), rotate_transposed(&self.axes, angular)];
-        let mut platform = [add(turned[0], self.bias[0]), add(turned[1], self.bias[1])];
+        let mut carrier = [add(turned[0], self.bias[0]), add(turned[1], self.bias[1])];
         let mut found = self.given;
         let joints = self.directions.iter().zip(&self.follow);
         for (found, (direction, follow)) in found.iter_mut().zip(joints) {
-            *found = *found - product(follow, &platform);
-            platform = plus_scaled(platform, *found, *direction);
+            *found = *found - product(follow, &carrier);
+            carrier = plus_scaled(carrier, *found, *direction);
         }
-        (JointAccelerations::of(found), platform)
+        (found, carrier)
     }
 
     /// By how much each joint follows while one accelerates by one, those inboard of it are locked and
     /// those outboard of it are driven by no torque: row by row. What a pivot is the inertia of.
-    pub(crate) fn responses(&self) -> [[T; 6]; 6] {
+    fn responses(&self) -> [[T; N]; N] {
         let (zero, one) = (self.p[0].like(0.0), self.p[0].like(1.0));
-        let mut responses = [[zero; 6]; 6];
+        let mut responses = [[zero; N]; N];
         for (index, (row, direction)) in responses.iter_mut().zip(self.directions).enumerate() {
             let mut motion = direction;
             let joints = row.iter_mut().zip(self.directions.iter().zip(&self.follow)).enumerate();
@@ -253,14 +257,26 @@ impl<T: Real + Value> Gains<T> {
     }
 }
 
-impl<T: Value> Gains<T> {
+impl<T: Scalar, const N: usize> Gains<T, N> {
+    /// What a pivot is beside: mass and inertia that its joint moves with those that follow it.
+    pub(crate) fn scales(&self, joints: &[JointInfo], mass: T, inertia: T) -> [T; N] {
+        self.responses().map(|responses| {
+            let moved = responses.into_iter().zip(joints);
+            moved.fold(zero(), |scale: T, (response, info)| {
+                scale + (if info.slides { mass } else { inertia }) * (response * response)
+            })
+        })
+    }
+}
+
+impl<T: Value, const N: usize> Gains<T, N> {
     /// Gains joined number by number.
     #[inline(always)]
     pub(crate) fn zip<U: Copy, W: Copy>(
         &self,
-        other: &Gains<U>,
+        other: &Gains<U, N>,
         mut join: impl FnMut(T, U) -> W,
-    ) -> Gains<W> {
+    ) -> Gains<W, N> {
         let mut vector =
             |a: Vec3<T>, b: Vec3<U>| [join(a[0], b[0]), join(a[1], b[1]), join(a[2], b[2])];
         let axes = [
@@ -271,23 +287,22 @@ impl<T: Value> Gains<T> {
         let p = vector(self.p, other.p);
         let mut pair = |a: Spatial<T>, b: Spatial<U>| [vector(a[0], b[0]), vector(a[1], b[1])];
         let bias = pair(self.bias, other.bias);
-        let mut six = |a: &[Spatial<T>; 6], b: &[Spatial<U>; 6]| {
-            let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (*a, *b);
-            [pair(a, g), pair(b, h), pair(c, i), pair(d, j), pair(e, k), pair(f, l)]
-        };
-        let directions = six(&self.directions, &other.directions);
-        let follow = six(&self.follow, &other.follow);
-        let given = zip_six(self.given, other.given, join);
+        let directions = zip_each(self.directions, other.directions, &mut pair);
+        let follow = zip_each(self.follow, other.follow, &mut pair);
+        let given = zip_each(self.given, other.given, join);
         Gains { axes, p, bias, directions, follow, given }
     }
 }
 
-/// Six values joined one by one.
+/// Values joined one by one.
 #[inline(always)]
-pub(crate) fn zip_six<V, U, W>(
-    [a, b, c, d, e, f]: [V; 6],
-    [g, h, i, j, k, l]: [U; 6],
+pub(crate) fn zip_each<V: Copy, U: Copy, W: Copy, const N: usize>(
+    a: [V; N],
+    b: [U; N],
     mut join: impl FnMut(V, U) -> W,
-) -> [W; 6] {
-    [join(a, g), join(b, h), join(c, i), join(d, j), join(e, k), join(f, l)]
+) -> [W; N] {
+    core::array::from_fn(
+        #[inline(always)]
+        |k| join(a[k], b[k]),
+    )
 }

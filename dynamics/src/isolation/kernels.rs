@@ -4,17 +4,14 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use crate::equations::assembly::Assembly;
-use crate::equations::device::Device;
 use crate::equations::gravity::gradient_moment;
 use crate::equations::hub::{BodySums, HubConstants};
 use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum};
 use crate::isolation::elimination::{Eliminated, eliminate, moved};
 use crate::isolation::motion::{
-    Motion, Pose, Spatial, about_x, about_y, about_z, identity, transposed,
+    Motion, Moving, Pose, Spatial, about_x, about_y, about_z, identity, transposed,
 };
-use crate::isolation::parameters::Platform;
 use crate::isolation::records::{JointAccelerations, Joints, PerJoint};
-use crate::model::kernels::Kernels;
 use crate::model::mode::Drive;
 use crate::model::wrench::{Carried, Wrench};
 use crate::numbers::each::Value;
@@ -24,31 +21,64 @@ use crate::numbers::vec3::{
     Columns, Vec3, add, components, cross, map, rotate, rotate_transposed, scale,
 };
 
-/// Constants of a platform.
+/// Constants of a carrier.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants<T> {
     /// Columns: the mount's axes expressed in B.
     pub(crate) mount: Columns<T>,
     /// P from B with every coordinate zero, mount axes.
     pub(crate) origin: Vec3<T>,
-    /// The platform about P, platform axes.
+    /// The carrier about P, carrier axes.
     pub(crate) body: HubConstants<T>,
 }
 
 /// Wrenches on the bodies of a platform.
 type Wrenches<T> = PerJoint<Wrench<T>>;
 
+impl<T: Real> Constants<T> {
+    /// Axes of the mount and origin, expressed in the base.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> (&Columns<T>, Vec3<T>) {
+        (&self.mount, rotate(&self.mount, self.origin))
+    }
+}
+
+impl<T: Value> Constants<T> {
+    /// Constants joined number by number.
+    #[inline(always)]
+    pub(crate) fn zip<U: Value, W: Value>(
+        &self,
+        other: &Constants<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Constants<W> {
+        let mut vector =
+            |a: [T; 3], b: [U; 3]| [join(a[0], b[0]), join(a[1], b[1]), join(a[2], b[2])];
+        let mount: Columns<W> = [
+            vector(self.mount[0], other.mount[0]),
+            vector(self.mount[1], other.mount[1]),
+            vector(self.mount[2], other.mount[2]),
+        ];
+        let origin = vector(self.origin, other.origin);
+        Constants { mount, origin, body: self.body.zip(&other.body, join) }
+    }
+}
+
 impl<T: Real + Value> Constants<T> {
     /// The motion on a base expressed in mount axes.
     #[inline(always)]
-    fn in_mount(&self, pose: &Pose<T>, joints: &Joints<T>, omega: Vec3<T>) -> Motion<T> {
-        Motion::of((&identity(self.body.m_b), self.origin), pose, joints, omega)
+    fn in_mount(&self, pose: &Pose<T>, joints: &Joints<T>, omega: Vec3<T>) -> Moving<T, 6> {
+        Moving::of_platform((&identity(self.body.m_b), self.origin), pose, joints, omega)
     }
 
     /// The motion on the base, expressed in it.
     #[inline(always)]
-    pub(crate) fn motion(&self, pose: &Pose<T>, joints: &Joints<T>, omega: Vec3<T>) -> Motion<T> {
-        Motion::of((&self.mount, rotate(&self.mount, self.origin)), pose, joints, omega)
+    pub(crate) fn moving(
+        &self,
+        pose: &Pose<T>,
+        joints: &Joints<T>,
+        omega: Vec3<T>,
+    ) -> Moving<T, 6> {
+        Moving::of_platform(self.place(), pose, joints, omega)
     }
 
     /// The elimination of a platform that carries nothing.
@@ -59,10 +89,10 @@ impl<T: Real + Value> Constants<T> {
         joints: &Joints<T>,
         omega: &BodyRate<T>,
         drives: &PerJoint<Drive<T>>,
-    ) -> Eliminated<T> {
+    ) -> Eliminated<T, 6> {
         let none = [self.body.m_b.like(0.0); 3];
-        let motion = self.motion(pose, joints, [omega.omega_bx, omega.omega_by, omega.omega_bz]);
-        eliminate(&motion, none, &Assembly::new(&self.body, none, none), drives)
+        let moving = self.moving(pose, joints, [omega.omega_bx, omega.omega_by, omega.omega_bz]);
+        eliminate(&moving, none, &Assembly::new(&self.body, none, none), drives.array())
     }
 
     /// Wrenches on the bodies, each about its joint's origin in its own axes, summed from the
@@ -170,22 +200,15 @@ impl<T: Real> Pose<T> {
     }
 }
 
-impl<T: Scalar> Device<Platform<T>> {
-    /// The motion on a base that turns, expressed in it.
-    pub(crate) fn motion(&self, joints: &Joints<T>, omega: Vec3<T>) -> Motion<T> {
-        self.constants.motion(&Platform::<T>::pose(joints), joints, omega)
-    }
-}
-
 impl<T: Scalar> Motion<T> {
-    /// Energy and momenta about P in platform axes, as about the origin of the base in its axes.
+    /// Energy and momenta about P in carrier axes, as about the origin of the base in its axes.
     pub(crate) fn on_base(&self, sums: &BodySums<T>) -> BodySums<T> {
         let linear = rotate(&self.axes, sums.linear);
         let angular_b = add(rotate(&self.axes, sums.angular_b), cross(self.p, linear));
         BodySums { energy: sums.energy, linear, angular_b }
     }
 
-    /// First moment about P in platform axes, and its derivative seen from the platform, of what
+    /// First moment about P in carrier axes, and its derivative seen from the carrier, of what
     /// has a mass: as about the origin of the base, seen from it.
     pub(crate) fn first_moments(&self, mass: T, [s, s_prime]: [Vec3<T>; 2]) -> [Vec3<T>; 2] {
         let prime = rotate(&self.axes, add(s_prime, cross(self.relative, s)));

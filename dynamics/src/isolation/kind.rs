@@ -11,7 +11,7 @@ use crate::equations::hub::HubConstants;
 use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, ConstantShare, EnergyMomentum, HubShare,
 };
-use crate::isolation::elimination::{Eliminated, Gains, zip_six};
+use crate::isolation::elimination::{Eliminated, Gains, zip_each};
 use crate::isolation::kernels::Constants;
 use crate::isolation::motion::Pose;
 use crate::isolation::parameters::Platform;
@@ -34,8 +34,8 @@ impl<S: Scalar> Kernels for Platform<S> {
     type Accelerations<T: Value> = JointAccelerations<T>;
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = Pose<T>;
-    type Eliminated<T: Value> = Eliminated<T>;
-    type Gains<T: Value> = Gains<T>;
+    type Eliminated<T: Value> = Eliminated<T, 6>;
+    type Gains<T: Value> = Gains<T, 6>;
 
     #[inline(always)]
     fn pose_by<T: Value>(
@@ -54,32 +54,31 @@ impl<S: Scalar> Kernels for Platform<S> {
         joints: &Joints<T>,
         omega: &BodyRate<T>,
         drives: &PerJoint<Drive<T>>,
-    ) -> Eliminated<T> {
+    ) -> Eliminated<T, 6> {
         constants.eliminate(pose, joints, omega, drives)
     }
 
     #[inline(always)]
-    fn share<T: Real>(eliminated: &Eliminated<T>) -> &HubShare<T> {
+    fn share<T: Real>(eliminated: &Eliminated<T, 6>) -> &HubShare<T> {
         &eliminated.share
     }
 
     #[inline(always)]
-    fn gains<T: Real>(eliminated: &Eliminated<T>) -> &Gains<T> {
+    fn gains<T: Real>(eliminated: &Eliminated<T, 6>) -> &Gains<T, 6> {
         &eliminated.gains
     }
 
     #[inline(always)]
-    fn pivots<T: Real>(eliminated: &Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
-        let pivots = eliminated.pivots.array();
-        PerJoint::of(zip_six(pivots, pivots, |pivot, _| Some(pivot)))
+    fn pivots<T: Real>(eliminated: &Eliminated<T, 6>) -> PerJoint<Option<[T; 2]>> {
+        PerJoint::of(eliminated.pivots.map(Some))
     }
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        gains: &Gains<T>,
+        gains: &Gains<T, 6>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        gains.outward(hub).0
+        JointAccelerations::of(gains.outward(hub).0)
     }
 
     #[inline(always)]
@@ -109,17 +108,9 @@ impl<S: Scalar> Kernels for Platform<S> {
     fn zip_constants<T: Value, U: Value, W: Value>(
         a: &Constants<T>,
         b: &Constants<U>,
-        mut join: impl FnMut(T, U) -> W,
+        join: impl FnMut(T, U) -> W,
     ) -> Constants<W> {
-        let mut vector =
-            |a: [T; 3], b: [U; 3]| [join(a[0], b[0]), join(a[1], b[1]), join(a[2], b[2])];
-        let mount: Columns<W> = [
-            vector(a.mount[0], b.mount[0]),
-            vector(a.mount[1], b.mount[1]),
-            vector(a.mount[2], b.mount[2]),
-        ];
-        let origin = vector(a.origin, b.origin);
-        Constants { mount, origin, body: a.body.zip(&b.body, join) }
+        a.zip(b, join)
     }
 
     #[inline(always)]
@@ -128,16 +119,16 @@ impl<S: Scalar> Kernels for Platform<S> {
         b: &Joints<U>,
         mut join: impl FnMut(T, U) -> W,
     ) -> Joints<W> {
-        let coordinates = zip_six(a.coordinates(), b.coordinates(), &mut join);
-        Joints::of(coordinates, zip_six(a.rates(), b.rates(), join))
+        let coordinates = zip_each(a.coordinates(), b.coordinates(), &mut join);
+        Joints::of(coordinates, zip_each(a.rates(), b.rates(), join))
     }
 
     #[inline(always)]
     fn zip_gains<T: Value, U: Value, W: Value>(
-        a: &Gains<T>,
-        b: &Gains<U>,
+        a: &Gains<T, 6>,
+        b: &Gains<U, 6>,
         join: impl FnMut(T, U) -> W,
-    ) -> Gains<W> {
+    ) -> Gains<W, 6> {
         a.zip(b, join)
     }
 
@@ -147,7 +138,7 @@ impl<S: Scalar> Kernels for Platform<S> {
         b: &JointAccelerations<U>,
         join: impl FnMut(T, U) -> W,
     ) -> JointAccelerations<W> {
-        JointAccelerations::of(zip_six(a.array(), b.array(), join))
+        JointAccelerations::of(zip_each(a.array(), b.array(), join))
     }
 
     #[inline(always)]
@@ -156,7 +147,7 @@ impl<S: Scalar> Kernels for Platform<S> {
         b: &PerJoint<U>,
         join: impl FnMut(T, U) -> W,
     ) -> PerJoint<W> {
-        PerJoint::of(zip_six(a.array(), b.array(), join))
+        PerJoint::of(zip_each(a.array(), b.array(), join))
     }
 }
 

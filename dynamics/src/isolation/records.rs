@@ -173,32 +173,32 @@ records! {
     }
 }
 
-/// Data of an isolated set: of the platform, and of the devices that it carries.
+/// Data of a [`Carrying`](crate::Carrying) set: of the carrier, and of the devices that it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Data<P, C> {
-    /// Of the platform.
-    pub platform: P,
+    /// Of the carrier.
+    pub carrier: P,
     /// Of the carried devices, in the shape of their set.
     pub carried: C,
 }
 
 impl<V: Value, P: Each<V>, C: Each<V>> Each<V> for Data<P, C> {
     fn values(&self) -> impl Iterator<Item = V> {
-        self.platform.values().chain(self.carried.values())
+        self.carrier.values().chain(self.carried.values())
     }
 
     fn values_mut(&mut self) -> impl Iterator<Item = &mut V> {
-        self.platform.values_mut().chain(self.carried.values_mut())
+        self.carrier.values_mut().chain(self.carried.values_mut())
     }
 }
 
 impl<T: Value, P: JointStates<T>, C: JointStates<T>> JointStates<T> for Data<P, C> {
     fn states(&self) -> impl Iterator<Item = [T; 2]> {
-        self.platform.states().chain(self.carried.states())
+        self.carrier.states().chain(self.carried.states())
     }
 
     fn states_mut(&mut self) -> impl Iterator<Item = [&mut T; 2]> {
-        self.platform.states_mut().chain(self.carried.states_mut())
+        self.carrier.states_mut().chain(self.carried.states_mut())
     }
 }
 

@@ -1,57 +1,55 @@
-//! [`CarriedLoads`]: loads and powers of what a platform carries, on the platform's motion as the
-//! base, and what they add to the platform's own.
+//! [`CarriedLoads`]: loads and powers of what a carrier carries, on the carrier's motion as the
+//! base, and what they add to the carrier's own.
 
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Added, Along, HubAccelerations, LoadSums};
+use crate::isolation::carrier::Carrier;
 use crate::isolation::kernels::moved_second_moment;
 use crate::isolation::motion::{Motion, transposed};
-use crate::isolation::parameters::Platform;
-use crate::isolation::records::{JointAccelerations, Joints};
-use crate::model::kernels::Kernels;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{Vec3, cross, dot, map, rotate_transposed, scale, sub};
 use crate::results::momentum::first_moments;
+use crate::sets::carrying::PreparedCarrying;
 use crate::sets::devices::DeviceSet;
-use crate::sets::isolated::PreparedIsolated;
 use crate::sets::per_device as data;
 
-/// A platform as the base of the devices that it carries, for known accelerations.
-pub(crate) struct CarriedLoads<'a, T: Scalar> {
-    joints: &'a Joints<T>,
-    motion: Motion<T>,
-    hub: &'a HubAccelerations<T>,
-    /// (I5), platform axes.
-    field: Vec3<T>,
+/// A carrier as the base of the devices that it carries, for known accelerations.
+pub(crate) struct CarriedLoads<'a, C: Carrier> {
+    joints: &'a C::Joints<C::Scalar>,
+    moving: C::Moving,
+    hub: &'a HubAccelerations<C::Scalar>,
+    /// (I5), carrier axes.
+    field: Vec3<C::Scalar>,
     /// For the carried devices.
-    pub(crate) environment: Environment<T>,
+    pub(crate) environment: Environment<C::Scalar>,
 }
 
-impl<'a, T: Scalar> CarriedLoads<'a, T> {
-    /// The platform's motion on its base.
+impl<'a, T: Scalar, C: Carrier<Scalar = T>> CarriedLoads<'a, C> {
+    /// The carrier's motion on its base.
     pub(crate) fn start<D: DeviceSet<Scalar = T>>(
-        isolated: &PreparedIsolated<D>,
-        joints: &'a Joints<T>,
+        carrying: &PreparedCarrying<C, D>,
+        joints: &'a C::Joints<T>,
         base: &Environment<T>,
         hub: &'a HubAccelerations<T>,
     ) -> Self {
-        let motion = isolated.carrier.device.motion(joints, base.omega);
-        let (environment, field) = (motion.environment(base), motion.field(base));
-        Self { joints, motion, hub, field, environment }
+        let moving = carrying.carrier.moving(joints, base.omega);
+        let (environment, field) = (moving.environment(base), moving.field(base));
+        Self { joints, moving, hub, field, environment }
     }
 
-    /// Accelerations of the platform, platform axes, seen from what falls with the field at P.
-    pub(crate) fn base(&self, accelerations: &JointAccelerations<T>) -> HubAccelerations<T> {
+    /// Accelerations of the carrier, carrier axes, seen from what falls with the field at P.
+    pub(crate) fn base(&self, accelerations: &C::Accelerations<T>) -> HubAccelerations<T> {
         let base = [self.hub.r_b_n_ddot, self.hub.omega_dot];
-        let [at_p, omega_dot] = self.motion.acceleration(base, accelerations.array());
+        let [at_p, omega_dot] = C::acceleration(&self.moving, base, accelerations);
         HubAccelerations { r_b_n_ddot: sub(at_p, self.field), omega_dot }
     }
 
     /// The axes for the loads of the carried joints: those of the base are given by the
-    /// platform's rotation.
+    /// carrier's rotation.
     pub(crate) fn along(&self, of_base: &Along<T>) -> Along<T> {
-        let axes = &self.motion.axes;
+        let axes = &self.moving.axes;
         match of_base {
             Along::Body => Along::Body,
             Along::Parent => Along::Parent,
@@ -63,18 +61,18 @@ impl<'a, T: Scalar> CarriedLoads<'a, T> {
     }
 
     /// Adds the powers and the second moment of the carried devices to those of the base; returns
-    /// what they add to the platform's loads.
+    /// what they add to the carrier's loads.
     pub(crate) fn add<D: DeviceSet<Scalar = T>>(
         &self,
-        isolated: &PreparedIsolated<D>,
+        carrying: &PreparedCarrying<C, D>,
         carried: &D::Per<data::Joints>,
         sums: &mut LoadSums<T>,
         base: &mut LoadSums<T>,
     ) -> Added<T> {
-        let pose = Platform::<T>::pose(self.joints);
-        let suspension = isolated.carrier.suspension.forces(&pose, self.joints);
+        let pose = C::pose(self.joints);
+        let suspension = C::forces(&carrying.carrier.suspension, &pose, self.joints);
         if self.environment.central.is_some() {
-            self.add_uniform::<D>(isolated, carried, sums, base);
+            self.add_uniform::<D>(carrying, carried, sums, base);
         }
         base.power.add(&sums.power);
         base.power.stored = base.power.stored + suspension.potential;
@@ -86,13 +84,13 @@ impl<'a, T: Scalar> CarriedLoads<'a, T> {
     /// with it, so its force and its power come back on both sides.
     fn add_uniform<D: DeviceSet<Scalar = T>>(
         &self,
-        isolated: &PreparedIsolated<D>,
+        carrying: &PreparedCarrying<C, D>,
         carried: &D::Per<data::Joints>,
         sums: &mut LoadSums<T>,
         base: &mut LoadSums<T>,
     ) {
-        let mass = isolated.carrier.carried_mass;
-        let [s, s_prime] = first_moments::<D>(&isolated.carried, carried);
+        let mass = carrying.carrier.carried_mass;
+        let [s, s_prime] = first_moments::<D>(&carrying.carried, carried);
         let wrench = Wrench::of(scale(mass, self.field), cross(s, self.field));
         sums.inertial = sums.inertial.plus(&wrench);
         sums.gradient = sums.gradient.plus(&wrench);
@@ -102,7 +100,7 @@ impl<'a, T: Scalar> CarriedLoads<'a, T> {
         powers.gradient = powers.gradient + power;
         powers.magnitude = powers.magnitude + power.abs() + power.abs();
         let body = HubConstants { m_b: mass, first_moment: s, i_b_b: sums.second_moment };
-        let Motion { axes, p, .. } = &self.motion;
+        let Motion { axes, p, .. } = &*self.moving;
         let second = moved_second_moment(&body, &sums.second_moment, axes, *p);
         base.second_moment = base.second_moment.plus(second);
     }

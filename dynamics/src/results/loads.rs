@@ -14,6 +14,7 @@ use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Field, at_b};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
@@ -21,8 +22,8 @@ use crate::numbers::vec3::{columns, components, sub};
 use crate::results::carried_loads::CarriedLoads;
 use crate::results::structure::StructureResults;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::carrying::{Carrying, PreparedCarrying, parts};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated, parts};
 use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -93,16 +94,17 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, given, accelerations, out): <Weighed as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, given, accelerations, out): <Weighed as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
         let Self { environment, hub, along, totals } = self;
-        let carried = CarriedLoads::start(isolated, &joints.platform, environment, hub);
-        let base = carried.base(&accelerations.platform);
-        let (of_platform, given) = parts::<D>(given);
-        let mut sums = LoadSums { joints: totals.joints.wrapping_add(6), ..LoadSums::none() };
+        let carried = CarriedLoads::start(carrying, &joints.carrier, environment, hub);
+        let base = carried.base(&accelerations.carrier);
+        let (of_carrier, given) = parts::<T, C, D>(given);
+        let joint = totals.joints.wrapping_add(C::JOINTS.len());
+        let mut sums = LoadSums { joints: joint, ..LoadSums::none() };
         let mut weighing = Weighing {
             environment: &carried.environment,
             hub: &base,
@@ -110,14 +112,14 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
             totals: &mut sums,
         };
         let data = (&joints.carried, given, &accelerations.carried, &mut out.carried);
-        let Ok(()) = D::visit::<Weighed, _>(&isolated.carried, data, &mut weighing);
-        let added = carried.add::<D>(isolated, &joints.carried, &mut sums, totals);
-        out.platform = isolated.carrier.device.loads_with(
-            &joints.platform,
-            of_platform,
+        let Ok(()) = D::visit::<Weighed, _>(&carrying.carried, data, &mut weighing);
+        let added = carried.add::<D>(carrying, &joints.carried, &mut sums, totals);
+        out.carrier = carrying.carrier.device.loads_with(
+            &joints.carrier,
+            of_carrier,
             environment,
             hub,
-            &accelerations.platform,
+            &accelerations.carrier,
             along,
             totals,
             Some(&added),

@@ -11,6 +11,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::BodySums;
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{
@@ -19,8 +20,8 @@ use crate::numbers::vec3::{
 };
 use crate::results::structure::StructureResults;
 use crate::sets::bundle::Shared;
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
 use crate::solve::finite::{not_finite_in_vector, reject};
 use crate::solve::spacecraft::Spacecraft;
@@ -83,19 +84,19 @@ impl<T: Scalar> Visit<T, Shared<Joints>> for Addition<'_, T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        joints: &<Isolated<D> as DeviceSet>::Per<Joints>,
+        carrying: &PreparedCarrying<C, D>,
+        joints: &<Carrying<C, D> as DeviceSet>::Per<Joints>,
     ) -> Result<(), Infallible> {
-        let device = &isolated.carrier.device;
-        device.add_sums(&joints.platform, self.r_b_n_dot, self.omega, self.sums);
-        let motion = device.motion(&joints.platform, self.omega);
+        let device = &carrying.carrier.device;
+        device.add_sums(&joints.carrier, self.r_b_n_dot, self.omega, self.sums);
+        let motion = carrying.carrier.moving(&joints.carrier, self.omega);
         let mut sums = BodySums { energy: zero(), linear: zeros(), angular_b: zeros() };
         let r_b_n_dot = motion.velocity(self.r_b_n_dot);
         let mut addition = Addition { r_b_n_dot, omega: motion.omega, sums: &mut sums };
         let Ok(()) =
-            D::visit::<Shared<Joints>, _>(&isolated.carried, &joints.carried, &mut addition);
+            D::visit::<Shared<Joints>, _>(&carrying.carried, &joints.carried, &mut addition);
         let BodySums { energy, linear, angular_b } = motion.on_base(&sums);
         self.sums.energy = self.sums.energy + energy;
         self.sums.linear = add(self.sums.linear, linear);
@@ -119,15 +120,15 @@ impl<T: Scalar> Visit<T, Shared<Joints>> for FirstMoments<'_, T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        joints: &<Isolated<D> as DeviceSet>::Per<Joints>,
+        carrying: &PreparedCarrying<C, D>,
+        joints: &<Carrying<C, D> as DeviceSet>::Per<Joints>,
     ) -> Result<(), Infallible> {
-        let carrier = &isolated.carrier;
-        carrier.device.add_first_moment(&joints.platform, self.0);
-        let carried = first_moments::<D>(&isolated.carried, &joints.carried);
-        let motion = carrier.device.motion(&joints.platform, zeros());
+        let carrier = &carrying.carrier;
+        carrier.device.add_first_moment(&joints.carrier, self.0);
+        let carried = first_moments::<D>(&carrying.carried, &joints.carried);
+        let motion = carrier.moving(&joints.carrier, zeros());
         let shares = motion.first_moments(carrier.carried_mass, carried);
         for (sum, share) in self.0.iter_mut().zip(shares) {
             *sum = add(*sum, share);

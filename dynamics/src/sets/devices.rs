@@ -13,7 +13,8 @@ use core::fmt::Debug;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
-use crate::isolation::platform_elimination::PlatformConstants;
+use crate::isolation::carrier::Carrier;
+use crate::isolation::carrier_elimination::CarrierConstants;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -21,8 +22,8 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, MemberIndex, Part};
+use crate::sets::carrying::{Carrying, PreparedCarrying, only_mass};
 use crate::sets::enumeration::{DeviceEnum, Visited};
-use crate::sets::isolated::{Isolated, PreparedIsolated, only_mass};
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, OnMount, PerDevice, PerJoint};
 use crate::validation::parameter_error::ParameterError;
 
@@ -119,20 +120,20 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
     {
         E::with(device, Visited::<E, B, Self> { data, visitor: self })
     }
-    /// Does it with a platform and the devices that it carries. Here one after another, as with
+    /// Does it with a carrier and the devices that it carries. Here one after another, as with
     /// devices on the hub: right of what does not depend on the motion of a device's base.
     ///
     /// # Errors
     /// Ends the visit.
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        data: B::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        data: B::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Self::Error>
     where
         Self: Sized,
     {
-        isolated.visit_members::<B, Self>(data, self)
+        carrying.visit_members::<B, Self>(data, self)
     }
     /// Whether members in a row are shown by [`Self::visit_row`].
     const ROWS: bool = false;
@@ -193,13 +194,15 @@ pub trait List<T: Scalar> {
     type Item;
     /// The entries of one device.
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Self::Item>;
-    /// The entries of a platform, without what it carries.
-    fn of_platform(platform: &PlatformConstants<T>) -> impl Iterator<Item = Self::Item> {
-        Self::of(&platform.device)
+    /// The entries of a carrier, without what it carries.
+    fn of_carrier<C: Carrier<Scalar = T>>(
+        carrier: &CarrierConstants<C>,
+    ) -> impl Iterator<Item = Self::Item> {
+        Self::of(&carrier.device)
     }
-    /// What the entry of a device is for the base of the platform that carries it.
+    /// What the entry of a device is for the base of the carrier of it.
     #[must_use]
-    fn on_platform(item: Self::Item) -> Self::Item {
+    fn on_carrier(item: Self::Item) -> Self::Item {
         item
     }
 }
@@ -297,7 +300,7 @@ impl<T: Scalar> List<T> for ConstantShares {
         core::iter::once(K::constant_share(&device.constants))
     }
 
-    fn on_platform(share: ConstantShare<T>) -> ConstantShare<T> {
+    fn on_carrier(share: ConstantShare<T>) -> ConstantShare<T> {
         only_mass(share)
     }
 }
@@ -326,9 +329,11 @@ impl<T: Scalar> List<T> for Passives {
     }
 
     /// With the diagonals that bound its suspension.
-    fn of_platform(platform: &PlatformConstants<T>) -> impl Iterator<Item = Passive<T>> {
-        let [damping, stiffness] = platform.suspension.diagonals(None);
-        let joints = platform.device.passive.values().zip(damping.into_iter().zip(stiffness));
+    fn of_carrier<C: Carrier<Scalar = T>>(
+        carrier: &CarrierConstants<C>,
+    ) -> impl Iterator<Item = Passive<T>> {
+        let [damping, stiffness] = C::diagonals(&carrier.suspension, None);
+        let joints = carrier.device.passive.values().zip(damping.into_iter().zip(stiffness));
         joints.map(|(passive, (c, k))| Passive {
             viscous: passive.viscous + c,
             stiffness: passive.stiffness + k,

@@ -10,13 +10,13 @@ mod built_in_names;
 #[cfg(test)]
 mod built_in_tests;
 pub(crate) mod bundle;
+pub(crate) mod carrying;
+mod carrying_numbers;
 pub(crate) mod counts;
 pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
 pub(crate) mod groups;
-pub(crate) mod isolated;
-mod isolated_numbers;
 pub(crate) mod kind_data;
 pub(crate) mod optional;
 pub(crate) mod per_device;

@@ -15,20 +15,21 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::side_by_side::gains::GroupGains;
 use crate::equations::system::Solution;
 use crate::generated::hub::BodyAcceleration;
-use crate::isolation::platform_elimination::PlatformElimination;
+use crate::isolation::carrier::Carrier;
+use crate::isolation::carrier_elimination::CarrierElimination;
 use crate::model::kind::Kind;
 use crate::numbers::each::Each;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 #[cfg(feature = "lanes")]
 use crate::sets::bundle::{MemberIndex, Part};
+use crate::sets::carrying::{Carrying, PreparedCarrying, parts};
 use crate::sets::counts::compare_counts;
 #[cfg(feature = "lanes")]
 use crate::sets::devices::Devices;
 use crate::sets::devices::{DeviceSet, Visit};
 #[cfg(feature = "lanes")]
 use crate::sets::enumeration::DeviceEnum;
-use crate::sets::isolated::{Isolated, PreparedIsolated, parts};
 use crate::sets::per_device as data;
 #[cfg(feature = "lanes")]
 use crate::solve::{row_substitution, rows};
@@ -144,31 +145,27 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         compare_counts(expected, found)
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), SolveError<T>> {
         let index = self.device;
-        let mut carrying = PlatformElimination::start(
-            &isolated.carrier,
-            index,
-            &joints.platform,
-            self.environment,
-        );
+        let mut eliminating =
+            CarrierElimination::start(&carrying.carrier, index, &joints.carrier, self.environment);
         let mut outboard = Elimination {
-            environment: &carrying.environment,
-            assembly: &mut carrying.assembly,
+            environment: &eliminating.environment,
+            assembly: &mut eliminating.assembly,
             device: index.wrapping_add(1),
             by: self.by,
             #[cfg(feature = "lanes")]
             groups: self.groups.as_deref_mut(),
         };
-        let (of_platform, of_carried) = parts::<D>(given);
+        let (of_carrier, of_carried) = parts::<T, C, D>(given);
         let data = (&joints.carried, of_carried, &mut gains.carried);
-        D::visit::<Eliminated, _>(&isolated.carried, data, &mut outboard)?;
+        D::visit::<Eliminated, _>(&carrying.carried, data, &mut outboard)?;
         self.device = outboard.device;
-        gains.platform = Some(carrying.finish(of_platform, self.assembly)?);
+        gains.carrier = Some(eliminating.finish(of_carrier, self.assembly)?);
         Ok(())
     }
 }
@@ -214,19 +211,19 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (gains, out): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (gains, out): <Substituted as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        let Some(of_platform) = &gains.platform else { return Ok(()) };
-        let (joints, [r_b_n_ddot, omega_dot]) = of_platform.outward(&self.hub);
+        let Some(of_carrier) = &gains.carrier else { return Ok(()) };
+        let (joints, [r_b_n_ddot, omega_dot]) = C::outward(of_carrier, &self.hub);
         self.finite &= joints.values().all(Scalar::is_finite);
-        out.platform = joints;
-        let platform = Solution { r_b_n_ddot, omega_dot };
-        let (groups, carried) = (self.groups.as_deref_mut(), &isolated.carried);
+        out.carrier = joints;
+        let base = Solution { r_b_n_ddot, omega_dot };
+        let (groups, carried) = (self.groups.as_deref_mut(), &carrying.carried);
         let out = &mut out.carried;
-        self.finite &= substitute::<D>(carried, &gains.carried, &platform, out, groups);
+        self.finite &= substitute::<D>(carried, &gains.carried, &base, out, groups);
         Ok(())
     }
 

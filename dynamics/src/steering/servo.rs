@@ -3,14 +3,15 @@
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
 use crate::equations::device_loads::LoadsOf;
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::results::loads::LoadAxes;
 use crate::sets::bundle::Shared;
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -127,10 +128,10 @@ impl<T: Scalar, const N: usize> Visit<T, Shared<data::Loads>> for Motors<T, N> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        _: &<Isolated<D> as DeviceSet>::Per<data::Loads>,
+        _: &PreparedCarrying<C, D>,
+        _: &<Carrying<C, D> as DeviceSet>::Per<data::Loads>,
     ) -> Result<(), SteeringError<T>> {
         Err(SteeringError::Platform { device: self.device })
     }

@@ -6,6 +6,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::{Kind, Steering};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
@@ -14,8 +15,8 @@ use crate::numbers::vec3::{
     vector, zeros,
 };
 use crate::sets::bundle::Shared;
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, JointInfos, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -149,10 +150,10 @@ impl<T: Scalar, const N: usize> Visit<T, Shared<data::Joints>> for Sum<'_, T, N>
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        _: &<Isolated<D> as DeviceSet>::Per<data::Joints>,
+        _: &PreparedCarrying<C, D>,
+        _: &<Carrying<C, D> as DeviceSet>::Per<data::Joints>,
     ) -> Result<(), SteeringError<T>> {
         Err(SteeringError::Platform { device: self.device })
     }

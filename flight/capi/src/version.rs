@@ -116,7 +116,7 @@ impl Interface<7> for Versions {
                 let to = room.next().ok_or(at(index, Code::TooMany))?;
                 *to = Some(placed(index, entry, &mut entry_map)?);
             }
-            *to = Some(Isolated { platform, suspension, carried });
+            *to = Some(Isolated { carrier: platform, suspension, carried });
         }
         Ok(((list, platforms), entry_map))
     }
@@ -129,7 +129,7 @@ impl Interface<7> for Versions {
     fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut LoadsByEntry<'_, 7>) {
         list.iter().flatten().for_each(|of| to.put(of));
         for of in platforms.iter().flatten() {
-            to.put(&of.platform);
+            to.put(&of.carrier);
             of.carried.iter().flatten().for_each(|of| to.put(of));
         }
     }

@@ -162,7 +162,7 @@ pub fn isolated<D: FixedSet>(carried: D, random: &mut Random) -> Isolated<D> {
         coupled: Some(coupled(random)),
         struts: [Some(strut(random)), Some(strut(random)), None, None, None, None],
     };
-    Isolated { platform, suspension, carried }
+    Isolated { carrier: platform, suspension, carried }
 }
 
 /// A multiple of the unit matrix and a product of a vector with itself: positive definite.

@@ -17,7 +17,7 @@ pub(super) fn platform(
     of: &Isolated<Vec<BuiltIn>>,
     [member, first]: [usize; 2],
 ) -> Written {
-    let Isolated { platform, suspension, .. } = of;
+    let Isolated { carrier: platform, suspension, .. } = of;
     writeln!(out, "\n[[platform]]\nname = {}", quoted(name))?;
     writeln!(out, "position = {}", vector(&platform.r_p_b, "m"))?;
     structure::node(out, s, member)?;

@@ -357,7 +357,7 @@ fn motors(loads: &Loads<Set>) -> Vec<f64> {
     let (on_hub, platforms) = &loads.devices;
     let mut all: Vec<f64> = on_hub.iter().flat_map(|of| of.motors.values()).collect();
     for of in platforms {
-        all.extend(of.platform.motors.values());
+        all.extend(of.carrier.motors.values());
         all.extend(of.carried.iter().flat_map(|of| of.motors.values()));
     }
     all

@@ -97,7 +97,7 @@ impl<'a> Member<'a> {
     pub fn mount(&self) -> Matrix3<f64> {
         match self {
             Self::Device { device, .. } => device.parameters().mount,
-            Self::Platform(of) => of.platform.mount,
+            Self::Platform(of) => of.carrier.mount,
         }
     }
 
@@ -109,7 +109,7 @@ impl<'a> Member<'a> {
                 let bodies = device.parameters().bodies.into_iter();
                 bodies.take(self.joints().len()).collect()
             }
-            Self::Platform(of) => of.platform.bodies().values().collect(),
+            Self::Platform(of) => of.carrier.bodies().values().collect(),
         }
     }
 
@@ -121,7 +121,7 @@ impl<'a> Member<'a> {
                 let passive = device.parameters().passive.into_iter();
                 passive.take(self.joints().len()).collect()
             }
-            Self::Platform(of) => of.platform.passive.values().collect(),
+            Self::Platform(of) => of.carrier.passive.values().collect(),
         }
     }
 

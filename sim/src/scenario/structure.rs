@@ -137,7 +137,7 @@ impl Scenario {
         let mut of_platform = |isolated: &Isolated<Vec<BuiltIn>>| {
             let platform = of_members.next().unwrap_or(0);
             let carried = of_members.by_ref().take(isolated.carried.len()).collect();
-            platform::Data { platform, carried }
+            platform::Data { carrier: platform, carried }
         };
         let on_platforms: Vec<_> = self.devices.1.iter().map(&mut of_platform).collect();
         let on = (on_mount, on_platforms);

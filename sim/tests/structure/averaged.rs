@@ -195,7 +195,7 @@ fn isolated(slides: [f64; 2], turns: [f64; 2]) -> Isolated<ReactionWheel> {
     body.passive = platform::PerJoint::of([slide, slide, slide, turn, turn, turn]);
     let rotor = Matrix3::from_diagonal(&Vector3::new(0.02, 0.012, 0.012));
     Isolated {
-        platform: body,
+        carrier: body,
         suspension: Suspension::none(),
         carried: ReactionWheel::bare_wheel(4.0, rotor),
     }

@@ -70,15 +70,16 @@ fn steps_on_a_flexible_structure_and_a_platform_keep_locked_coordinates() {
     kept("step of a structure", &now.devices);
 
     let platform = Platform::bare(10.0, Matrix3::identity());
-    let isolated = Isolated { platform, suspension: Suspension::none(), carried: devices() };
+    let isolated =
+        Isolated { carrier: platform, suspension: Suspension::none(), carried: devices() };
     let craft = Spacecraft::new(&hub(), &isolated).unwrap();
     let mut now: State<Isolated<Set>> = State::at_rest();
     let mut inputs: Inputs<Isolated<Set>> = Inputs::none();
     (now.devices.carried, inputs.modes.carried) = (state().devices, self::inputs().modes);
-    now.devices.platform.z_dot = 0.1;
+    now.devices.carrier.z_dot = 0.1;
     for _ in 0..STEPS {
         now = craft.step(&now, &inputs, DT).unwrap();
     }
     kept("step of what a platform carries", &now.devices.carried);
-    assert!(now.devices.platform.z > 0.0, "the platform rests");
+    assert!(now.devices.carrier.z > 0.0, "the platform rests");
 }

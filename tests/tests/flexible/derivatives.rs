@@ -52,7 +52,7 @@ impl<T: Scalar> JointLoads for (Dgvscmg<T>, ReactionWheel<T>, HingedPanel<T>, Sl
 impl<T: Scalar> JointLoads for (ReactionWheel<T>, Isolated<Vscmg<T>>) {
     fn joint_loads(loads: &Loads<Self, Structure>) -> Vec<Wrench<T>> {
         let (wheel, isolated) = &loads.devices;
-        let on_platform = isolated.platform.joints.values().chain(isolated.carried.joints.values());
+        let on_platform = isolated.carrier.joints.values().chain(isolated.carried.joints.values());
         wheel.joints.values().chain(on_platform).collect()
     }
 }

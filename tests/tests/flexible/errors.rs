@@ -137,9 +137,9 @@ fn a_platform_on_a_mount_that_is_not_there_is_rejected() {
     let wheel = ReactionWheel::bare_wheel(3.0, nalgebra::Matrix3::identity());
     let platform = Platform::bare(5.0, nalgebra::Matrix3::identity());
     let suspension = Suspension::none();
-    let isolated = Isolated { platform, suspension, carried: [wheel] };
+    let isolated = Isolated { carrier: platform, suspension, carried: [wheel] };
     let (devices, carried) = ((isolated, wheel), [9]);
-    let on_mount = |platform, wheel| (platform::Data { platform, carried }, wheel);
+    let on_mount = |platform, wheel| (platform::Data { carrier: platform, carried }, wheel);
     let built = |on_mount| Spacecraft::flexible(&case.hub, &case.modes, &devices, &on_mount);
     assert!(built(on_mount(0, 1)).is_ok());
     let rejected = |device| ModesError::NoMount { device, mount: 3, mounts: 3 };

@@ -25,7 +25,7 @@ pub(crate) type Carried = (ReactionWheel, Isolated<Vscmg>);
 
 /// That of the gyro is not read.
 pub(crate) const ON_MOUNT: <Carried as DeviceSet>::Per<OnMount> =
-    (1, platform::Data { platform: 2, carried: 0 });
+    (1, platform::Data { carrier: 2, carried: 0 });
 
 /// As on a rigid hub, with the platform's axes those of the gyro's mount: one chain of eight joints.
 pub(crate) fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
@@ -33,10 +33,10 @@ pub(crate) fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carri
     let (wheel, platform) =
         (crate::craft::device(random, 4.0), crate::craft::device::<Platform>(random, 10.0));
     let carried = mounted(random, 6.0, &Matrix3::identity());
-    let devices = (wheel, Isolated { platform, suspension: *suspension, carried });
+    let devices = (wheel, Isolated { carrier: platform, suspension: *suspension, carried });
     let (hub, modes) = structure(random, size, &[6.0, 14.0, 20.0]);
     let craft = Spacecraft::flexible(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
-    let (mut on_platform, gyro) = (chain(&devices.1.platform, 2), chain(&devices.1.carried, 2));
+    let (mut on_platform, gyro) = (chain(&devices.1.carrier, 2), chain(&devices.1.carried, 2));
     on_platform.links.extend(gyro.links);
     let chains = vec![chain(&devices.0, 1), on_platform];
     let mut state = State::at_rest_for(&craft);
@@ -44,7 +44,7 @@ pub(crate) fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carri
     draw_motion(random, size, &mut state);
     draw_inputs(random, &mut inputs);
     // Its second turn is far from a right angle.
-    for [coordinate, _] in state.devices.1.platform.states_mut() {
+    for [coordinate, _] in state.devices.1.carrier.states_mut() {
         *coordinate *= 0.4;
     }
     Case { seed, hub, modes, devices, craft, chains, state, inputs }
@@ -93,7 +93,7 @@ fn impulses_act_at_the_locked_joints_only() {
     for seed in SEED + 1120..SEED + 1124 {
         let size = Size { modes: 3, contained: seed % 2 == 1, rotation: 0.3, free: false };
         let mut case = case(seed, size, &suspension(0.0));
-        case.inputs.modes.1.platform.y_slide = Mode::Locked;
+        case.inputs.modes.1.carrier.y_slide = Mode::Locked;
         case.inputs.modes.1.carried.gimbal = Mode::Locked;
         let momentum = |case: &Case<Carried>| {
             case.craft.momentum(&case.state, About::InertialOrigin).expect("a momentum")
@@ -146,7 +146,7 @@ fn power_balances_and_nothing_is_needed_beside_the_inputs() {
                 omega_dot: Vector3::new(0.1, 0.3, -0.2),
             };
         }
-        case.inputs.modes.1.platform.z_slide = Mode::Prescribed(0.4);
+        case.inputs.modes.1.carrier.z_slide = Mode::Prescribed(0.4);
         let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
         let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger");
         let balance = ledger.residual.abs() / ledger.magnitude;
@@ -174,7 +174,7 @@ fn closed(seed: u64) -> Case<Carried> {
     case.modes.damping.fill(0.0);
     case.modes.frequencies.iter_mut().for_each(|w| *w = w.min(12.0));
     let (wheel, isolated) = &mut case.devices;
-    let joints = wheel.passive.values_mut().chain(isolated.platform.passive.values_mut());
+    let joints = wheel.passive.values_mut().chain(isolated.carrier.passive.values_mut());
     joints.chain(isolated.carried.passive.values_mut()).for_each(|joint| joint.viscous = 0.0);
     case.craft =
         Spacecraft::flexible(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect("valid");
@@ -202,21 +202,19 @@ fn no_modes_are_the_rigid_hub() {
     let mut worst = 0.0_f64;
     for _ in 0..4 {
         let inner = Isolated {
-            platform: crate::craft::device(random, 3.0),
+            carrier: crate::craft::device(random, 3.0),
             suspension: suspension(1.0),
             carried: crate::craft::device::<Vscmg>(random, 5.0),
         };
         let devices: Stacked = Isolated {
-            platform: crate::craft::device(random, 9.0),
+            carrier: crate::craft::device(random, 9.0),
             suspension: suspension(0.5),
             carried: (inner, crate::craft::device(random, 4.0)),
         };
         let size = Size { modes: 0, contained: false, rotation: 0.0, free: false };
         let (hub, modes) = structure(random, size, &[1.0]);
-        let on_mount = platform::Data {
-            platform: 0,
-            carried: (platform::Data { platform: 7, carried: 7 }, 7),
-        };
+        let on_mount =
+            platform::Data { carrier: 0, carried: (platform::Data { carrier: 7, carried: 7 }, 7) };
         let rigid = Spacecraft::new(&hub, &devices).expect("valid");
         let bending: Spacecraft<Stacked, Flexible<ListedModes>> =
             Spacecraft::flexible(&hub, &modes, &devices, &on_mount).expect("valid");
@@ -264,7 +262,7 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
     for _ in 0..6 {
         let (mass, stiffness, place) = (random.within(5.0, 20.0), 700.0, random.vector(0.8));
         let mut isolated = Isolated {
-            platform: crate::craft::device::<Platform>(random, 4.0),
+            carrier: crate::craft::device::<Platform>(random, 4.0),
             suspension: suspension(1.0),
             carried: crate::craft::device::<Vscmg>(random, 5.0),
         };
@@ -286,17 +284,17 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
             angular: vec![place.cross(&shape) * mass],
             mounts: vec![precess_dynamics::ModalMount { point, contained: None }],
         };
-        let on_mount = platform::Data { platform: 0, carried: 0 };
-        isolated.platform.r_p_b = place + random.vector(0.2);
+        let on_mount = platform::Data { carrier: 0, carried: 0 };
+        isolated.carrier.r_p_b = place + random.vector(0.2);
         let bending: Spacecraft<_, Flexible<ListedModes>> =
             Spacecraft::flexible(&hub, &modes, &isolated, &on_mount).expect("valid");
         // The same from the outer platform's origin, at the mount.
         let mut carried = isolated;
-        carried.platform.r_p_b -= place;
+        carried.carrier.r_p_b -= place;
         let mut outer = Platform::bare(mass, Matrix3::identity() * mass);
         outer.r_p_b = place;
         outer.passive.x_slide.stiffness = stiffness;
-        let nested: Nested = Isolated { platform: outer, suspension: Suspension::none(), carried };
+        let nested: Nested = Isolated { carrier: outer, suspension: Suspension::none(), carried };
         let rigid = Spacecraft::new(&hub, &nested).expect("valid");
 
         let size = Size { modes: 1, contained: false, rotation: 0.05, free: false };
@@ -316,13 +314,13 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
         let mut same = State::at_rest_for(&rigid);
         same.attitude = state.attitude;
         let root = mass.sqrt();
-        same.devices.platform.x = state.modal.eta[0] / root;
-        same.devices.platform.x_dot = state.modal.eta_dot[0] / root;
+        same.devices.carrier.x = state.modal.eta[0] / root;
+        same.devices.carrier.x_dot = state.modal.eta_dot[0] / root;
         same.devices.carried = state.devices;
         let mut given = Inputs::none_for(&rigid);
         given.hub = HubMode::Fixed;
         given.motors.carried = inputs.motors;
-        let held = &mut given.modes.platform;
+        let held = &mut given.modes.carrier;
         held.values_mut().skip(1).for_each(|mode| *mode = Mode::Locked);
         let expected = rigid.accelerations(&same, &given).expect("a solution");
         let list = |slide: f64, joints: Vec<f64>| -> Vec<f64> {
@@ -330,7 +328,7 @@ fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
         };
         let found = list(found.modal.eta_ddot[0] / root, found.devices.values().collect());
         let expected =
-            list(expected.devices.platform.x_ddot, expected.devices.carried.values().collect());
+            list(expected.devices.carrier.x_ddot, expected.devices.carried.values().collect());
         let unit = largest(expected.iter().map(|a| a.abs()));
         let pairs = found.iter().zip(&expected);
         worst = worst.max(largest(pairs.map(|(a, b)| (a - b).abs())) / unit);

@@ -46,12 +46,12 @@ pub(crate) struct Craft<D: Devices<Scalar = f64>> {
     pub(crate) devices: D,
 }
 
-fn rotation(random: &mut Random) -> Matrix3<f64> {
+pub(crate) fn rotation(random: &mut Random) -> Matrix3<f64> {
     let angle = random.within(0.0, 3.0);
     Rotation3::new(random.vector(angle)).into_inner()
 }
 
-fn inertia(random: &mut Random, mass: f64, size: f64) -> Matrix3<f64> {
+pub(crate) fn inertia(random: &mut Random, mass: f64, size: f64) -> Matrix3<f64> {
     let edges = Vector3::from_fn(|_, _| size * random.within(0.3, 1.0));
     let squares = edges.component_mul(&edges);
     let moments = (Vector3::from_element(squares.sum()) - squares) * (mass / 12.0);
@@ -60,7 +60,7 @@ fn inertia(random: &mut Random, mass: f64, size: f64) -> Matrix3<f64> {
     (turned + turned.transpose()) * 0.5
 }
 
-fn passive(random: &mut Random, options: &Options) -> Passive {
+pub(crate) fn passive(random: &mut Random, options: &Options) -> Passive {
     if !options.springs {
         return Passive::none();
     }
@@ -116,7 +116,7 @@ fn platform(random: &mut Random, options: &Options) -> Platform {
     }
 }
 
-fn isolated<C: precess_dynamics::DeviceSet<Scalar = f64>>(
+pub(crate) fn isolated<C: precess_dynamics::DeviceSet<Scalar = f64>>(
     random: &mut Random,
     options: &Options,
     carried: C,
@@ -124,10 +124,10 @@ fn isolated<C: precess_dynamics::DeviceSet<Scalar = f64>>(
     let platform = platform(random, options);
     let springs = options.springs;
     let suspension = if springs { suspension(random, options) } else { Suspension::none() };
-    Isolated { platform, suspension, carried }
+    Isolated { carrier: platform, suspension, carried }
 }
 
-fn wheel(random: &mut Random) -> ReactionWheel {
+pub(crate) fn wheel(random: &mut Random) -> ReactionWheel {
     let m_w = random.log_within(0.5, 6.0);
     ReactionWheel {
         mount: rotation(random),
@@ -158,15 +158,15 @@ fn vscmg(random: &mut Random) -> Vscmg {
 }
 
 /// Adds the platform and its struts to a tree; returns its last link.
-fn add_platform<C: precess_dynamics::DeviceSet<Scalar = f64>>(
+pub(crate) fn add_platform<C: precess_dynamics::DeviceSet<Scalar = f64>>(
     tree: &mut Tree,
     base: Option<usize>,
     of: &Isolated<C>,
 ) -> usize {
-    let last = tree.device(base, &of.platform);
+    let last = tree.device(base, &of.carrier);
     for strut in of.suspension.struts.iter().flatten() {
-        let on_base = of.platform.r_p_b
-            + of.platform.mount * (strut.position - strut.direction * strut.length);
+        let on_base =
+            of.carrier.r_p_b + of.carrier.mount * (strut.position - strut.direction * strut.length);
         let (platform, on_platform) = (last, strut.position);
         tree.lines.push(Line { base, on_base, platform, on_platform, strut: *strut });
     }
@@ -174,7 +174,7 @@ fn add_platform<C: precess_dynamics::DeviceSet<Scalar = f64>>(
 }
 
 /// Adds the torques of coupled springs, once the tree has its coordinates.
-fn add_coupled<C: precess_dynamics::DeviceSet<Scalar = f64>>(
+pub(crate) fn add_coupled<C: precess_dynamics::DeviceSet<Scalar = f64>>(
     tree: &mut Tree,
     last: usize,
     of: &Isolated<C>,
@@ -204,7 +204,7 @@ pub(crate) fn hub(random: &mut Random) -> Hub {
     Hub { m_b, r_bc_b: random.vector(0.2), i_b_bc: inertia(random, m_b, 1.5) }
 }
 
-fn finished<D: FixedSet<Scalar = f64>>(
+pub(crate) fn finished<D: FixedSet<Scalar = f64>>(
     random: &mut Random,
     options: &Options,
     devices: &D,

@@ -111,7 +111,7 @@ fn solved(of: &Craft) -> EngineSolution {
     let hub = Hub { m_b: of.hub.m_b, r_bc_b: of.hub.r_bc_b.into(), i_b_bc: tensor(of.hub.i_b) };
     let [platform, first, second, gyro] = &of.devices;
     let devices = Isolated {
-        platform: platform.built::<Platform>(),
+        carrier: platform.built::<Platform>(),
         suspension: Suspension::none(),
         carried: ([first.built(), second.built()], gyro.built()),
     };

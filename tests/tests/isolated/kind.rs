@@ -42,7 +42,7 @@ fn platform_by_itself_is_an_isolated_set_that_carries_nothing() {
     type Bare = Isolated<[ReactionWheel; 0]>;
     let alone = Spacecraft::new(&hub(), &platform::<f64>()).expect("sound");
     let suspension = Suspension::none();
-    let set = Isolated { platform: platform(), suspension, carried: [] };
+    let set = Isolated { carrier: platform(), suspension, carried: [] };
     let carrying = Spacecraft::new(&hub(), &set).expect("sound");
     let mut state: State<Platform> = State::at_rest();
     for ([q, rate], [of_q, of_rate]) in state.devices.states_mut().zip(STATE) {
@@ -50,15 +50,15 @@ fn platform_by_itself_is_an_isolated_set_that_carries_nothing() {
     }
     state.omega = Vector3::new(0.2, -0.3, 0.5);
     let mut with: State<Bare> = State::at_rest();
-    (with.omega, with.devices.platform) = (state.omega, state.devices);
+    (with.omega, with.devices.carrier) = (state.omega, state.devices);
     let found = alone.accelerations(&state, &Inputs::none()).expect("regular");
     let expected = carrying.accelerations(&with, &Inputs::none()).expect("regular");
     assert_eq!(found.r_b_n_ddot, expected.r_b_n_ddot);
     assert_eq!(found.omega_dot, expected.omega_dot);
-    assert_eq!(found.devices, expected.devices.platform);
+    assert_eq!(found.devices, expected.devices.carrier);
     let loads = alone.loads(&state, &Inputs::none(), &found, LoadAxes::Parent).expect("finite");
     let of_set = carrying.loads(&with, &Inputs::none(), &expected, LoadAxes::Parent);
-    assert_eq!(loads.devices, of_set.expect("finite").devices.platform);
+    assert_eq!(loads.devices, of_set.expect("finite").devices.carrier);
 }
 
 #[cfg(feature = "lanes")]
@@ -95,7 +95,7 @@ fn single_precision_is_that_of_its_digits() {
         let carried =
             ReactionWheel { d: number(1e-3), ..ReactionWheel::bare_wheel(number(3.0), disc) };
         let suspension = Suspension::none();
-        let set = Isolated { platform: platform(), suspension, carried };
+        let set = Isolated { carrier: platform(), suspension, carried };
         let craft: Spacecraft<Set<T>> = Spacecraft::new(&hub(), &set).expect("sound");
         let mut state: State<Set<T>> = State::at_rest();
         for ([q, rate], [of_q, of_rate]) in state.devices.states_mut().zip(STATE) {
@@ -103,7 +103,7 @@ fn single_precision_is_that_of_its_digits() {
         }
         state.devices.carried.spin = number(40.0);
         let found = craft.accelerations(&state, &Inputs::none()).expect("regular");
-        found.devices.platform.values().map(Scalar::to_f64).collect()
+        found.devices.carrier.values().map(Scalar::to_f64).collect()
     }
     let (single, double) = (found::<f32>(), found::<f64>());
     let unit = double.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -31,7 +31,7 @@ fn table() -> Spacecraft<Table> {
     let turns = Passive::spring(TURN, 0.0);
     let springs = platform::PerJoint::of([slides, slides, slides, turns, turns, turns]);
     let devices = Isolated {
-        platform: Platform {
+        carrier: Platform {
             r_p_b: Vector3::new(0.4, 0.0, 0.1),
             r_pc_p: Vector3::new(0.0, 0.0, HEIGHT),
             passive: springs,
@@ -61,8 +61,8 @@ fn corner_frequencies_and_coupling_of_an_offset_mass_are_those_of_two_freedoms()
     inputs.modes.carried[0].wheel = Mode::Locked;
     let response = |x: f64, beta: f64| {
         let mut state: State<Table> = State::at_rest();
-        (state.devices.platform.x, state.devices.platform.beta) = (x, beta);
-        let found = craft.accelerations(&state, &inputs).expect("regular").devices.platform;
+        (state.devices.carrier.x, state.devices.carrier.beta) = (x, beta);
+        let found = craft.accelerations(&state, &inputs).expect("regular").devices.carrier;
         Vector2::new(found.x_ddot, found.beta_ddot)
     };
     let slope = |x: f64, beta: f64| (response(x, beta) - response(-x, -beta)) / (2.0 * SMALL);
@@ -87,7 +87,7 @@ fn corner_frequencies_and_coupling_of_an_offset_mass_are_those_of_two_freedoms()
 fn platform_that_nothing_holds_leaves_the_hub_as_if_it_were_alone() {
     for seed in 0..40 {
         let mut of = cluster(seed, &Options { wrenches: false, ..Options::default() });
-        of.inputs.motors.platform = platform::MotorTorques::all(0.0);
+        of.inputs.motors.carrier = platform::MotorTorques::all(0.0);
         of.inputs.force = Vector3::new(3.0, -1.0, 2.0);
         let alone = Spacecraft::new(&of.tree.hub, &[] as &[ReactionWheel; 0]).expect("sound");
         let state: State<[ReactionWheel; 0]> = State {
@@ -121,7 +121,7 @@ fn rigid(
     let turned = turn(Vector3::x(), state.alpha)
         * turn(Vector3::y(), state.beta)
         * turn(Vector3::z(), state.gamma);
-    let of_platform = &of.platform;
+    let of_platform = &of.carrier;
     let axes = of_platform.mount * turned;
     let p = of_platform.r_p_b + of_platform.mount * Vector3::new(state.x, state.y, state.z);
     let (wheels, gyro) = of.carried;
@@ -150,12 +150,12 @@ fn locked_platform_is_part_of_the_hub() {
     for seed in 0..40 {
         let mut of = cluster(seed, &Options::default());
         let devices = of.devices;
-        for [_, rate] in of.state.devices.platform.states_mut() {
+        for [_, rate] in of.state.devices.carrier.states_mut() {
             *rate = 0.0;
         }
-        of.inputs.modes.platform = platform::PerJoint::all(Mode::Locked);
+        of.inputs.modes.carrier = platform::PerJoint::all(Mode::Locked);
         let found = of.solver.accelerations(&of.state, &of.inputs).expect("regular");
-        let (hub, set) = rigid(&devices, &of.tree.hub, &of.state.devices.platform);
+        let (hub, set) = rigid(&devices, &of.tree.hub, &of.state.devices.carrier);
         let craft = Spacecraft::new(&hub, &set).expect("sound");
         let state: State<([ReactionWheel; 2], Sgcmg)> = State {
             r_b_n: of.state.r_b_n,
@@ -183,7 +183,7 @@ fn locked_platform_is_part_of_the_hub() {
             precess_dynamics::sgcmg::JointAccelerations<f64>,
         )| of.values().collect();
         differ(carried(&found.devices.carried), carried(&expected.devices), "devices");
-        assert!(found.devices.platform.array().iter().all(|q_ddot| *q_ddot == 0.0));
+        assert!(found.devices.carrier.array().iter().all(|q_ddot| *q_ddot == 0.0));
     }
 }
 
@@ -195,11 +195,11 @@ fn computed_motors_drive_what_was_prescribed() {
         let mut of = cluster(seed, &options);
         let found = of.solver.accelerations(&of.state, &of.inputs).expect("regular");
         let loads = of.solver.loads(&of.state, &of.inputs, &found, LoadAxes::Body).expect("finite");
-        for (joint, mode) in of.inputs.modes.platform.values_mut().enumerate() {
+        for (joint, mode) in of.inputs.modes.carrier.values_mut().enumerate() {
             if let Mode::Prescribed(_) = mode {
                 *mode = Mode::Driven;
-                let motor = of.inputs.motors.platform.values_mut().nth(joint).expect("a joint");
-                *motor = loads.devices.platform.motors.array()[joint];
+                let motor = of.inputs.motors.carrier.values_mut().nth(joint).expect("a joint");
+                *motor = loads.devices.carrier.motors.array()[joint];
                 (of.tree.links[joint].mode, of.tree.links[joint].motor) = (Mode::Driven, *motor);
             }
         }
@@ -217,7 +217,7 @@ fn computed_motors_drive_what_was_prescribed() {
 fn turns_are_singular_at_a_quarter_turn_of_beta_unless_they_are_held() {
     let craft = table();
     let mut state: State<Table> = State::at_rest();
-    state.devices.platform.beta = core::f64::consts::FRAC_PI_2;
+    state.devices.carrier.beta = core::f64::consts::FRAC_PI_2;
     let mut inputs: Inputs<Table> = Inputs::none();
     match craft.accelerations(&state, &inputs) {
         Err(SolveError::Singular { device: Some(0), joint: Some("x turn"), pivot, bound }) => {
@@ -225,12 +225,12 @@ fn turns_are_singular_at_a_quarter_turn_of_beta_unless_they_are_held() {
         }
         other => panic!("{other:?}"),
     }
-    inputs.modes.platform.x_turn = Mode::Locked;
+    inputs.modes.carrier.x_turn = Mode::Locked;
     let found = craft.accelerations(&state, &inputs).expect("two turns are independent");
     assert!(found.devices.values().all(f64::is_finite));
     // Near it the turns are still regular.
-    inputs.modes.platform.x_turn = Mode::Driven;
-    state.devices.platform.beta -= 1e-4;
+    inputs.modes.carrier.x_turn = Mode::Driven;
+    state.devices.carrier.beta -= 1e-4;
     assert!(craft.accelerations(&state, &inputs).is_ok());
 }
 
@@ -239,14 +239,14 @@ fn stop_of_a_platform_keeps_momentum_and_loses_energy() {
     for seed in 0..40 {
         let mut of = mixed(seed, &Options { springs: true, ..Options::default() });
         let before = of.solver.energy_and_momentum(&of.state, About::CentreOfMass).expect("finite");
-        of.inputs.modes.1.platform = platform::PerJoint::all(Mode::Locked);
+        of.inputs.modes.1.carrier = platform::PerJoint::all(Mode::Locked);
         assert!(matches!(
             of.solver.accelerations(&of.state, &of.inputs),
             Err(SolveError::LockedJointMoves { device: 1, .. })
         ));
         let stopped = of.solver.stop(&of.state, &of.inputs).expect("regular");
         let state = &stopped.state;
-        assert!(state.devices.1.platform.states().all(|[_, rate]| rate == 0.0));
+        assert!(state.devices.1.carrier.states().all(|[_, rate]| rate == 0.0));
         let after = of.solver.energy_and_momentum(state, About::CentreOfMass).expect("finite");
         let unit = before.energy.sqrt() * of.solver.mass().sqrt();
         assert!((before.momentum.linear - after.momentum.linear).norm() < 1e-12 * unit);

@@ -1,4 +1,4 @@
-//! Isolated platforms against a tree of bodies by Newton and Euler, known answers, conservation.
+//! Isolated platforms and rows of panels against a tree of bodies by Newton and Euler, known answers, conservation.
 
 mod craft;
 mod energies;
@@ -8,6 +8,7 @@ mod judge;
 mod kind;
 mod known;
 mod linear;
+mod panels;
 mod runs;
 mod suspension;
 mod tree;

@@ -71,7 +71,7 @@ fn falls_sixteenfold<D: Devices<Scalar = f64>>(of: &Craft<D>, conserved: bool, w
 
 /// Wheels that a step of the coarse run resolves, and no singular turn on the way.
 fn tamed(of: &mut Craft<crate::craft::Cluster>) {
-    for [coordinate, rate] in of.state.devices.platform.states_mut() {
+    for [coordinate, rate] in of.state.devices.carrier.states_mut() {
         (*coordinate, *rate) = (0.1 * *coordinate, 0.3 * *rate);
     }
     let carried = &mut of.state.devices.carried;

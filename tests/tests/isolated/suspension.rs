@@ -20,7 +20,7 @@ fn hub() -> Hub {
 
 fn set(suspension: &Suspension) -> Bare {
     let platform = Platform::bare(8.0, Matrix3::from_diagonal_element(0.3));
-    Isolated { platform, suspension: *suspension, carried: [] }
+    Isolated { carrier: platform, suspension: *suspension, carried: [] }
 }
 
 fn craft(suspension: &Suspension) -> Spacecraft<Bare> {
@@ -58,10 +58,10 @@ fn forces(craft: &Spacecraft<Bare>, q: &Vector6<f64>) -> (Vector6<f64>, f64) {
     let inputs = Inputs::none();
     let mut still = craft.accelerations(&state, &inputs).expect("regular");
     (still.r_b_n_ddot, still.omega_dot) = (Vector3::zeros(), Vector3::zeros());
-    still.devices.platform = precess_dynamics::platform::JointAccelerations::all(0.0);
+    still.devices.carrier = precess_dynamics::platform::JointAccelerations::all(0.0);
     let loads = craft.loads(&state, &inputs, &still, LoadAxes::Body).expect("finite");
     let ledger = craft.ledger(&state, &inputs, &still).expect("finite");
-    (-Vector6::from(loads.devices.platform.motors.array()), ledger.springs)
+    (-Vector6::from(loads.devices.carrier.motors.array()), ledger.springs)
 }
 
 #[test]

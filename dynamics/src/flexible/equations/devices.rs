@@ -11,11 +11,12 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::flexible::equations::mount::MountMotion;
 use crate::flexible::modal::modes_error::ModesError;
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{ConstantShares, DeviceSet, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::sets::per_device::OnMount;
 use crate::solve::elimination::{BackSubstitution, Eliminate, Elimination};
@@ -46,12 +47,12 @@ impl<T: Scalar> Visit<T, Shared<OnMount>> for Standing<'_, T> {
         self.add::<K>(device, *mount)
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        mount: &<Isolated<D> as DeviceSet>::Per<OnMount>,
+        carrying: &PreparedCarrying<C, D>,
+        mount: &<Carrying<C, D> as DeviceSet>::Per<OnMount>,
     ) -> Result<(), ModesError<T>> {
-        self.add::<Isolated<D>>(isolated, mount.platform)
+        self.add::<Carrying<C, D>>(carrying, mount.carrier)
     }
 
     fn compare(&mut self, expected: usize, found: usize) -> Result<(), ModesError<T>> {
@@ -97,12 +98,12 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for MountElimination<'_, T
         self.on(*mount, |mount| mount.visit(device, (joints, given, gains)))
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, given, gains, mount): <Eliminated as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, given, gains, mount): <Eliminated as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), SolveError<T>> {
-        self.on(mount.platform, |mount| mount.visit_isolated(isolated, (joints, given, gains)))
+        self.on(mount.carrier, |mount| mount.visit_carrying(carrying, (joints, given, gains)))
     }
 }
 
@@ -142,12 +143,12 @@ impl<T: Scalar> Visit<T, Substituted> for MountBackSubstitution<'_, T> {
         BackSubstitution::on(mount).visit(device, (gains, out))
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        let Some(mount) = self.0.get(mount.platform) else { return Ok(()) };
-        BackSubstitution::on(mount).visit_isolated(isolated, (gains, out))
+        let Some(mount) = self.0.get(mount.carrier) else { return Ok(()) };
+        BackSubstitution::on(mount).visit_carrying(carrying, (gains, out))
     }
 }

@@ -20,6 +20,7 @@ use crate::flexible::equations::block::{Six, combined, dot6, finite, joined, par
 use crate::flexible::equations::gravity::on_body;
 use crate::flexible::equations::mount::MountMotion;
 use crate::flexible::modal::storage::{Flexible, ModalStorage};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};
@@ -31,8 +32,8 @@ use crate::numbers::vec3::{
 use crate::results::loads::{LoadAxes, Loads, Weighing as OnBase};
 use crate::results::momentum::FirstMoments;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device as data;
 use crate::sets::per_device::OnMount;
 use crate::solve::inputs::Inputs;
@@ -133,17 +134,20 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
         Ok(())
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<
+            '_,
+            Carrying<C, D>,
+        >,
     ) -> Result<(), Infallible> {
         let given = (joints, given, accelerations, &mut *out);
-        let to_b = self.on(mount.platform, |mount, moments| {
-            let Ok(()) = mount.visit_isolated(isolated, given);
-            moments.visit_isolated(isolated, joints)
+        let to_b = self.on(mount.carrier, |mount, moments| {
+            let Ok(()) = mount.visit_carrying(carrying, given);
+            moments.visit_carrying(carrying, joints)
         })?;
-        out.platform.mount = expressed(to_b.as_ref(), out.platform.mount);
+        out.carrier.mount = expressed(to_b.as_ref(), out.carrier.mount);
         Ok(())
     }
 }

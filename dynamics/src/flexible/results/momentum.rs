@@ -11,13 +11,14 @@ use crate::equations::hub::{BodySums, HubConstants};
 use crate::flexible::equations::block::{combined, parted};
 use crate::flexible::equations::mount::MountMotion;
 use crate::flexible::modal::storage::{Flexible, ModalStorage};
+use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::numbers::real::{Scalar, half, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, cross, dot, neg, rotate, scale, zeros};
 use crate::results::momentum::{Addition as OnBase, FirstMoments, MotionSums};
 use crate::sets::bundle::{Bundle, Shared};
+use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::isolated::{Isolated, PreparedIsolated};
 use crate::sets::per_device::Joints;
 use crate::sets::per_device::OnMount;
 use crate::solve::spacecraft::Spacecraft;
@@ -52,14 +53,14 @@ impl<T: Scalar> Visit<T, JointsOnMount> for Addition<'_, T> {
         })
     }
 
-    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, mount): <JointsOnMount as Bundle<T>>::Of<'_, Isolated<D>>,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, mount): <JointsOnMount as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        self.on(mount.platform, |sums, moments| {
-            let Ok(()) = sums.visit_isolated(isolated, joints);
-            moments.visit_isolated(isolated, joints)
+        self.on(mount.carrier, |sums, moments| {
+            let Ok(()) = sums.visit_carrying(carrying, joints);
+            moments.visit_carrying(carrying, joints)
         })
     }
 }

@@ -37,7 +37,7 @@ impl MemberLoads {
             of.push(device);
         }
         for member in isolated {
-            of.push(&member.platform);
+            of.push(&member.carrier);
             for device in &member.carried {
                 of.push(device);
             }

@@ -22,7 +22,7 @@ pub(super) fn open(
     }
     let wheels = four(rigid.ok_or("other devices than reaction wheels")?)?;
     if let Some(platform) = listed.platform() {
-        let set = Isolated { platform, suspension: Suspension::none(), carried: wheels };
+        let set = Isolated { carrier: platform, suspension: Suspension::none(), carried: wheels };
         return Ok(Box::new(one(listed, &set)?));
     }
     match listed.modes {

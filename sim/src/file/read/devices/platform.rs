@@ -87,7 +87,7 @@ fn read(
     let mut joints = joints.into_iter().collect::<Option<Vec<_>>>()?;
     let (name, mount) = (name?.to_owned(), mount?);
     let mut of = Isolated {
-        platform: Platform {
+        carrier: Platform {
             mount: mount.matrix,
             r_p_b,
             r_pc_p,
@@ -117,7 +117,7 @@ fn read(
         }
     }
     let passive: Vec<_> = joints.iter().map(|(joint, _)| joint.passive).collect();
-    of.platform.passive = platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?);
+    of.carrier.passive = platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?);
     let joints: Vec<Joint> = joints.into_iter().map(|(joint, _)| joint).collect();
     let device =
         Device::new(name, DeviceOrPlatform::Platform(Box::new(of)), mount.turns, "", &joints);
@@ -196,7 +196,7 @@ fn is_rejected(of: &Isolated<Vec<BuiltIn>>, name: &str, devices: &[Device]) -> b
 /// Of a platform with its devices, joints locked: the mass for each slide, and the moments of
 /// inertia about the platform's axes through P for the turns.
 fn sizes(of: &Isolated<Vec<BuiltIn>>, name: &str, devices: &[Device]) -> Option<[f64; 6]> {
-    let Platform { m_p, r_pc_p, i_p_pc, .. } = of.platform;
+    let Platform { m_p, r_pc_p, i_p_pc, .. } = of.carrier;
     let hub = Hub { m_b: m_p, r_bc_b: r_pc_p, i_b_bc: i_p_pc };
     let own = || devices.iter().filter(|device| device.on == name);
     let carried: Vec<_> = own().filter_map(Device::built_in).collect();
