@@ -4,7 +4,8 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{
     Accelerations, Devices, Each, FixedSet, Gravity, HingedPanel, HubMode, Inputs, Isolated, Mode,
-    OnPanel, Platform, ReactionWheel, Spacecraft, State, Suspension, hinged_panel, platform,
+    OnPanel, Outputs, Platform, ReactionWheel, Spacecraft, State, Suspension, Variable,
+    hinged_panel, platform,
 };
 use precess_tests::random::Random;
 
@@ -171,6 +172,32 @@ fn two_panels_on_a_fixed_hub_are_a_double_pendulum() {
     let first = 2.0 * l * a_ddot + l * b_ddot * cos + l * b_dot * b_dot * sin + 2.0 * g * a.sin();
     let second = l * b_ddot + l * a_ddot * cos - l * a_dot * a_dot * sin + g * b.sin();
     assert!(first.abs() < 1e-13 * 2.0 * g && second.abs() < 1e-13 * g, "{first:e}, {second:e}");
+}
+
+/// The same hanging at rest: `w² = (2 ± √2) g / l`, by the derivatives.
+#[test]
+fn two_panels_that_hang_have_the_frequencies_of_a_double_pendulum() {
+    let (m, l, g) = (2.0, 0.8, 9.81);
+    let at_end = |r_p_b| HingedPanel {
+        r_p_b,
+        r_pc_p: Vector3::new(l, 0.0, 0.0),
+        ..HingedPanel::bare_panel(m, Matrix3::identity() * 1e-18)
+    };
+    let row: Two = OnPanel::on_panel(at_end(Vector3::zeros()), at_end(Vector3::new(l, 0.0, 0.0)));
+    let craft = Spacecraft::new(&hub(&mut Random::new(6)), &row).expect("sound");
+    let gravity = Gravity::Uniform(Vector3::new(g, 0.0, 0.0));
+    let inputs = Inputs::<Two> { hub: HubMode::Fixed, gravity, ..Inputs::none() };
+    let outputs = Outputs::accelerations();
+    let system = craft.linearize(&State::<Two>::at_rest(), &inputs, &outputs).expect("regular");
+    let place = |variable| system.states.iter().position(|state| *state == variable);
+    let by = |row, column| {
+        let (row, column) = (place(Variable::Rate(row)), place(Variable::Coordinate(column)));
+        -system.a[(row.expect("a state"), column.expect("a state"))]
+    };
+    let [a, b, c, d] = [by(0, 0), by(0, 1), by(1, 0), by(1, 1)];
+    let per = g / l;
+    assert!((a + d - 4.0 * per).abs() <= 1e-13 * per, "sum of squares {}", a + d);
+    assert!((a * d - b * c - 2.0 * per * per).abs() <= 1e-12 * per * per, "{}", a * d - b * c);
 }
 
 /// Locked hinges: the row is part of the hub.
