@@ -1,6 +1,7 @@
-"""Writes tests/fixtures/isolated.json: wheels and a gyro on a platform, as Pinocchio and MuJoCo have them.
+"""Writes tests/fixtures/isolated.json: wheels and a gyro on a platform, and rows of four panels, as Pinocchio and MuJoCo
+have them.
 
-    python isolated.py           evaluates all clusters; writes
+    python isolated.py           evaluates all spacecraft; writes
     python isolated.py --check   the same, compared with the stored file; writes nothing
 
 A platform is six joints: three prismatic, three revolute. In Pinocchio bodies between them have no mass; in
@@ -33,6 +34,10 @@ except ModuleNotFoundError as error:
     sys.exit(MISSING)
 
 CLUSTERS = 24
+ROWS = 24
+
+# What the devices after it stand on.
+CARRIERS = ("platform", "hinged_panel")
 
 # Against what was stored before, of each block: another version may order its sums anew.
 REPRODUCTION = 1e-11
@@ -44,24 +49,39 @@ JOINTS = {
 }  # fmt: skip
 
 
-def cluster(seed):
-    """Hub and devices; of a device its links from the base to the tip."""
-    draw = Draw(1000 + seed)
+class Links(Draw):
+    """Draws links and devices."""
 
-    def block(mass, size):
-        edges = [size * draw.within(0.3, 1.0) for _ in range(3)]
-        return solid(mass, [edge**2 / 12.0 for edge in edges], draw.quaternion())
+    def block(self, mass, size):
+        edges = [size * self.within(0.3, 1.0) for _ in range(3)]
+        return solid(mass, [edge**2 / 12.0 for edge in edges], self.quaternion())
 
-    def link(motion, axis, mass, centre, inertia, origin=(0.0, 0.0, 0.0), limits=(0.0, 0.0)):
-        q, rate = (draw.within(-limit, limit) for limit in limits)
+    def link(self, motion, axis, mass, centre, inertia, origin=(0.0, 0.0, 0.0), limits=(0.0, 0.0)):
+        q, rate = (self.within(-limit, limit) for limit in limits)
         return {
             "motion": motion, "axis": axis, "origin": list(origin), "mass": mass,
             "centre": list(centre), "inertia": inertia, "q": q, "rate": rate,
-            "torque": draw.signed(1e-2, 5.0),
+            "torque": self.signed(1e-2, 5.0),
         }  # fmt: skip
 
-    def device(name, links):
-        return {"kind": name, "mount": rotation(draw.quaternion()).tolist(), "links": links}
+    def device(self, name, links):
+        return {"kind": name, "mount": rotation(self.quaternion()).tolist(), "links": links}
+
+    def spacecraft(self, seed, devices):
+        m_b = self.log_within(20.0, 800.0)
+        return {
+            "seed": seed,
+            "hub": {"m_b": m_b, "r_bc_b": self.vector(0.2), "i_b": self.block(m_b, 1.5)},
+            "omega": self.vector(0.8), "r_b_n_dot": self.vector(2.0),
+            "force": self.vector(5.0), "torque_b": self.vector(1.0),
+            "devices": devices(),
+        }  # fmt: skip
+
+
+def cluster(seed):
+    """Hub and devices; of a device its links from the base to the tip."""
+    draw = Links(1000 + seed)
+    link, block = draw.link, draw.block
 
     def wheel(origin):
         mass = draw.log_within(0.5, 6.0)
@@ -80,19 +100,28 @@ def cluster(seed):
     gimbal = link(
         "turn", 2, m_g, draw.vector(0.05), block(m_g, 0.2), draw.vector(0.3), (math.pi, 2.0)
     )
-    m_b = draw.log_within(20.0, 800.0)
-    return {
-        "seed": seed,
-        "hub": {"m_b": m_b, "r_bc_b": draw.vector(0.2), "i_b": block(m_b, 1.5)},
-        "omega": draw.vector(0.8), "r_b_n_dot": draw.vector(2.0),
-        "force": draw.vector(5.0), "torque_b": draw.vector(1.0),
-        "devices": [
-            device("platform", slides + turns + [last]),
-            device("reaction_wheel", [wheel(draw.vector(0.3))]),
-            device("reaction_wheel", [wheel(draw.vector(0.3))]),
-            device("vscmg", [gimbal, wheel(none)]),
+    return draw.spacecraft(
+        seed,
+        lambda: [
+            draw.device("platform", slides + turns + [last]),
+            draw.device("reaction_wheel", [wheel(draw.vector(0.3))]),
+            draw.device("reaction_wheel", [wheel(draw.vector(0.3))]),
+            draw.device("vscmg", [gimbal, wheel(none)]),
         ],
-    }  # fmt: skip
+    )
+
+
+def row(seed):
+    """Hub and four panels, each on the one before it."""
+    draw = Links(3000 + seed)
+
+    def panel():
+        mass = draw.log_within(1.0, 20.0)
+        centre, inertia = draw.vector(0.5), draw.block(mass, 1.0)
+        link = draw.link("turn", 2, mass, centre, inertia, draw.vector(0.9), (math.pi, 1.5))
+        return draw.device("hinged_panel", [link])
+
+    return draw.spacecraft(seed, lambda: [panel() for _ in range(4)])
 
 
 def with_pinocchio(craft):
@@ -112,7 +141,7 @@ def with_pinocchio(craft):
             parent = model.addJoint(parent, joint, placement, name)
             add_body(model, parent, name, link["mass"], link["centre"], link["inertia"])
             links.append(link)
-        if device["kind"] == "platform":
+        if device["kind"] in CARRIERS:
             base = parent
     model.gravity = pin.Motion.Zero()
     data = model.createData()
@@ -185,7 +214,7 @@ def build(craft):
             for motion, axis in joints:
                 parent.add_joint(type=motion, axis=axis)
             quaternion, joints, origin = np.array([1.0, 0.0, 0.0, 0.0]), [], None
-        if device["kind"] == "platform":
+        if device["kind"] in CARRIERS:
             base = parent
     return spec.compile()
 
@@ -197,22 +226,37 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--check", action="store_true", help="compare and write nothing")
     check = arguments.parse_args().check
-    crafts = [cluster(seed) for seed in range(CLUSTERS)]
-    evaluated = [{name: by(craft) for name, by in ENGINES.items()} for craft in crafts]
+    crafts = {
+        "clusters": [cluster(seed) for seed in range(CLUSTERS)],
+        "rows": [row(seed) for seed in range(ROWS)],
+    }
+    evaluated = {
+        group: [{name: by(craft) for name, by in ENGINES.items()} for craft in of]
+        for group, of in crafts.items()
+    }
     if not check:
         versions = {"pinocchio": pin.__version__, "mujoco": mujoco.__version__}
-        found = [{**craft, **engines} for craft, engines in zip(crafts, evaluated)]
-        text = lines({"engines": versions, "clusters": found}) + "\n"
+        found = {
+            group: [{**craft, **engines} for craft, engines in zip(of, evaluated[group])]
+            for group, of in crafts.items()
+        }
+        text = lines({"engines": versions, **found}) + "\n"
         FIXTURE.write_text(text, encoding="utf-8")
         return 0
-    stored = json.loads(FIXTURE.read_text(encoding="utf-8"))["clusters"]
+    stored = json.loads(FIXTURE.read_text(encoding="utf-8"))
+    groups = (compare(group, of, evaluated[group], stored[group]) for group, of in crafts.items())
+    return max(groups)
+
+
+def compare(group, crafts, evaluated, stored):
+    """Whether what is stored is what was drawn and evaluated."""
     if len(stored) != len(crafts):
-        print(f"{len(stored)} clusters are stored, not {len(crafts)}", file=sys.stderr)
+        print(f"{len(stored)} {group} are stored, not {len(crafts)}", file=sys.stderr)
         return 1
     for craft, engines, old in zip(crafts, evaluated, stored):
         given = {key: value for key, value in old.items() if key not in ENGINES}
         if given != craft:
-            print(f"cluster {craft['seed']}: other numbers are stored", file=sys.stderr)
+            print(f"{group}, {craft['seed']}: other numbers are stored", file=sys.stderr)
             return 1
         for engine, found in engines.items():
             for block, value in found.items():
@@ -220,7 +264,7 @@ def main():
                 off = np.max(np.abs(value - before)) / np.max(np.abs(before))
                 if off > REPRODUCTION:
                     message = f"{engine}, {block} off by {off:.1e}"
-                    print(f"cluster {craft['seed']}: {message}", file=sys.stderr)
+                    print(f"{group}, {craft['seed']}: {message}", file=sys.stderr)
                     return 1
     return 0
 

@@ -1,15 +1,16 @@
-//! Stored values of Pinocchio and `MuJoCo`: wheels and a gyro on a platform of six joints.
+//! Stored values of Pinocchio and `MuJoCo`: wheels and a gyro on a platform of six joints, rows of four panels.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{BodyParameters, Kind};
 use precess_dynamics::{
-    About, Each, Hub, ImbalanceModel, Inputs, Isolated, JointStates, Passive, Platform,
-    ReactionWheel, Spacecraft, State, Suspension, Vscmg,
+    About, Each, FixedSet, HingedPanel, Hub, ImbalanceModel, Inputs, Isolated, JointStates,
+    OnPanel, Passive, Platform, ReactionWheel, Spacecraft, State, Suspension, Vscmg,
 };
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 use serde::Deserialize;
 
 type Cluster = Isolated<([ReactionWheel; 2], Vscmg)>;
+type Row = OnPanel<OnPanel<OnPanel<HingedPanel>>>;
 
 /// What an engine found for a spacecraft.
 type OfEngine = fn(&Craft) -> &EngineSolution;
@@ -20,6 +21,7 @@ const SUMS: f64 = 1e-13;
 #[derive(Deserialize)]
 struct Fixture {
     clusters: Vec<Craft>,
+    rows: Vec<Craft>,
 }
 
 #[derive(Deserialize)]
@@ -106,19 +108,28 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
     off.fold(0.0, |most, off| if off > most || off.is_nan() { off } else { most })
 }
 
-/// What the solver finds for a spacecraft.
-fn solved(of: &Craft) -> EngineSolution {
-    let hub = Hub { m_b: of.hub.m_b, r_bc_b: of.hub.r_bc_b.into(), i_b_bc: tensor(of.hub.i_b) };
+/// What the solver finds for a platform.
+fn of_cluster(of: &Craft) -> EngineSolution {
     let [platform, first, second, gyro] = &of.devices;
-    let devices = Isolated {
-        carrier: platform.built::<Platform>(),
-        suspension: Suspension::none(),
-        carried: ([first.built(), second.built()], gyro.built()),
-    };
-    let craft: Spacecraft<Cluster> = Spacecraft::new(&hub, &devices).expect("sound");
-    let mut state: State<Cluster> = State::at_rest();
+    let carried = ([first.built(), second.built()], gyro.built());
+    let carrier = platform.built::<Platform>();
+    solved::<Cluster>(of, &Isolated { carrier, suspension: Suspension::none(), carried })
+}
+
+/// What the solver finds for a row.
+fn of_row(of: &Craft) -> EngineSolution {
+    let [first, second, third, fourth] = &of.devices;
+    let outer = OnPanel::on_panel(third.built(), fourth.built());
+    let row = OnPanel::on_panel(first.built(), OnPanel::on_panel(second.built(), outer));
+    solved::<Row>(of, &row)
+}
+
+fn solved<D: FixedSet<Scalar = f64>>(of: &Craft, devices: &D) -> EngineSolution {
+    let hub = Hub { m_b: of.hub.m_b, r_bc_b: of.hub.r_bc_b.into(), i_b_bc: tensor(of.hub.i_b) };
+    let craft: Spacecraft<D> = Spacecraft::new(&hub, devices).expect("sound");
+    let mut state: State<D> = State::at_rest();
     (state.omega, state.r_b_n_dot) = (of.omega.into(), of.r_b_n_dot.into());
-    let mut inputs: Inputs<Cluster> = Inputs::none();
+    let mut inputs: Inputs<D> = Inputs::none();
     (inputs.force, inputs.torque_b) = (of.force.into(), of.torque_b.into());
     let links = || of.devices.iter().flat_map(|device| &device.links);
     for ([q, rate], link) in state.devices.states_mut().zip(links()) {
@@ -140,8 +151,8 @@ fn solved(of: &Craft) -> EngineSolution {
     }
 }
 
-/// Worst of each block of accelerations; energy and momenta are asserted.
-fn errors(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> [f64; 6] {
+/// Asserts energy and momenta; worst of the hub's two blocks of accelerations.
+fn of_hub(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> [f64; 2] {
     assert!((found.energy / engine.energy - 1.0).abs() < SUMS, "seed {seed}: energy");
     let near = |found: [f64; 3], expected: [f64; 3]| {
         let [found, expected] = [found, expected].map(Vector3::from);
@@ -149,36 +160,65 @@ fn errors(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> [f64; 6
     };
     assert!(near(found.linear, engine.linear) < SUMS, "seed {seed}");
     assert!(near(found.angular_b, engine.angular_b) < SUMS, "seed {seed}");
+    [worst(&found.r_b_n_ddot, &engine.r_b_n_ddot), worst(&found.omega_dot, &engine.omega_dot)]
+}
+
+/// Worst of each block of accelerations of a cluster.
+fn errors_of_cluster(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> Vec<f64> {
     let (joints, expected) = (&found.joints, &engine.joints);
     let wheels = |of: &[f64]| [of[6], of[7], of[9]];
     // Blocks: slides, turns of the platform, gimbal, wheels.
-    [
-        worst(&found.r_b_n_ddot, &engine.r_b_n_ddot),
-        worst(&found.omega_dot, &engine.omega_dot),
+    let of_joints = [
         worst(&joints[..3], &expected[..3]),
         worst(&joints[3..6], &expected[3..6]),
         worst(&joints[8..9], &expected[8..9]),
         worst(&wheels(joints), &wheels(expected)),
-    ]
+    ];
+    of_hub(seed, found, engine).into_iter().chain(of_joints).collect()
 }
 
-/// Both engines to the bounds of the accelerations: on these clusters `MuJoCo` rounds no worse.
-#[test]
-fn isolated_clusters_are_those_of_the_engines() {
-    let text = include_str!("../../fixtures/isolated.json");
-    let fixture: Fixture = serde_json::from_str(text).expect("a fixture");
-    assert!(fixture.clusters.len() >= 20);
+/// Those of a row, whose hinges are a block.
+fn errors_of_row(seed: u32, found: &EngineSolution, engine: &EngineSolution) -> Vec<f64> {
+    let joints = worst(&found.joints, &engine.joints);
+    of_hub(seed, found, engine).into_iter().chain([joints]).collect()
+}
+
+type Errors = fn(u32, &EngineSolution, &EngineSolution) -> Vec<f64>;
+
+/// Both engines to the bounds of the accelerations: on these spacecraft `MuJoCo` rounds no worse.
+fn assert_agreement(
+    all: &[Craft],
+    solved: fn(&Craft) -> EngineSolution,
+    errors: Errors,
+    what: &str,
+) {
+    assert!(all.len() >= 20);
     let engines: [(_, OfEngine); 2] =
         [("Pinocchio", |of| &of.pinocchio), ("MuJoCo", |of| &of.mujoco)];
-    let found: Vec<_> = fixture.clusters.iter().map(|of| (of, solved(of))).collect();
+    let found: Vec<_> = all.iter().map(|of| (of, solved(of))).collect();
     for (name, engine) in engines {
-        let clusters = found.iter();
+        let each = found.iter();
         let mut errors: Vec<_> =
-            clusters.flat_map(|(of, found)| errors(of.seed, found, engine(of))).collect();
+            each.flat_map(|(of, found)| errors(of.seed, found, engine(of))).collect();
         errors.sort_by(f64::total_cmp);
         let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
-        println!("isolated clusters against {name}: median {median:.1e}, worst {worst:.1e}");
+        println!("{what} against {name}: median {median:.1e}, worst {worst:.1e}");
         assert!(median <= ACCELERATIONS_MEDIAN, "{name}: median {median:e}");
         assert!(worst <= ACCELERATIONS_WORST, "{name}: worst {worst:e}");
     }
+}
+
+fn fixture() -> Fixture {
+    let text = include_str!("../../fixtures/isolated.json");
+    serde_json::from_str(text).expect("a fixture")
+}
+
+#[test]
+fn isolated_clusters_are_those_of_the_engines() {
+    assert_agreement(&fixture().clusters, of_cluster, errors_of_cluster, "isolated clusters");
+}
+
+#[test]
+fn rows_of_panels_are_those_of_the_engines() {
+    assert_agreement(&fixture().rows, of_row, errors_of_row, "rows of panels");
 }
