@@ -47,9 +47,11 @@ extern "C" {
 #elif PRECESS_TABLE_VERSION == 2
 #define PRECESS_MAX_JOINTS 7
 #define PRECESS_TABLE_SIZE(devices) (124 + 2320 * (devices))
-#define PRECESS_SPACECRAFT_SIZE 49152
-#define PRECESS_MAX_PLATFORMS 4   /* platforms, */
-#define PRECESS_MAX_ON_PLATFORM 4 /* devices on each: both count as devices */
+#define PRECESS_SPACECRAFT_SIZE 65536
+#define PRECESS_MAX_PLATFORMS 4   /* platforms on the hub without platforms on them, */
+#define PRECESS_MAX_LOWER 1       /* on the hub with platforms on them, */
+#define PRECESS_MAX_UPPER 1       /* platforms on each of these, */
+#define PRECESS_MAX_ON_PLATFORM 4 /* devices on each platform: all count as devices */
 #define precess_init precess_init_v2
 #define precess_init_from_table precess_init_from_table_v2
 #define precess_table_write precess_table_write_v2
@@ -132,7 +134,7 @@ enum {
 #if PRECESS_TABLE_VERSION == 2
 /* An isolated platform: slides along x, y, z of its mount, then turns about x, the turned y, its own z. Only
  * the last of its bodies has mass, only the first joint an origin, with every coordinate zero. It stands on the
- * hub; entries that name it in `on` stand on it, their origins and mounts in its axes. */
+ * hub or on a platform there; entries that name it in `on` stand on it, their origins and mounts in its axes. */
 enum { PRECESS_KIND_PLATFORM = 100 };
 #endif
 

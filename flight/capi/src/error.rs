@@ -114,7 +114,7 @@ codes! {
         c"the kind has more joints than PRECESS_MAX_JOINTS; define PRECESS_TABLE_VERSION as 2";
     /// An entry stands on something that is no platform.
     NoPlatform = 27, c"PRECESS_ERROR_NO_PLATFORM",
-        c"`on` is neither 0, the hub, nor 1 + the index of a platform; platforms stand on the hub";
+        c"`on` is neither 0, the hub, nor 1 + the index of a platform; a platform is on the hub or on one there";
     /// A matrix or strut of a suspension is out of range.
     Suspension = 28, c"PRECESS_ERROR_SUSPENSION",
         c"a matrix is not symmetric or not positive semidefinite, or a strut has no length, direction";

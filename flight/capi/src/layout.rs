@@ -117,6 +117,8 @@ where
         }
         for (name, value) in [
             ("PRECESS_MAX_PLATFORMS", crate::MAX_PLATFORMS),
+            ("PRECESS_MAX_LOWER", crate::MAX_LOWER),
+            ("PRECESS_MAX_UPPER", crate::MAX_UPPER),
             ("PRECESS_MAX_ON_PLATFORM", crate::MAX_ON_PLATFORM),
         ] {
             lines.push(format!("IS({name}, {value});"));

@@ -36,8 +36,14 @@ pub const MAX_DEVICES: usize = 8;
 /// The joints that a device has at most, by version of the interface: `PRECESS_MAX_JOINTS`.
 pub const VERSIONS: [usize; 2] = [3, precess_dynamics::MAX_JOINTS];
 
-/// Platforms of a spacecraft at most: `PRECESS_MAX_PLATFORMS`.
+/// Platforms on the hub that carry devices only, at most: `PRECESS_MAX_PLATFORMS`.
 pub const MAX_PLATFORMS: usize = 4;
+
+/// Platforms on the hub that carry platforms, at most: `PRECESS_MAX_LOWER`.
+pub const MAX_LOWER: usize = 1;
+
+/// Platforms on each of these at most: `PRECESS_MAX_UPPER`.
+pub const MAX_UPPER: usize = 1;
 
 /// Devices on a platform at most: `PRECESS_MAX_ON_PLATFORM`.
 pub const MAX_ON_PLATFORM: usize = 4;

@@ -2,7 +2,7 @@
 //! entries become that set.
 //!
 //! Version 1: up to eight devices of up to three joints on the hub. Version 2: entries of up to seven joints,
-//! and platforms, of which an entry may name one as what it stands on.
+//! and platforms, of which an entry may name one as what it stands on, a platform one on the hub.
 
 use precess_dynamics::{BuiltIn, DeviceLoads, DeviceSet, Devices, Each, Isolated, Value, Wrench};
 
@@ -13,14 +13,22 @@ use crate::memory::Plain;
 use crate::platform::{is_platform, platform_of};
 use crate::table::Pass;
 use crate::types::{self, Device, Entry};
-use crate::{MAX_DEVICES, MAX_ON_PLATFORM, MAX_PLATFORMS};
+use crate::{MAX_DEVICES, MAX_LOWER, MAX_ON_PLATFORM, MAX_PLATFORMS, MAX_UPPER};
 
 /// The devices on a hub.
 pub(crate) type List = [Option<BuiltIn>; MAX_DEVICES];
 /// The devices on a platform.
 type PlatformDevices = [Option<BuiltIn>; MAX_ON_PLATFORM];
-/// The platforms with what they carry.
-type Platforms = [Option<Isolated<PlatformDevices>>; MAX_PLATFORMS];
+/// A platform that carries devices only.
+type Upper = Isolated<PlatformDevices>;
+/// Those on the hub.
+type Platforms = [Option<Upper>; MAX_PLATFORMS];
+/// What stands on a platform that carries platforms.
+type Carried = (PlatformDevices, [Option<Upper>; MAX_UPPER]);
+/// Platforms on the hub that carry platforms.
+type Lower = [Option<Isolated<Carried>>; MAX_LOWER];
+/// The set of version 2.
+type Second = (List, Platforms, Lower);
 
 /// Carries the versions, each by the joints that a device has at most.
 pub(crate) struct Versions;
@@ -79,46 +87,52 @@ impl Interface<3> for Versions {
 }
 
 impl Interface<7> for Versions {
-    type Set = (List, Platforms);
+    type Set = Second;
     type Entry = Entry;
 
-    const SIZE: usize = 49_152;
+    const SIZE: usize = 65_536;
     const EMPTY: Entry = Entry::EMPTY;
 
-    fn set(entries: &[Entry]) -> Result<((List, Platforms), EntryMap), Rejection> {
+    fn set(entries: &[Entry]) -> Result<(Second, EntryMap), Rejection> {
         let mut list: List = [None; MAX_DEVICES];
         let mut platforms: Platforms = [const { None }; MAX_PLATFORMS];
+        let mut lower: Lower = [const { None }; MAX_LOWER];
         let mut entry_map = EntryMap::none();
-        let at = |index: usize, code: Code| Rejection { entry: Some(index), ..code.into() };
-        let hub =
-            entries.iter().enumerate().filter(|(_, entry)| !is_platform(entry) && entry.on == 0);
-        for (to, (index, entry)) in list.iter_mut().zip(hub) {
+        for (to, (index, entry)) in list.iter_mut().zip(standing_on(entries, None, false)) {
             *to = Some(placed(index, entry, &mut entry_map)?);
         }
         for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.on != 0) {
             let named =
                 usize::try_from(entry.on).ok().and_then(|on| entries.get(on.wrapping_sub(1)));
-            if is_platform(entry) || !named.is_some_and(is_platform) {
+            // What a platform stands on stands on the hub.
+            let known =
+                named.is_some_and(|of| is_platform(of) && (of.on == 0 || !is_platform(entry)));
+            if !known {
                 return Err(at(index, Code::NoPlatform));
             }
         }
+        let carries = |index: usize| standing_on(entries, Some(index), true).next().is_some();
         let mut free = platforms.iter_mut();
-        for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| is_platform(entry)) {
+        for (index, entry) in standing_on(entries, None, true).filter(|(index, _)| !carries(*index))
+        {
             let to = free.next().ok_or(at(index, Code::TooMany))?;
-            let (platform, suspension) = platform_of(index, entry)?;
-            entry_map.add(index, types::PLATFORM_JOINTS);
-            let mut carried: PlatformDevices = [None; MAX_ON_PLATFORM];
-            let mut room = carried.iter_mut();
-            let stands = |entry: &Entry| {
-                usize::try_from(entry.on).is_ok_and(|on| on == index.wrapping_add(1))
-            };
-            for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| stands(entry)) {
-                let to = room.next().ok_or(at(index, Code::TooMany))?;
-                *to = Some(placed(index, entry, &mut entry_map)?);
-            }
-            *to = Some(Isolated { carrier: platform, suspension, carried });
+            *to = Some(upper(entries, (index, entry), &mut entry_map)?);
         }
-        Ok(((list, platforms), entry_map))
+        let mut free = lower.iter_mut();
+        for (index, entry) in standing_on(entries, None, true).filter(|(index, _)| carries(*index))
+        {
+            let to = free.next().ok_or(at(index, Code::TooMany))?;
+            let Upper { carrier: platform, suspension, carried } =
+                upper(entries, (index, entry), &mut entry_map)?;
+            let mut platforms = [const { None }; MAX_UPPER];
+            let mut room = platforms.iter_mut();
+            for (index, entry) in standing_on(entries, Some(index), true) {
+                let to = room.next().ok_or(at(index, Code::TooMany))?;
+                *to = Some(upper(entries, (index, entry), &mut entry_map)?);
+            }
+            *to = Some(Isolated { carrier: platform, suspension, carried: (carried, platforms) });
+        }
+        Ok(((list, platforms, lower), entry_map))
     }
 
     fn pass(pass: &mut impl Pass, entry: &mut Entry, layout: usize) -> Option<()> {
@@ -126,13 +140,50 @@ impl Interface<7> for Versions {
         if layout == 7 { pass.standing(entry) } else { Some(()) }
     }
 
-    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut LoadsByEntry<'_, 7>) {
+    fn loads((list, platforms, lower): &LoadsOf<Second>, to: &mut LoadsByEntry<'_, 7>) {
         list.iter().flatten().for_each(|of| to.put(of));
-        for of in platforms.iter().flatten() {
+        platforms.iter().flatten().for_each(|of| to.put_platform(of));
+        for of in lower.iter().flatten() {
+            let (devices, platforms) = &of.carried;
             to.put(&of.carrier);
-            of.carried.iter().flatten().for_each(|of| to.put(of));
+            devices.iter().flatten().for_each(|of| to.put(of));
+            platforms.iter().flatten().for_each(|of| to.put_platform(of));
         }
     }
+}
+
+/// A rejection of an entry.
+fn at(index: usize, code: Code) -> Rejection {
+    Rejection { entry: Some(index), ..code.into() }
+}
+
+/// The entries that stand on the hub, or on an entry, with their indices: all platforms, or all devices.
+fn standing_on(
+    entries: &[Entry],
+    base: Option<usize>,
+    platforms: bool,
+) -> impl Iterator<Item = (usize, &Entry)> {
+    let on = base.map_or(0, |base| base.wrapping_add(1));
+    let stands = move |entry: &Entry| usize::try_from(entry.on).is_ok_and(|of| of == on);
+    let all = entries.iter().enumerate();
+    all.filter(move |(_, entry)| is_platform(entry) == platforms && stands(entry))
+}
+
+/// A platform with the devices on it, whose joints are added to the map.
+fn upper(
+    entries: &[Entry],
+    (index, entry): (usize, &Entry),
+    entry_map: &mut EntryMap,
+) -> Result<Upper, Rejection> {
+    let (platform, suspension) = platform_of(index, entry)?;
+    entry_map.add(index, types::PLATFORM_JOINTS);
+    let mut carried: PlatformDevices = [None; MAX_ON_PLATFORM];
+    let mut room = carried.iter_mut();
+    for (index, entry) in standing_on(entries, Some(index), false) {
+        let to = room.next().ok_or(at(index, Code::TooMany))?;
+        *to = Some(placed(index, entry, entry_map)?);
+    }
+    Ok(Isolated { carrier: platform, suspension, carried })
 }
 
 /// The device of an entry, whose joints are added to the map.
@@ -151,6 +202,11 @@ pub(crate) struct LoadsByEntry<'a, const J: usize> {
 }
 
 impl<const J: usize> LoadsByEntry<'_, J> {
+    fn put_platform(&mut self, of: &LoadsOf<Upper>) {
+        self.put(&of.carrier);
+        of.carried.iter().flatten().for_each(|of| self.put(of));
+    }
+
     fn put<W: Each<Wrench>, U: Each<f64>, P>(&mut self, of: &DeviceLoads<W, U, P, f64>) {
         let entry = self.entry_map.entry(self.next);
         self.next = self.next.wrapping_add(1);

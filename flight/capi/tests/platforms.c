@@ -241,6 +241,92 @@ static void conserved(void)
     IS(same(saved[0], saved[1], (15 + 2 * AXES) * sizeof saved[0][0]), 1);
 }
 
+static void rejects(int entry, int32_t code, uint32_t count)
+{
+    precess_fault fault;
+    IS(init(count, &fault), code);
+    IS(fault.device, entry);
+    IS(fault.code, code);
+}
+
+/* A slide on a slide: with all else locked, two masses in series, and the table of them. The force of the upper
+ * spring is k2 x2 on the upper mass, and against it on the lower one. */
+static void stacked(void)
+{
+    enum { UPPER, LOWER, RW, ALL };
+    static const double place[2] = {2e-3, -1e-3};
+    static const int orders[2][ALL] = {{0, 1, 2}, {2, 0, 1}};
+    static uint8_t table[PRECESS_TABLE_SIZE(ALL)];
+    static precess_spacecraft other;
+    const double m1 = PLATFORM_MASS, m2 = PLATFORM_MASS + WHEEL_MASS, k1 = STIFFNESS, k2 = 2.0 * STIFFNESS;
+    const double lower = (-k1 * place[0] + k2 * place[1]) / m1;
+    double first[3];
+    int turn, axis;
+    for (turn = 0; turn < 2; turn++) {
+        const int up = orders[turn][UPPER], low = orders[turn][LOWER], rw = orders[turn][RW];
+        precess_state state, twin;
+        precess_inputs inputs;
+        precess_accelerations found;
+        precess_loads loads;
+        precess_momentum before, after;
+        size_t length = 0;
+        platform(&entries[up]);
+        platform(&entries[low]);
+        wheel(&entries[rw], 1 + up);
+        entries[up].on = 1 + low;
+        entries[up].bodies[0].origin[2] = 0.1;
+        entries[low].passive[Y].stiffness = k1;
+        entries[up].passive[Y].stiffness = k2;
+        IS(init(ALL, 0), PRECESS_OK);
+        IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+        IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+        inputs.hub_mode = PRECESS_HUB_FIXED;
+        for (axis = 0; axis < AXES; axis++) {
+            inputs.mode[low][axis] = axis == Y ? PRECESS_DRIVEN : PRECESS_LOCKED;
+            inputs.mode[up][axis] = inputs.mode[low][axis];
+        }
+        state.coordinate[low][Y] = place[0];
+        state.coordinate[up][Y] = place[1];
+        IS(precess_accelerations_of(&craft, &state, &inputs, &found, 0), PRECESS_OK);
+        NEAR(found.joint[low][Y], lower, 1e-12);
+        NEAR(found.joint[up][Y], -k2 * place[1] / m2 - lower, 1e-12);
+        IS(precess_loads_of(&craft, &state, &inputs, PRECESS_AXES_BODY, &loads, 0), PRECESS_OK);
+        NEAR(loads.mount[low].force[Y], -k1 * place[0], 1e-11);
+        NEAR(loads.mount[up].force[Y], -k2 * place[1], 1e-11);
+        /* All free: momentum stays. */
+        IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+        state.omega[1] = 0.1;
+        state.rate[rw][0] = 100.0;
+        IS(precess_table_write(&hub, entries, ALL, table, sizeof table, &length), PRECESS_OK);
+        IS(precess_init_from_table(&other, sizeof other, table, length, 0), PRECESS_OK);
+        twin = state;
+        IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &before, 0), PRECESS_OK);
+        IS(precess_step(&craft, &state, &inputs, 1e-4, 1000, 0, 0), PRECESS_OK);
+        IS(precess_step(&other, &twin, &inputs, 1e-4, 1000, 0, 0), PRECESS_OK);
+        IS(same(&state, &twin, sizeof state), 1);
+        IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &after, 0), PRECESS_OK);
+        for (axis = 0; axis < 3; axis++) {
+            NEAR(after.angular[axis], before.angular[axis], 1e-11);
+            bits(state.omega[axis]);
+            if (turn == 0) {
+                first[axis] = state.omega[axis];
+            }
+            IS(same(&first[axis], &state.omega[axis], sizeof first[axis]), 1);
+        }
+    }
+    /* On a third, in a circle, and one more than there is room for. */
+    for (turn = 0; turn < ALL; turn++) {
+        platform(&entries[turn]);
+        entries[turn].on = turn;
+    }
+    rejects(2, PRECESS_ERROR_NO_PLATFORM, ALL);
+    entries[0].on = 1 + 1;
+    rejects(0, PRECESS_ERROR_NO_PLATFORM, 2);
+    entries[0].on = 0;
+    entries[2].on = 1 + 0;
+    rejects(2, PRECESS_ERROR_TOO_MANY, ALL);
+}
+
 /* Tables say what entries stand on. */
 static void tables(void)
 {
@@ -268,14 +354,6 @@ static void tables(void)
     IS(state.coordinate[ISOLATOR][Z] > 8e-6, 1);
 }
 
-static void rejects(int entry, int32_t code, uint32_t count)
-{
-    precess_fault fault;
-    IS(init(count, &fault), code);
-    IS(fault.device, entry);
-    IS(fault.code, code);
-}
-
 static void rejected(void)
 {
     precess_state state;
@@ -283,7 +361,7 @@ static void rejected(void)
     precess_accelerations found;
     precess_fault fault;
     int index;
-    /* On itself, on a wheel, on nothing, on less than nothing; a platform on a platform. */
+    /* On itself, on a wheel, on nothing, on less than nothing; a platform on itself. */
     for (index = 0; index < 4; index++) {
         static const int32_t on[4] = {1 + WHEEL, 1 + GYRO, 9, -1};
         example();
@@ -292,7 +370,7 @@ static void rejected(void)
     }
     example();
     platform(&entries[GYRO]);
-    entries[GYRO].on = 1 + ISOLATOR;
+    entries[GYRO].on = 1 + GYRO;
     rejects(GYRO, PRECESS_ERROR_NO_PLATFORM, ENTRIES);
     /* One device more than a platform takes, and one platform more than a hub. */
     example();
@@ -360,6 +438,7 @@ int main(void)
     springs();
     locked();
     conserved();
+    stacked();
     tables();
     rejected();
     return finish(183);

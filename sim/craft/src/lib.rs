@@ -27,8 +27,17 @@ pub use derivatives::{
     step_parameter_derivatives,
 };
 
-/// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
-pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+/// What stands on a platform: devices, and platforms that carry devices only.
+pub type Carried = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+
+/// The set that is run: devices on the hub, each of any kind, and platforms with what stands on them.
+pub type Set = (Vec<BuiltIn>, Vec<Isolated<Carried>>);
+
+/// A value for each member that stands on a platform.
+pub type OfCarried<T> = (Vec<T>, Vec<platform::Data<T, Vec<T>>>);
+
+/// A value for each member of the set.
+pub type OfMembers<T> = (Vec<T>, Vec<platform::Data<T, OfCarried<T>>>);
 
 /// A wrench on the child body of each joint.
 pub type BodyWrenches = <Set as DeviceSet>::Per<set::PerJoint<Wrench>>;
@@ -52,7 +61,7 @@ pub fn flexible(
     modes: &Modes<ListedModes>,
     residual: usize,
     devices: &Set,
-    on: &(Vec<usize>, Vec<platform::Data<usize, Vec<usize>>>),
+    on: &OfMembers<usize>,
 ) -> Result<FlexibleCraft, ModesError> {
     Spacecraft::flexible_with_residual(hub, modes, residual, devices, on)
 }

@@ -1,8 +1,7 @@
-//! The set of a scenario over dual numbers: what depends on parameters, with its derivatives by some at a time.
+//! The devices of a scenario over dual numbers: what depends on parameters, with its derivatives by some at a time.
 
 use precess_dynamics::{
-    Accelerations, BuiltIn, Dual, Hub, Inputs, Isolated, ParameterError, SolveError, Spacecraft,
-    State,
+    Accelerations, BuiltIn, Dual, Hub, Inputs, ParameterError, SolveError, Spacecraft, State,
 };
 
 /// Derivatives at a time.
@@ -11,8 +10,8 @@ pub const WIDTH: usize = 6;
 /// A number with its derivatives.
 pub type Number = Dual<f64, WIDTH>;
 
-/// The set of a scenario over dual numbers.
-pub type Set = (Vec<BuiltIn<Number>>, Vec<Isolated<Vec<BuiltIn<Number>>>>);
+/// The devices of a scenario without platforms, over dual numbers.
+pub type Set = Vec<BuiltIn<Number>>;
 
 /// The spacecraft, prepared for evaluation.
 ///

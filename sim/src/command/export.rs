@@ -32,8 +32,11 @@ const PER_JOINT: usize = 168;
 const STANDING: usize = 8 + 8 * (36 + 6 + 36 + 6 * 9);
 /// The kind of a platform.
 const PLATFORM: i32 = 100;
-/// Platforms that the flight library takes, and devices on each.
+/// Platforms on the hub that the flight library takes: without platforms on them, and with; platforms on each of
+/// these; devices on any platform.
 const PLATFORMS_MAX: usize = 4;
+const LOWER_MAX: usize = 1;
+const UPPER_MAX: usize = 1;
 const CARRIED_MAX: usize = 4;
 
 /// What is exported.
@@ -94,17 +97,7 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
         );
         return Err(CommandError::Other(message));
     }
-    let (_, isolated) = &scenario.devices;
-    let carried = isolated.iter().map(|of| of.carried.len()).max().unwrap_or(0);
-    for (what, found, most) in [
-        ("platforms", isolated.len(), PLATFORMS_MAX),
-        ("devices on a platform", carried, CARRIED_MAX),
-    ] {
-        if found > most {
-            let message = format!("{found} {what}; the flight library takes {most}: remove some");
-            return Err(CommandError::Other(message));
-        }
-    }
+    check_platforms(&scenario.devices)?;
     let most = members.iter().map(|member| member.joints().len()).max();
     let first = most.unwrap_or(0) <= JOINTS[0];
     let (version, joints) = if first { (1, JOINTS[0]) } else { (2, JOINTS[1]) };
@@ -147,12 +140,34 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
                 bytes.extend(value.to_le_bytes());
             }
             let none = Suspension::none();
-            bytes.extend(suspension(member.platform().map_or(&none, |of| &of.suspension)));
+            bytes.extend(suspension(member.suspension().unwrap_or(&none)));
         }
     }
     let sum = crc32fast::hash(&bytes);
     bytes.extend(sum.to_le_bytes());
     Ok(bytes)
+}
+
+/// Rejects more platforms, and more on one, than the flight library takes.
+fn check_platforms((_, isolated): &precess_craft::Set) -> Result<(), CommandError> {
+    let upper = isolated.iter().map(|of| of.carried.1.len());
+    let lower = upper.clone().filter(|count| *count > 0).count();
+    let all = isolated.iter().flat_map(|of| {
+        let on_platform = of.carried.1.iter().map(|of| of.carried.len());
+        std::iter::once(of.carried.0.len()).chain(on_platform)
+    });
+    for (what, found, most) in [
+        ("platforms", isolated.len().saturating_sub(lower), PLATFORMS_MAX),
+        ("platforms with platforms on them", lower, LOWER_MAX),
+        ("platforms on a platform", upper.max().unwrap_or(0), UPPER_MAX),
+        ("devices on a platform", all.max().unwrap_or(0), CARRIED_MAX),
+    ] {
+        if found > most {
+            let message = format!("{found} {what}; the flight library takes {most}: remove some");
+            return Err(CommandError::Other(message));
+        }
+    }
+    Ok(())
 }
 
 /// A suspension: stiffness, rest, damping, six struts; zeros where there is none.
@@ -230,6 +245,38 @@ mod tests {
         let entry = |index: usize| 120 + 2320 * index;
         let kinds = [0, 1, 2, 3, 4].map(|index| [word(entry(index)), word(entry(index) + 1256)]);
         assert_eq!(kinds, [[100, 0], [9, 1], [9, 1], [9, 1], [9, 1]]);
+    }
+
+    #[test]
+    fn a_table_has_one_platform_on_another() {
+        let platform = |name: &str, on: &str| {
+            format!(
+                "[[platform]]\nname = \"{name}\"\non = \"{on}\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n"
+            )
+        };
+        let of = |platforms: &[(&str, &str)]| {
+            let platforms: String = platforms.iter().map(|(name, on)| platform(name, on)).collect();
+            let text = format!(
+                "format = 1\n{platforms}[hub]\nmass = \"9 kg\"\ninertia = \"9, 9, 9 kg m^2\"\n[run]\nduration = \"1 s\"\n"
+            );
+            let read = crate::file::from_toml("stacked", &text, Path::new(""));
+            let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+            table(&scenario)
+        };
+        // Entries in the order of the set, each with 1 + the entry that it stands on.
+        let bytes = of(&[("upper", "lower"), ("other", "hub"), ("lower", "hub")]).expect("three");
+        let word = |at: usize| i32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
+        assert_eq!([0, 1, 2].map(|index| word(120 + 2320 * index + 1256)), [0, 0, 2]);
+        for (platforms, found) in [
+            ([("a", "hub"), ("b", "a"), ("c", "a"), ("d", "hub")], "2 platforms on a platform"),
+            (
+                [("a", "hub"), ("b", "a"), ("c", "d"), ("d", "hub")],
+                "2 platforms with platforms on them",
+            ),
+        ] {
+            let error = of(&platforms).expect_err(found).to_string();
+            assert!(error.contains(found) && error.contains("remove"), "{error}");
+        }
     }
 
     #[test]

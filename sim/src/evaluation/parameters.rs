@@ -11,7 +11,7 @@ use precess_dynamics::{
 };
 
 use crate::nearest::nearest;
-use crate::scenario::{Scenario, Set};
+use crate::scenario::{Scenario, Set, members};
 
 use super::EvaluationError;
 
@@ -275,35 +275,22 @@ fn place(axis: Axis) -> usize {
 }
 
 /// The device of a number of the set, platforms counted.
-fn device((on_hub, isolated): &Set, index: usize) -> Option<&BuiltIn> {
-    if let Some(device) = on_hub.get(index) {
-        return Some(device);
-    }
-    let mut next = on_hub.len();
-    for of in isolated {
-        // The platform itself.
-        next += 1;
-        if let Some(device) = index.checked_sub(next).and_then(|k| of.carried.get(k)) {
-            return Some(device);
-        }
-        next += of.carried.len();
-    }
-    None
+fn device(set: &Set, index: usize) -> Option<&BuiltIn> {
+    members(set).get(index)?.device()
 }
 
 /// The same, to be changed.
 fn device_mut((on_hub, isolated): &mut Set, index: usize) -> Option<&mut BuiltIn> {
-    let mut next = on_hub.len();
-    if index < next {
-        return on_hub.get_mut(index);
-    }
+    // None is a platform.
+    let mut all: Vec<Option<&mut BuiltIn>> = on_hub.iter_mut().map(Some).collect();
     for of in isolated {
-        next += 1;
-        let count = of.carried.len();
-        if index >= next && index - next < count {
-            return of.carried.get_mut(index - next);
+        let (devices, platforms) = &mut of.carried;
+        all.push(None);
+        all.extend(devices.iter_mut().map(Some));
+        for of in platforms {
+            all.push(None);
+            all.extend(of.carried.iter_mut().map(Some));
         }
-        next += count;
     }
-    None
+    all.into_iter().nth(index).flatten()
 }

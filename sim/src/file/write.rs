@@ -103,11 +103,13 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
     for (index, (name, member)) in s.members().enumerate() {
         let first = joint;
         joint += member.joints().len();
-        let Member::Device { device, on } = member else {
-            if let Some(of) = member.platform() {
+        let (device, on) = match member {
+            Member::Device { device, on } => (device, on),
+            Member::Platform { platform, suspension, on } => {
+                let of = (platform, suspension, on);
                 super::write_platform::platform(out, s, name, of, [index, first])?;
+                continue;
             }
-            continue;
         };
         let parameters = device.parameters();
         writeln!(out, "\n[[device]]\nname = {}", quoted(name))?;

@@ -4,23 +4,28 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix6, Vector3};
 use precess_dynamics::kind::{Each, Kind};
-use precess_dynamics::{BuiltIn, Coupled, Isolated, Platform, Strut};
+use precess_dynamics::{Coupled, Platform, Strut, Suspension};
 
 use super::write::{Written, inertia, mount, of_joint, quoted, structure, vector};
 use crate::scenario::{Scenario, joint_key};
 
-/// The table of a platform, by its numbers as a member and of its first joint.
+/// The table of a platform on the hub or on the platform of a number, by its numbers as a member and of its first
+/// joint.
 pub(super) fn platform(
     out: &mut String,
     s: &Scenario,
     name: &str,
-    of: &Isolated<Vec<BuiltIn>>,
+    (platform, suspension, on): (&Platform, &Suspension, Option<usize>),
     [member, first]: [usize; 2],
 ) -> Written {
-    let Isolated { carrier: platform, suspension, .. } = of;
     writeln!(out, "\n[[platform]]\nname = {}", quoted(name))?;
+    if let Some(base) = on.and_then(|on| s.names.get(on)) {
+        writeln!(out, "on = {}", quoted(base))?;
+    }
     writeln!(out, "position = {}", vector(&platform.r_p_b, "m"))?;
-    structure::node(out, s, member)?;
+    if on.is_none() {
+        structure::node(out, s, member)?;
+    }
     mount(out, &platform.mount)?;
     writeln!(out, "mass = \"{:?} kg\"", platform.m_p)?;
     writeln!(out, "centre_of_mass = {}", vector(&platform.r_pc_p, "m"))?;

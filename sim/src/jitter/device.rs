@@ -1,4 +1,4 @@
-//! [`SweptDevice`]: a device, or a platform with its devices, at any speed of its rotors.
+//! [`SweptDevice`]: a device, or a platform with what stands on it, at any speed of its rotors.
 //!
 //! The means over a turn of the derivatives by accelerations, rates and coordinates are polynomials of second degree in
 //! the rates (inertia does not depend on them, gyroscopic terms are linear, centrifugal ones quadratic), so
@@ -200,10 +200,8 @@ impl SweptDevice {
         speed: f64,
     ) -> Result<Vec<f64>, Fault> {
         let first = scenario.joints().nth(self.first_joint).map_or(0, |(device, ..)| device);
-        let members = scenario.members().enumerate();
-        let carried = members.filter(|(_, (_, member))| member.on() == Some(first));
-        let chosen: Vec<usize> =
-            std::iter::once(first).chain(carried.map(|(index, _)| index)).collect();
+        let groups = scenario.groups().into_iter();
+        let chosen: Vec<usize> = groups.filter(|group| group.contains(&first)).flatten().collect();
         let set = set_of(scenario, &chosen);
         let joints = SteadyJoints::new(scenario, &chosen, steady.motor, steady.sprung);
         let states = states_at(&joints.states, &self.rotors, speed);
@@ -358,7 +356,12 @@ fn motors(loads: &Loads<Set>) -> Vec<f64> {
     let mut all: Vec<f64> = on_hub.iter().flat_map(|of| of.motors.values()).collect();
     for of in platforms {
         all.extend(of.carrier.motors.values());
-        all.extend(of.carried.iter().flat_map(|of| of.motors.values()));
+        let (devices, platforms) = &of.carried;
+        all.extend(devices.iter().flat_map(|of| of.motors.values()));
+        for of in platforms {
+            all.extend(of.carrier.motors.values());
+            all.extend(of.carried.iter().flat_map(|of| of.motors.values()));
+        }
     }
     all
 }

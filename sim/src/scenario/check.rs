@@ -256,7 +256,7 @@ impl Scenario {
         }
         let mut known = HashSet::new();
         for (index, name) in self.names.iter().enumerate() {
-            let is_platform = matches!(all.get(index), Some(Member::Platform(_)));
+            let is_platform = matches!(all.get(index), Some(Member::Platform { .. }));
             let key = format!("{}.{name}.name", if is_platform { "platform" } else { "device" });
             if let Some(fault) = column_name_fault(name) {
                 errors.push(range(&key, fault.to_string()));

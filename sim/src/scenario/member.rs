@@ -1,17 +1,18 @@
 //! [`Member`]: a device or a platform of a scenario's set.
 //!
-//! The order of the set: the devices on the hub, then platform by platform the platform and the
-//! devices on it. Names, mounts, joints and drives of a scenario are in this order.
+//! The order of the set: the devices on the hub, then platform by platform the platform, the devices
+//! on it, and platform by platform those that stand on it, each with its devices. Names, mounts, joints
+//! and drives of a scenario are in this order.
 
 use nalgebra::Matrix3;
 use precess_dynamics::kind::{BodyParameters, Each, ImbalanceModel, JointInfo, Kind};
-use precess_dynamics::{BuiltIn, Isolated, Passive, Platform, Suspension};
+use precess_dynamics::{BuiltIn, Passive, Platform, Suspension};
 
 use super::Scenario;
 
 pub use precess_craft::Set;
 
-/// A device, or a platform without the devices on it.
+/// A device, or a platform without what stands on it.
 #[derive(Clone, Copy, Debug)]
 pub enum Member<'a> {
     /// A device of some kind.
@@ -21,32 +22,53 @@ pub enum Member<'a> {
         /// The number of the platform that it stands on, as a member; none on the hub.
         on: Option<usize>,
     },
-    /// A platform on the hub.
-    Platform(&'a Isolated<Vec<BuiltIn>>),
+    /// A platform.
+    Platform {
+        /// Its body, mount and joints.
+        platform: &'a Platform,
+        /// Springs and dampers that couple its joints.
+        suspension: &'a Suspension,
+        /// As of a device.
+        on: Option<usize>,
+    },
 }
 
 /// The members of a set, in order.
 #[must_use]
 pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
-    let mut all: Vec<_> = on_hub.iter().map(|device| Member::Device { device, on: None }).collect();
+    let mut all = Vec::new();
+    extend(&mut all, on_hub, None);
     for of in isolated {
-        let on = Some(all.len());
-        all.push(Member::Platform(of));
-        all.extend(of.carried.iter().map(|device| Member::Device { device, on }));
+        let outer = Some(all.len());
+        all.push(Member::Platform { platform: &of.carrier, suspension: &of.suspension, on: None });
+        let (devices, platforms) = &of.carried;
+        extend(&mut all, devices, outer);
+        for of in platforms {
+            let on = Some(all.len());
+            let (platform, suspension) = (&of.carrier, &of.suspension);
+            all.push(Member::Platform { platform, suspension, on: outer });
+            extend(&mut all, &of.carried, on);
+        }
     }
     all
 }
 
-/// Some devices and platforms of a scenario by themselves; a device on a platform comes with it.
+fn extend<'a>(all: &mut Vec<Member<'a>>, devices: &'a [BuiltIn], on: Option<usize>) {
+    all.extend(devices.iter().map(|device| Member::Device { device, on }));
+}
+
+/// Some devices and platforms of a scenario by themselves; what stands on a platform comes with it.
 #[must_use]
 pub fn set_of(scenario: &Scenario, chosen: &[usize]) -> Set {
+    let (on_hub, isolated) = &scenario.devices;
     let members = members(&scenario.devices);
-    let chosen: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
-    let on_hub = chosen.iter().filter(|member| member.on().is_none());
-    (
-        on_hub.filter_map(|member| member.device().copied()).collect(),
-        chosen.iter().filter_map(|member| member.platform().cloned()).collect(),
-    )
+    // What stands on the hub, in order: all devices on it, then the platforms.
+    let standing = members.iter().enumerate().filter(|(_, member)| member.on().is_none());
+    let is_chosen: Vec<bool> = standing.map(|(index, _)| chosen.contains(&index)).collect();
+    let (devices, platforms) = is_chosen.split_at(on_hub.len().min(is_chosen.len()));
+    let devices = on_hub.iter().zip(devices).filter(|(_, chosen)| **chosen);
+    let platforms = isolated.iter().zip(platforms).filter(|(_, chosen)| **chosen);
+    (devices.map(|(of, _)| *of).collect(), platforms.map(|(of, _)| of.clone()).collect())
 }
 
 /// The key of a body: `inner_gimbal`.
@@ -60,7 +82,7 @@ pub(crate) fn joint_key(joint: &JointInfo) -> String {
 }
 
 impl Scenario {
-    /// The members that stand on the hub or on a node, each with the devices on it, by their numbers.
+    /// The members that stand on the hub or on a node, each with what stands on it, by their numbers.
     pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for (index, member) in members(&self.devices).into_iter().enumerate() {
@@ -79,7 +101,7 @@ impl<'a> Member<'a> {
     pub fn kind_name(&self) -> &'static str {
         match self {
             Self::Device { device, .. } => device.kind().name(),
-            Self::Platform(_) => <Platform as Kind>::NAME,
+            Self::Platform { .. } => <Platform as Kind>::NAME,
         }
     }
 
@@ -88,7 +110,7 @@ impl<'a> Member<'a> {
     pub fn joints(&self) -> &'static [JointInfo] {
         match self {
             Self::Device { device, .. } => device.kind().joints(),
-            Self::Platform(_) => <Platform as Kind>::JOINTS,
+            Self::Platform { .. } => <Platform as Kind>::JOINTS,
         }
     }
 
@@ -97,7 +119,7 @@ impl<'a> Member<'a> {
     pub fn mount(&self) -> Matrix3<f64> {
         match self {
             Self::Device { device, .. } => device.parameters().mount,
-            Self::Platform(of) => of.carrier.mount,
+            Self::Platform { platform, .. } => platform.mount,
         }
     }
 
@@ -109,7 +131,7 @@ impl<'a> Member<'a> {
                 let bodies = device.parameters().bodies.into_iter();
                 bodies.take(self.joints().len()).collect()
             }
-            Self::Platform(of) => of.carrier.bodies().values().collect(),
+            Self::Platform { platform, .. } => platform.bodies().values().collect(),
         }
     }
 
@@ -121,7 +143,7 @@ impl<'a> Member<'a> {
                 let passive = device.parameters().passive.into_iter();
                 passive.take(self.joints().len()).collect()
             }
-            Self::Platform(of) => of.carrier.passive.values().collect(),
+            Self::Platform { platform, .. } => platform.passive.values().collect(),
         }
     }
 
@@ -134,7 +156,7 @@ impl<'a> Member<'a> {
     /// Whether springs or dampers couple its joints.
     #[must_use]
     pub fn has_suspension(&self) -> bool {
-        matches!(self, Self::Platform(of) if of.suspension != Suspension::none())
+        self.suspension().is_some_and(|of| *of != Suspension::none())
     }
 
     /// The device; none of a platform.
@@ -142,16 +164,25 @@ impl<'a> Member<'a> {
     pub fn device(&self) -> Option<&'a BuiltIn> {
         match self {
             Self::Device { device, .. } => Some(device),
-            Self::Platform(_) => None,
+            Self::Platform { .. } => None,
         }
     }
 
     /// The platform; none of a device.
     #[must_use]
-    pub fn platform(&self) -> Option<&'a Isolated<Vec<BuiltIn>>> {
+    pub fn platform(&self) -> Option<&'a Platform> {
         match self {
             Self::Device { .. } => None,
-            Self::Platform(of) => Some(of),
+            Self::Platform { platform, .. } => Some(platform),
+        }
+    }
+
+    /// Springs and dampers that couple the joints of a platform; none of a device.
+    #[must_use]
+    pub fn suspension(&self) -> Option<&'a Suspension> {
+        match self {
+            Self::Device { .. } => None,
+            Self::Platform { suspension, .. } => Some(suspension),
         }
     }
 
@@ -159,8 +190,7 @@ impl<'a> Member<'a> {
     #[must_use]
     pub fn on(&self) -> Option<usize> {
         match self {
-            Self::Device { on, .. } => *on,
-            Self::Platform(_) => None,
+            Self::Device { on, .. } | Self::Platform { on, .. } => *on,
         }
     }
 }

@@ -6,10 +6,10 @@
 //! a flexible structure do not have is listed in one place: [`Scenario::not_on_a_structure`].
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use precess_craft::FlexibleCraft;
+use precess_craft::{FlexibleCraft, OfMembers};
 use precess_dynamics::{
-    About, BuiltIn, ContainedBody, Hub, Isolated, JointStates, ListedModes, ModalMount, ModalPoint,
-    Modes, ModesError, ParameterError, ResidualFault, Spacecraft, State, platform,
+    About, ContainedBody, Hub, JointStates, ListedModes, ModalMount, ModalPoint, Modes, ModesError,
+    ParameterError, ResidualFault, Spacecraft, State, platform,
 };
 
 use super::check::range;
@@ -26,7 +26,7 @@ pub struct ModalStructure {
     pub residual: usize,
     /// The nodes that the scenario uses.
     pub nodes: Vec<StructureNode>,
-    /// The node that carries each member, device or platform; that of a device on a platform is the
+    /// The node that carries each member, device or platform; that of what stands on a platform is the
     /// platform's.
     pub on_node: Vec<usize>,
     /// Whether hub and modes contain the mass of the devices, as a rigid body at their initial
@@ -132,17 +132,26 @@ impl Scenario {
             mounts: modal,
         };
         let mount = |node: &usize| mounts.iter().position(|known| known == node).unwrap_or(0);
-        let mut of_members = structure.on_node.iter().map(mount);
-        let on_mount: Vec<usize> = of_members.by_ref().take(self.devices.0.len()).collect();
-        let mut of_platform = |isolated: &Isolated<Vec<BuiltIn>>| {
-            let platform = of_members.next().unwrap_or(0);
-            let carried = of_members.by_ref().take(isolated.carried.len()).collect();
-            platform::Data { carrier: platform, carried }
-        };
-        let on_platforms: Vec<_> = self.devices.1.iter().map(&mut of_platform).collect();
-        let on = (on_mount, on_platforms);
+        let on = self.of_members(structure.on_node.iter().map(mount));
         let residual = structure.residual;
         precess_craft::flexible(&self.hub, &modes, residual, &self.devices, &on)
+    }
+
+    /// A value for each member, in their order, as the library has them.
+    fn of_members(&self, mut values: impl Iterator<Item = usize>) -> OfMembers<usize> {
+        let (on_hub, isolated) = &self.devices;
+        let mut next = |count: usize| -> Vec<usize> { values.by_ref().take(count).collect() };
+        let devices = next(on_hub.len());
+        let platforms = isolated.iter().map(|of| {
+            let platform = next(1).first().copied().unwrap_or(0);
+            let devices = next(of.carried.0.len());
+            let platforms = of.carried.1.iter().map(|of| {
+                let platform = next(1).first().copied().unwrap_or(0);
+                platform::Data { carrier: platform, carried: next(of.carried.len()) }
+            });
+            platform::Data { carrier: platform, carried: (devices, platforms.collect()) }
+        });
+        (devices, platforms.collect())
     }
 
     /// What hub and modes contain of members: nothing, or their bodies at the initial coordinates.
@@ -159,7 +168,7 @@ impl Scenario {
     }
 
     /// Members as one rigid body about B, joints at their initial coordinates; a platform is listed
-    /// with the devices on it.
+    /// with what stands on it.
     fn as_one(&self, chosen: &[usize]) -> Result<RigidMass, ParameterError> {
         let nothing =
             RigidMass { mass: 0.0, first_moment: Vector3::zeros(), inertia: Matrix3::zeros() };

@@ -153,10 +153,9 @@ impl Scenario {
         let mut scales = Vec::new();
         let mut first = 0;
         for (index, (member, name)) in all.iter().zip(&self.names).enumerate() {
-            let carried = all.iter().filter(|other| other.on() == Some(index));
-            let carried: Vec<Member<'_>> = carried.copied().collect();
+            let carried = carried(&all, index, 0.0);
             let table = if member.platform().is_some() { "platform" } else { "device" };
-            let suspension = member.platform().and_then(|of| of.suspension.coupled);
+            let suspension = member.suspension().and_then(|of| of.coupled);
             for (joint, passive) in member.joints().iter().zip(member.passive()) {
                 let number = first + joint.index;
                 if !matches!(self.drives.get(number), Some(Drive::Torque { .. })) {
@@ -257,8 +256,7 @@ fn cycles(profile: &Profile, [start, end]: [f64; 2]) -> Option<(f64, [f64; 2])> 
 
 /// An upper bound of the mass or of the inertia about its axis that a joint moves while all else is held, kg or kg m²,
 /// whatever the pose is: each body outboard as far from the joint as it can be.
-fn inertia_max(member: Member<'_>, joint: &JointInfo, carried: &[Member<'_>]) -> f64 {
-    let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+fn inertia_max(member: Member<'_>, joint: &JointInfo, carried: &[(Member<'_>, f64)]) -> f64 {
     let of_chain = |bodies: &[BodyParameters<f64>], mut reach: f64| {
         let mut sum = 0.0;
         for (place, body) in bodies.iter().enumerate() {
@@ -272,12 +270,24 @@ fn inertia_max(member: Member<'_>, joint: &JointInfo, carried: &[Member<'_>]) ->
     let bodies = member.bodies();
     let outboard = bodies.get(joint.index..).unwrap_or_default();
     let own = of_chain(outboard, 0.0);
-    let of_carried = carried.iter().map(|device| {
-        let bodies = device.bodies();
-        let reach = bodies.first().map_or(0.0, |body| length(&body.origin));
-        of_chain(&bodies, reach)
-    });
+    let of_carried = carried.iter().map(|(device, reach)| of_chain(&device.bodies(), *reach));
     own + of_carried.sum::<f64>()
+}
+
+/// What stands on a platform and on platforms on it, each with the distance of its first joint from the origin of the
+/// platform, m, whatever the pose is; `reach` is that of the platform.
+fn carried<'a>(all: &[Member<'a>], platform: usize, reach: f64) -> Vec<(Member<'a>, f64)> {
+    let mut found = Vec::new();
+    for (index, member) in all.iter().enumerate().filter(|(_, of)| of.on() == Some(platform)) {
+        let own = reach + member.bodies().first().map_or(0.0, |body| length(&body.origin));
+        found.push((*member, own));
+        found.extend(carried(all, index, own));
+    }
+    found
+}
+
+fn length(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

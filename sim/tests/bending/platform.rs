@@ -1,7 +1,7 @@
 //! An isolated platform on a node of a structure: two springs in series against their closed form, in
 //! time and in frequency, and as it is written out.
 
-use nalgebra::{Complex, Matrix2, Vector2};
+use nalgebra::{Complex, Matrix2, Matrix3, Vector2, Vector3};
 use precess::file::from_toml;
 use precess::jitter::device::Steady;
 use precess::jitter::model::{Model, Output};
@@ -153,4 +153,80 @@ fn contained_platforms_are_subtracted_with_their_devices() {
     assert!((mass - 1e12).abs() < 1e-3, "{mass}");
     let apart = text(&panel(1.0, "", 0.0, "")).flexible().expect("a structure").expect("valid");
     assert!((apart.mass() - 1e12 - ISOLATOR[0]).abs() < 1e-3, "{}", apart.mass());
+}
+
+/// Mass of the platform below, kg; stiffness, N/m, and damping, N s/m, of its slide.
+const BELOW: [f64; 3] = [2.0, 9000.0, 5.0];
+
+/// The platform with the wheel on another platform, which is on the node.
+fn stacked(text: &str) -> String {
+    let [mass, stiffness, dashpot] = BELOW;
+    let below = format!(
+        r#"[[platform]]
+name = "below"
+node = "tip"
+mass = "{mass} kg"
+inertia = "1, 1, 1 g m^2"
+x_slide = {{ locked = true }}
+y_slide = {{ locked = true }}
+z_slide = {{ stiffness = "{stiffness} N/m", damping = "{dashpot} N s/m" }}
+x_turn = {{ locked = true }}
+y_turn = {{ locked = true }}
+z_turn = {{ locked = true }}
+[[device]]
+"#
+    );
+    text.replace("name = \"iso\"\nnode = \"tip\"", "name = \"iso\"\non = \"below\"").replacen(
+        "[[device]]\n",
+        &below,
+        1,
+    )
+}
+
+/// (w^2 + s) eta - phi k_1 z_1 = 0, m_1 (s phi eta + s z_1) + k_1 z_1 - k_2 z_2 = 0 and
+/// m_2 (s phi eta + s z_1 + s z_2) + k_2 z_2 = F, with s the square of the frequency, less than zero.
+#[test]
+fn a_wheel_on_two_isolators_shakes_the_mode_as_three_masses_in_series() {
+    let scenario = text(&stacked(&panel(1.0, "", 100.0, "")));
+    assert_eq!(scenario.names, ["below", "iso", "rw"]);
+    assert_eq!(scenario.structure.as_ref().expect("a structure").on_node, [0, 0, 0]);
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: Some(&[]) };
+    let along_z = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let outputs = [Output { name: "tip z".to_owned(), terms: vec![("tip".to_owned(), along_z)] }];
+    let model = Model::new(&scenario, &outputs, &steady).expect("valid");
+    assert_eq!(model.contributors().len(), 1);
+    let ([upper, k, c], [lower, k_below, c_below], [w, phi]) = (ISOLATOR, BELOW, MODE);
+    for speed in [20.0, 41.0, 58.0, 90.0, 300.0_f64] {
+        let line = &model.lines(speed).expect("bounded")[0];
+        let [spring, below] = [[k, c], [k_below, c_below]].map(|[k, c]| Complex::new(k, c * speed));
+        let s = -speed * speed;
+        let own = Complex::new(w * w + s, 2.0 * 0.02 * w * speed);
+        let none = Complex::from(0.0);
+        let system = Matrix3::new(
+            own,
+            -below * phi,
+            none,
+            Complex::from(lower * phi * s),
+            Complex::from(lower * s) + below,
+            -spring,
+            Complex::from(upper * phi * s),
+            Complex::from(upper * s),
+            Complex::from(upper * s) + spring,
+        );
+        let force = Vector3::new(none, none, Complex::from(2e-4 * speed * speed));
+        let solved = system.try_inverse().expect("damped") * force;
+        let expected = (solved.x * phi).norm();
+        let miss = (line.values[0].norm() / expected - 1.0).abs();
+        println!("{speed}: {expected:.3e} m, {miss:.1e}");
+        // The base moves by its own mass: 1e-12.
+        assert!(miss < 1e-9, "{speed}: {miss:e}");
+    }
+    // Written out, and as a part of what the model contains.
+    let filled = scenario.source.filled.clone();
+    let (again, _) = from_toml("test.toml", &filled, &folder()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((&again.source.filled, &again.structure), (&filled, &scenario.structure));
+    let whole = stacked(&panel(1.0, "", 0.0, ""));
+    let whole = text(&whole.replace("contains_devices = false", "contains_devices = true"));
+    let mass = whole.flexible().expect("a structure").expect("valid").mass();
+    assert!((mass - 1e12).abs() < 1e-3, "{mass}");
 }

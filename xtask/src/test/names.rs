@@ -48,6 +48,7 @@ const MOVED: &[(&str, &str)] = &[
     ("sim/src/file/read/requirement.rs ", "sim/src/file/read/output/requirement.rs "),
     ("sim/src/file/read/turns.rs ", "sim/src/file/read/values/turns.rs "),
     ("sim/src/record/checks.rs ", "sim/src/record/tests.rs "),
+    ("sim/tests/platforms.rs ", "sim/tests/platforms/main.rs "),
     (
         "dynamics/src/numbers/sincos_checks.rs fused_sine_is_odd_and_cosine_even_to_the_bit",
         "dynamics/src/numbers/sincos_tests.rs sine_is_odd_and_cosine_even_to_the_bit",

@@ -264,7 +264,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess", "known_answers", &[SOLVER, DESKTOP, &["sim/tests/known_answers.rs"]]),
     always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs", "sim/tests/shared"]]),
     always("precess", "picture", &[SOLVER, DESKTOP, &["sim/tests/picture.rs", "docs"]]),
-    always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms.rs"]]),
+    always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms"]]),
     always(
         "precess",
         "reported",

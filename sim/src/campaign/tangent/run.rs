@@ -92,7 +92,7 @@ fn start(
     scenario: &Scenario,
     of: Parts<Number>,
 ) -> Result<(Spacecraft<Set>, State<Set>, Inputs<Set>), String> {
-    let set: Set = (of.devices, Vec::new());
+    let set: Set = of.devices;
     let craft = tangent::spacecraft(&of.hub, &set).map_err(|error| error.to_string())?;
     let mut state: State<Set> = State::at_rest_for(&craft);
     (state.r_b_n, state.r_b_n_dot) = (of.position, of.velocity);

@@ -10,7 +10,7 @@ use crate::command::error::CommandError;
 use crate::command::terminal::note;
 use crate::file::from_file;
 use crate::scenario::steady::SteadyJoints;
-use crate::scenario::{Scenario, members, set_of};
+use crate::scenario::{Member, Scenario, members, set_of};
 use crate::structure::averaged::AveragedDevices;
 use crate::structure::dynamic_mass::Motor;
 
@@ -104,7 +104,7 @@ impl DeviceOptions {
         Ok(Some(MountedDevices { names, averaged, rigid }))
     }
 
-    /// Numbers of the devices, in the order of the scenario; a platform brings those on it.
+    /// Numbers of the devices, in the order of the scenario; a platform brings what stands on it.
     fn chosen(&self, scenario: &Scenario) -> Result<Vec<usize>, CommandError> {
         let Scenario { names, .. } = scenario;
         if let Some(device) = self.device.iter().find(|device| !names.contains(device)) {
@@ -119,7 +119,9 @@ impl DeviceOptions {
         };
         let (mut chosen, members) = (Vec::new(), members(&scenario.devices));
         for (index, member) in members.iter().enumerate() {
-            let on = member.on().and_then(|on| names.get(on));
+            // Of what stands on a platform on a platform, the one on the hub.
+            let base = |on: usize| members.get(on).and_then(Member::on).unwrap_or(on);
+            let on = member.on().map(base).and_then(|on| names.get(on));
             let is_named = is_chosen(names.get(index));
             if let (true, Some(on)) = (is_named && !is_chosen(on), on) {
                 let message = format!(

@@ -1,11 +1,11 @@
 //! [`MemberLoads`]: the loads of a set, member by member and joint by joint in the order of the set,
-//! and what each platform exerts on the devices on it.
+//! and what each platform exerts on what stands on it.
 //!
 //! ```text
 //! F = sum of F_k,   M = sum of (M_k + r_k x F_k)
 //! ```
 //!
-//! over the devices k on a platform, with `F_k` and `M_k` the load at the mount of a device about its
+//! over the devices and platforms k on a platform, with `F_k` and `M_k` the load at the mount of each about its
 //! `position`, `r_k` from P; expressed in the platform's axes, about P.
 
 use nalgebra::Vector3;
@@ -24,7 +24,7 @@ pub(crate) struct MemberLoads {
     pub(crate) joints: Vec<Wrench>,
     /// Motor torque or force of each joint.
     pub(crate) motors: Vec<f64>,
-    /// On all devices of the platform of each number; zero of a device.
+    /// On all that stands on the platform of each number; zero of a device.
     pub(crate) carried: Vec<Wrench>,
 }
 
@@ -38,8 +38,11 @@ impl MemberLoads {
         }
         for member in isolated {
             of.push(&member.carrier);
-            for device in &member.carried {
-                of.push(device);
+            let (devices, platforms) = &member.carried;
+            devices.iter().for_each(|device| of.push(device));
+            for member in platforms {
+                of.push(&member.carrier);
+                member.carried.iter().for_each(|device| of.push(device));
             }
         }
         for (chain, mount) in chains.iter().zip(&of.mounts) {

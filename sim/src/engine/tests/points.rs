@@ -108,10 +108,44 @@ fn an_acceleration_is_along_the_axes_of_its_body() {
     }
 }
 
-/// Differences of fourth order, of steps in which the wheel turns by a hundredth: about 1e-9.
 #[test]
 fn velocity_and_acceleration_are_the_derivatives_of_the_place() {
-    let scenario = read(MOVING);
+    assert_derivatives(&read(MOVING));
+}
+
+/// The gyro on a platform on the platform, with a point on each body.
+#[test]
+fn points_of_a_platform_on_a_platform_move_as_their_derivatives() {
+    let upper = r#"
+[[platform]]
+name = "upper"
+on = "iso"
+mass = "2 kg"
+inertia = "0.05, 0.06, 0.07 kg m^2"
+position = "3, -2, 8 cm"
+mount = { axis = [-2, 1, 1], angle = "65 deg" }
+x_slide = { displacement = "2 mm", stiffness = "1e4 N/m" }
+y_slide = { speed = "0.03 m/s", stiffness = "1e4 N/m" }
+z_slide = { stiffness = "1e4 N/m" }
+x_turn = { rate = "-0.3 rad/s", stiffness = "900 N m/rad" }
+y_turn = { angle = "20 mrad", stiffness = "900 N m/rad" }
+z_turn = { rate = "0.1 rad/s", stiffness = "900 N m/rad" }
+[[point]]
+name = "of_upper"
+on = "upper.platform"
+position = "1, -2, 3 cm"
+[[device]]
+name = "cmg""#;
+    let text = MOVING
+        .replace("on = \"iso\"", "on = \"upper\"")
+        .replace("\n[[device]]\nname = \"cmg\"", upper);
+    let scenario = read(&text);
+    assert_eq!(scenario.names, ["tank", "iso", "upper", "cmg"]);
+    assert_derivatives(&scenario);
+}
+
+/// Differences of fourth order, of steps in which the wheel turns by a hundredth: about 1e-9.
+fn assert_derivatives(scenario: &Scenario) {
     let craft = Craft::from(scenario.spacecraft().expect("a spacecraft"));
     let state = rigid_state(scenario.initial.clone());
     let h = 1e-4;
@@ -121,7 +155,7 @@ fn velocity_and_acceleration_are_the_derivatives_of_the_place() {
             let dt = h * f64::from(steps.signum());
             at = craft.step(&at, &craft.no_inputs(), dt).expect("a step");
         }
-        motions(&scenario, &craft, &at)
+        motions(scenario, &craft, &at)
     };
     let [a, b, now, c, d] = [-2, -1, 0, 1, 2].map(at);
     let slope = |index: usize, of: fn(&PointMotion) -> Vector3<f64>| {

@@ -146,3 +146,37 @@ fn body(info: &JointInfo, of: &BodyParameters<f64>, reach: f64) -> Body {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::joints;
+    use crate::file::from_toml;
+
+    /// Each body of the replay is in the frame of the body that its joint names: those of an inner platform in that of the
+    /// outer one.
+    #[test]
+    fn the_replay_has_a_platform_in_the_frame_of_the_platform_below() {
+        let platform = |name: &str, on: &str| {
+            format!(
+                "[[platform]]\nname = \"{name}\"\non = \"{on}\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\
+                 position = \"0, 0, 2 m\"\n"
+            )
+        };
+        let text = format!(
+            "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"9, 9, 9 kg m^2\"\n{}{}[[device]]\nname = \"rw\"\n\
+             on = \"upper\"\nkind = \"reaction_wheel\"\nwheel = {{ mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }}\n\
+             [run]\nduration = \"1 s\"\n",
+            platform("upper", "lower"),
+            platform("lower", "hub"),
+        );
+        let (scenario, _) = from_toml("two", &text, Path::new("")).expect("a scenario");
+        let joints = joints(&scenario);
+        let parents: Vec<_> = joints.iter().map(|joint| joint.parent).collect();
+        assert_eq!(parents, [-1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+        let names = [5, 6, 12].map(|index| joints[index].name.as_str());
+        assert_eq!(names, ["lower.platform", "upper.x_slide", "rw.wheel"]);
+        assert_eq!(joints[6].origin, [0.0, 0.0, 2.0]);
+    }
+}

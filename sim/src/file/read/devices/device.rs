@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 use precess_description::Turn;
 use precess_dynamics::kind::{JointInfo, Kind};
-use precess_dynamics::{BuiltIn, BuiltInKind, Isolated, Parameter, Platform};
+use precess_dynamics::{BuiltIn, BuiltInKind, Parameter, Platform, Suspension};
 
 use super::body::Joint;
 use super::copies::{help_of_copy, original, with_original};
@@ -20,10 +20,10 @@ use crate::file::read::values::mount::{DeviceAxes, mount};
 use crate::scenario::{Drive, StopAction};
 use crate::units::Measure;
 
-/// A device of a kind, or a platform without the devices on it.
+/// A device of a kind, or a platform with its suspension, without what stands on it.
 pub(in crate::file::read) enum DeviceOrPlatform {
     BuiltIn(Box<BuiltIn>),
-    Platform(Box<Isolated<Vec<BuiltIn>>>),
+    Platform(Box<(Platform, Suspension)>),
 }
 
 /// A device or a platform as a file gives it.
@@ -126,7 +126,8 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     let axes = DeviceAxes { first: first.axis, last: last.axis, single };
     let places = keys.has("layout").then(|| layout(keys, axes));
     let on = keys.text("on").unwrap_or("hub");
-    let nodes = if on == "hub" { nodes(keys, structure) } else { none_of_its_own(keys, on) };
+    let nodes =
+        if on == "hub" { nodes(keys, structure) } else { none_of_its_own(keys, "device", on) };
     let at_node = nodes.as_ref().and_then(|on| structure?.position(*on.first()?));
     let position = keys.vector("position", Measure::LENGTH).or(at_node);
     let position = position.unwrap_or_else(Vector3::zeros);
@@ -173,10 +174,10 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
         .collect()
 }
 
-/// A device on a platform, which has the node of both.
-fn none_of_its_own(keys: &Keys<'_>, platform: &str) -> Option<Vec<usize>> {
+/// Of a device or platform on a platform, which has the node of both.
+pub(super) fn none_of_its_own<T>(keys: &Keys<'_>, what: &str, platform: &str) -> Option<T> {
     if keys.has("node") {
-        let message = format!("a device on `{platform}` has the node of the platform");
+        let message = format!("a {what} on `{platform}` has the node of the platform");
         keys.error("node", message, "remove `node` here; give it to the platform");
     }
     None

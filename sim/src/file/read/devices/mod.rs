@@ -1,5 +1,6 @@
 //! `[[device]]` and `[[platform]]`: devices and platforms with their bodies and joints, and the initial state.
 
+pub(super) mod arrangement;
 pub(in crate::file) mod body;
 mod copies;
 pub(super) mod device;

@@ -1,8 +1,8 @@
-//! `[[platform]]`: isolated platforms, and which devices stand on each.
+//! `[[platform]]`: isolated platforms.
 //!
 //! A joint of a platform has the keys of a device's joint. Instead of `stiffness` and `damping` it
-//! may have a corner frequency f and a damping ratio zeta, of the platform with the devices on it,
-//! on a fixed hub, at the initial coordinates:
+//! may have a corner frequency f and a damping ratio zeta, of the platform with all that stands on it,
+//! on a fixed base, at the initial coordinates:
 //!
 //! ```text
 //! k = m (2 pi f)²,   c = 2 zeta m 2 pi f
@@ -15,13 +15,12 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::{JointInfo, Kind};
-use precess_dynamics::{
-    About, BuiltIn, Hub, Isolated, JointStates, Passive, Platform, Spacecraft, State, platform,
-};
+use precess_dynamics::kind::{Each, JointInfo, Kind};
+use precess_dynamics::{About, Hub, JointStates, Passive, Platform, State, platform};
 
+use super::arrangement::{arranged, set_on, standing_on};
 use super::body::{Joint, joint, mass};
-use super::device::{Device, DeviceOrPlatform, nodes};
+use super::device::{Device, DeviceOrPlatform, nodes, none_of_its_own};
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
 use super::suspension::suspension;
@@ -39,6 +38,9 @@ struct Corner {
     ratio: f64,
 }
 
+/// Those of the joints of a platform, in order.
+type Corners = Vec<Option<Corner>>;
+
 /// The devices, and the platforms of `[[platform]]`, in the order of the set.
 pub(in crate::file::read) fn with_platforms(
     keys: &Keys<'_>,
@@ -47,31 +49,34 @@ pub(in crate::file::read) fn with_platforms(
     structure: Option<&Structure>,
 ) -> Vec<Device> {
     let tables = keys.tables("platform");
-    let platforms =
-        tables.iter().filter_map(|keys| read(keys, &devices, folder, structure)).collect();
-    // Also those in which something is wrong: their devices are not.
-    let names: Vec<_> = tables.iter().filter_map(|keys| keys.text("name")).collect();
-    arranged(keys, devices, platforms, &names)
+    let read = tables.iter().filter_map(|keys| Some((keys, read(keys, folder, structure)?)));
+    let (mut platforms, mut corners) = (Vec::new(), Vec::new());
+    for (keys, (platform, of_joints)) in read {
+        corners.push((keys, platform.name.clone(), of_joints));
+        platforms.push(platform);
+    }
+    let mut arranged = arranged(keys, devices, platforms, &tables);
+    for (keys, name, corners) in corners {
+        spring(keys, &mut arranged, &name, &corners);
+    }
+    arranged
 }
 
 fn read(
     keys: &Keys<'_>,
-    devices: &[Device],
     folder: &Path,
     structure: Option<&Structure>,
-) -> Option<Device> {
+) -> Option<(Device, Corners)> {
     if !keys.has("name") {
         keys.missing("name", "name = \"isolator\"");
     }
-    if let Some(on) = keys.text("on").filter(|on| *on != "hub") {
-        let message = format!("a platform on `{on}`: platforms stand on the hub");
-        keys.error("on", message, "remove `on`; on a structure, name its `node`");
-    }
+    let on = keys.text("on").unwrap_or("hub");
     let name = keys.text("name");
     let m_p = mass(keys);
     let r_pc_p = keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let i_p_pc = inertia(keys);
-    let node = node(keys, structure);
+    let node =
+        if on == "hub" { node(keys, structure) } else { none_of_its_own(keys, "platform", on) };
     let at_node = node.and_then(|node| structure?.position(node));
     let r_p_b = keys.vector("position", Measure::LENGTH).or(at_node);
     let r_p_b = r_p_b.unwrap_or_else(Vector3::zeros);
@@ -84,44 +89,52 @@ fn read(
     let joints: Vec<_> = infos.iter().map(|info| of_joint(keys, info, folder)).collect();
     let suspension = suspension(keys);
     keys.finish();
-    let mut joints = joints.into_iter().collect::<Option<Vec<_>>>()?;
+    let joints = joints.into_iter().collect::<Option<Vec<_>>>()?;
     let (name, mount) = (name?.to_owned(), mount?);
-    let mut of = Isolated {
-        carrier: Platform {
-            mount: mount.matrix,
-            r_p_b,
-            r_pc_p,
-            passive: platform::PerJoint::all(Passive::none()),
-            ..Platform::bare(m_p?, i_p_pc?)
-        },
-        suspension: suspension?,
-        carried: Vec::<BuiltIn>::new(),
+    let (joints, corners): (Vec<Joint>, Corners) = joints.into_iter().unzip();
+    let passive: Vec<_> = joints.iter().map(|joint| joint.passive).collect();
+    let platform = Platform {
+        mount: mount.matrix,
+        r_p_b,
+        r_pc_p,
+        passive: platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?),
+        ..Platform::bare(m_p?, i_p_pc?)
     };
-    let corners = joints.iter().zip(infos).filter(|((_, corner), _)| corner.is_some());
-    if let Some((_, info)) = corners.into_iter().next() {
-        let sizes = sizes(&of, &name, devices);
+    let of = DeviceOrPlatform::Platform(Box::new((platform, suspension?)));
+    let device = Device::new(name, of, mount.turns, on, &joints);
+    Some((Device { node, ..device }, corners))
+}
+
+/// Springs and dampers of the joints of a platform that have a corner frequency.
+fn spring(keys: &Keys<'_>, arranged: &mut [Device], name: &str, corners: &[Option<Corner>]) {
+    let infos = <Platform as Kind>::JOINTS;
+    let Some((_, info)) = corners.iter().zip(infos).find(|(corner, _)| corner.is_some()) else {
+        return;
+    };
+    let is_own = |device: &Device| device.name == name && device.built_in().is_none();
+    let Some(place) = arranged.iter().position(is_own) else { return };
+    let Some((device, rest)) = arranged.get_mut(place..).and_then(<[Device]>::split_first_mut)
+    else {
+        return;
+    };
+    let DeviceOrPlatform::Platform(of) = &mut device.of else { return };
+    let carried = standing_on(name, rest);
+    let Some(sizes) = sizes(&of.0, name, carried) else {
         // What the solver rejects is reported with the whole, by its own key.
-        let rejected = sizes.is_none() && is_rejected(&of, &name, devices);
-        let Some(sizes) = sizes.or_else(|| rejected.then_some([0.0; 6])) else {
+        if !is_rejected(device, carried) {
             let message = format!("the inertia of `{name}` with its devices cannot be computed");
             let help = "give `stiffness` and `damping`";
             keys.error(&joint_key(info), message, help);
-            return None;
-        };
-        for ((joint, corner), size) in joints.iter_mut().zip(sizes) {
-            if let Some(Corner { frequency, ratio }) = corner {
-                let omega = TAU * *frequency;
-                joint.passive.stiffness = size * omega * omega;
-                joint.passive.viscous = 2.0 * *ratio * size * omega;
-            }
+        }
+        return;
+    };
+    for ((passive, corner), size) in of.0.passive.values_mut().zip(corners).zip(sizes) {
+        if let Some(Corner { frequency, ratio }) = corner {
+            let omega = TAU * frequency;
+            passive.stiffness = size * omega * omega;
+            passive.viscous = 2.0 * ratio * size * omega;
         }
     }
-    let passive: Vec<_> = joints.iter().map(|(joint, _)| joint.passive).collect();
-    of.carrier.passive = platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?);
-    let joints: Vec<Joint> = joints.into_iter().map(|(joint, _)| joint).collect();
-    let device =
-        Device::new(name, DeviceOrPlatform::Platform(Box::new(of)), mount.turns, "", &joints);
-    Some(Device { node, ..device })
 }
 
 /// The node of the structure that carries a platform.
@@ -185,24 +198,21 @@ fn corner(keys: &Keys<'_>) -> Option<Option<Corner>> {
     Some(Some(Corner { frequency, ratio }))
 }
 
-/// Whether the solver rejects a platform or a device on it.
-fn is_rejected(of: &Isolated<Vec<BuiltIn>>, name: &str, devices: &[Device]) -> bool {
+/// Whether the solver rejects a platform or what stands on it.
+fn is_rejected(platform: &Device, carried: &[Device]) -> bool {
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
-    let own = devices.iter().filter(|device| device.on == name);
-    let carried = own.filter_map(Device::built_in).collect();
-    Spacecraft::new(&hub, &Isolated { carried, ..of.clone() }).is_err()
+    let all = std::iter::once(platform).chain(carried);
+    precess_craft::spacecraft(&hub, &set_on(&platform.on, all)).is_err()
 }
 
-/// Of a platform with its devices, joints locked: the mass for each slide, and the moments of
+/// Of a platform with what stands on it, joints locked: the mass for each slide, and the moments of
 /// inertia about the platform's axes through P for the turns.
-fn sizes(of: &Isolated<Vec<BuiltIn>>, name: &str, devices: &[Device]) -> Option<[f64; 6]> {
-    let Platform { m_p, r_pc_p, i_p_pc, .. } = of.carrier;
+fn sizes(of: &Platform, name: &str, carried: &[Device]) -> Option<[f64; 6]> {
+    let Platform { m_p, r_pc_p, i_p_pc, .. } = *of;
     let hub = Hub { m_b: m_p, r_bc_b: r_pc_p, i_b_bc: i_p_pc };
-    let own = || devices.iter().filter(|device| device.on == name);
-    let carried: Vec<_> = own().filter_map(Device::built_in).collect();
-    let spacecraft = Spacecraft::new(&hub, &carried).ok()?;
-    let mut state: State<Vec<BuiltIn>> = State::at_rest_for(&spacecraft);
-    let given = own().flat_map(|device| device.state.iter());
+    let spacecraft = precess_craft::spacecraft(&hub, &set_on(name, carried)).ok()?;
+    let mut state: State<Set> = State::at_rest_for(&spacecraft);
+    let given = carried.iter().flat_map(|device| device.state.iter());
     for ([own, _], [coordinate, _]) in state.devices.states_mut().zip(given) {
         *own = *coordinate;
     }
@@ -212,67 +222,4 @@ fn sizes(of: &Isolated<Vec<BuiltIn>>, name: &str, devices: &[Device]) -> Option<
         *size = spacecraft.momentum(&state, About::InertialOrigin).ok()?.angular[axis];
     }
     Some(sizes)
-}
-
-/// Devices and platforms in the order of the set; reports a device on what is no platform.
-fn arranged(
-    keys: &Keys<'_>,
-    devices: Vec<Device>,
-    platforms: Vec<Device>,
-    names: &[&str],
-) -> Vec<Device> {
-    let all: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
-    let mut reported = Vec::new();
-    for device in &devices {
-        // A layout makes several of one table.
-        let known = device.on == "hub" || names.contains(&device.on.as_str());
-        if known || reported.contains(&device.place) {
-            continue;
-        }
-        let own = device.name == device.on;
-        let what = if own {
-            format!("`{}` stands on itself", device.on)
-        } else if all.contains(&device.on) {
-            format!("`{}` is a device: devices stand on the hub and on platforms", device.on)
-        } else {
-            format!("no platform is named `{}`", device.on)
-        };
-        let help = match names {
-            [] => "add a `[[platform]]` of this name, or remove `on`".to_owned(),
-            names => format!("there are {}; without `on` it stands on the hub", names.join(", ")),
-        };
-        if let Some(place) = &device.place {
-            keys.reports().borrow_mut().error(place, what, "", &help);
-        }
-        reported.push(device.place.clone());
-    }
-    let (mut arranged, mut rest): (Vec<_>, Vec<_>) =
-        devices.into_iter().partition(|device| device.on == "hub");
-    for platform in platforms {
-        let name = platform.name.clone();
-        let node = platform.node;
-        arranged.push(platform);
-        let (own, others): (Vec<_>, _) =
-            rest.into_iter().partition(|device: &Device| device.on == name);
-        arranged.extend(own.into_iter().map(|device| Device { node, ..device }));
-        rest = others;
-    }
-    // Of a platform in which something is wrong: their joints are known by name.
-    arranged.extend(rest);
-    arranged
-}
-
-/// The set of arranged devices and platforms.
-pub(in crate::file::read) fn set(arranged: &[Device]) -> Set {
-    let mut set = Set::default();
-    for device in arranged {
-        match &device.of {
-            DeviceOrPlatform::BuiltIn(own) => match set.1.last_mut() {
-                Some(platform) => platform.carried.push(**own),
-                None => set.0.push(**own),
-            },
-            DeviceOrPlatform::Platform(platform) => set.1.push((**platform).clone()),
-        }
-    }
-    set
 }

@@ -1,5 +1,8 @@
-//! Isolated platforms in scenarios: a run against the library called directly, the written
-//! scenario, errors with their places, and what refuses a platform.
+//! Isolated platforms in scenarios: a run against the library called directly, the written scenario, errors with their
+//! places, what refuses a platform, and platforms on platforms.
+
+mod locked;
+mod stacked;
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -308,11 +311,6 @@ fn errors_name_the_place_the_fault_and_the_remedy() {
         (on, "on = \"isolator\"", ["no platform is named `isolator`", "there are iso"]),
         (on, "on = \"rw1\"", ["`rw1` stands on itself", "there are iso"]),
         (on, "on = \"panel\"", ["`panel` is a device", "stand on the hub and on platforms"]),
-        (
-            "name = \"iso\"\n",
-            "name = \"iso\"\non = \"base\"\n",
-            ["a platform on `base`", "on the hub"],
-        ),
         ("mass = \"6 kg\"", "mass = \"0 kg\"", ["mass", "\"0 kg\""]),
         (
             "x_turn = { stiffness",

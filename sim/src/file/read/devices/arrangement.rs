@@ -1,0 +1,194 @@
+//! What stands on what: devices and platforms in the order of the set, and what is wrong with `on`.
+//!
+//! A platform stands on the hub, or on a platform on the hub.
+
+use precess_dynamics::Isolated;
+
+use super::device::{Device, DeviceOrPlatform};
+use crate::file::keys::Keys;
+use crate::nearest::did_you_mean;
+use crate::scenario::Set;
+
+const HUB: &str = "hub";
+
+/// Devices and platforms in the order of the set; reports those on what is no platform, and platforms that stand too
+/// deep. `tables` are also those of platforms in which something is wrong: what stands on them is not.
+pub(super) fn arranged(
+    keys: &Keys<'_>,
+    devices: Vec<Device>,
+    platforms: Vec<Device>,
+    tables: &[Keys<'_>],
+) -> Vec<Device> {
+    let named = tables.iter().filter_map(|keys| {
+        Some(Standing { keys, name: keys.text("name")?, on: keys.text("on").unwrap_or(HUB) })
+    });
+    let named: Vec<_> = named.collect();
+    let mut known: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
+    known.sort_unstable();
+    let is_device = |name: &str| known.binary_search_by(|of| of.as_str().cmp(name)).is_ok();
+    report_devices(keys, &devices, &named, &is_device);
+    let wrong: Vec<&str> =
+        named.iter().filter(|of| of.reported(&named, &is_device)).map(|of| of.name).collect();
+    let (mut arranged, mut rest): (Vec<_>, Vec<_>) =
+        devices.into_iter().partition(|device| device.on == HUB);
+    let (on_hub, mut inner): (Vec<_>, Vec<_>) =
+        platforms.into_iter().partition(|of| of.on == HUB || wrong.contains(&of.name.as_str()));
+    for platform in on_hub {
+        let (name, node) = (platform.name.clone(), platform.node);
+        arranged.push(Device { on: HUB.to_owned(), ..platform });
+        let add = |from: &mut Vec<Device>, name: &str| {
+            let all = std::mem::take(from).into_iter();
+            let (own, others): (Vec<_>, _) = all.partition(|device| device.on == name);
+            *from = others;
+            own.into_iter().map(move |device| Device { node, ..device }).collect::<Vec<_>>()
+        };
+        arranged.extend(add(&mut rest, &name));
+        for platform in add(&mut inner, &name) {
+            let devices = add(&mut rest, &platform.name);
+            arranged.push(platform);
+            arranged.extend(devices);
+        }
+    }
+    // Of a platform in which something is wrong: their joints are known by name.
+    arranged.extend(inner);
+    arranged.extend(rest);
+    arranged
+}
+
+/// Reports devices on what is no platform.
+fn report_devices(
+    keys: &Keys<'_>,
+    devices: &[Device],
+    named: &[Standing<'_>],
+    is_device: &dyn Fn(&str) -> bool,
+) {
+    let mut reported = Vec::new();
+    for device in devices {
+        // A layout makes several of one table.
+        let known = device.on == HUB || named.iter().any(|of| of.name == device.on);
+        if known || reported.contains(&device.place) {
+            continue;
+        }
+        let what = if device.name == device.on {
+            format!("`{}` stands on itself", device.on)
+        } else if is_device(&device.on) {
+            format!("`{}` is a device: devices stand on the hub and on platforms", device.on)
+        } else {
+            format!("no platform is named `{}`", device.on)
+        };
+        let help = match named {
+            [] => "add a `[[platform]]` of this name, or remove `on`".to_owned(),
+            _ => there_are(named.iter().map(|of| of.name)),
+        };
+        if let Some(place) = &device.place {
+            keys.reports().borrow_mut().error(place, what, "", &help);
+        }
+        reported.push(device.place.clone());
+    }
+}
+
+fn there_are<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<_> = names.collect();
+    format!("there are {}; without `on` it stands on the hub", names.join(", "))
+}
+
+/// A table of a platform, and the name of what it stands on.
+struct Standing<'a> {
+    keys: &'a Keys<'a>,
+    name: &'a str,
+    on: &'a str,
+}
+
+impl Standing<'_> {
+    /// Reports what is wrong with `on`; whether there is something.
+    fn reported(&self, named: &[Standing<'_>], is_device: &dyn Fn(&str) -> bool) -> bool {
+        let (name, on) = (self.name, self.on);
+        if on == HUB {
+            return false;
+        }
+        let base_of = |name: &str| named.iter().find(|of| of.name == name);
+        let others = || named.iter().map(|of| of.name).filter(|other| *other != name);
+        if on == name {
+            self.keys.error("on", format!("`{name}` stands on itself"), "remove `on`");
+            return true;
+        }
+        let Some(base) = base_of(on) else {
+            let what = if is_device(on) {
+                format!("`{on}` is a device: platforms stand on the hub and on platforms")
+            } else {
+                format!("no platform is named `{on}`")
+            };
+            let otherwise = match others().next() {
+                Some(_) => there_are(others()),
+                None => "remove `on`: it stands on the hub".to_owned(),
+            };
+            self.keys.error("on", what, &did_you_mean(on, others(), &otherwise));
+            return true;
+        };
+        // The platforms below, until the hub or one that was there.
+        let mut chain = vec![name, on];
+        let mut next = base;
+        while let Some(below) = base_of(next.on) {
+            let is_known = chain.contains(&below.name);
+            chain.push(below.name);
+            if is_known {
+                break;
+            }
+            next = below;
+        }
+        let [_, _, third, ..] = chain[..] else { return false };
+        let closes = chain.last() == Some(&name);
+        let shown = chain.join("` on `");
+        if closes {
+            // Once for all of them.
+            let first = named.iter().find(|of| chain.contains(&of.name));
+            if first.is_some_and(|of| of.name == name) {
+                let message = format!("`{shown}`: platforms in a circle");
+                self.keys.error("on", message, "remove `on` of the one that stands on the hub");
+            }
+        } else if next.on == HUB {
+            let message = format!("`{shown}`: at most two platforms stand on one another");
+            let help = format!("write `on = \"{third}\"`, or remove `on` of one of them");
+            self.keys.error("on", message, &help);
+        }
+        true
+    }
+}
+
+/// What stands on the platform of a name, at the start of the rest of an arrangement.
+pub(super) fn standing_on<'a>(name: &str, rest: &'a [Device]) -> &'a [Device] {
+    let is_inner =
+        |on: &str| rest.iter().any(|of| of.built_in().is_none() && of.name == on && of.on == name);
+    let count = rest.iter().take_while(|of| of.on == name || is_inner(&of.on)).count();
+    rest.get(..count).unwrap_or_default()
+}
+
+/// The set of arranged devices and platforms.
+pub(in crate::file::read) fn set(arranged: &[Device]) -> Set {
+    set_on(HUB, arranged)
+}
+
+/// The set of what stands on the hub or on the platform of a name, which takes the place of the hub.
+pub(super) fn set_on<'a>(base: &str, arranged: impl IntoIterator<Item = &'a Device>) -> Set {
+    let mut set = Set::default();
+    for device in arranged {
+        match (&device.of, set.1.last_mut()) {
+            (DeviceOrPlatform::BuiltIn(own), None) => set.0.push(**own),
+            (DeviceOrPlatform::BuiltIn(own), Some(outer)) => match outer.carried.1.last_mut() {
+                Some(inner) => inner.carried.push(**own),
+                None => outer.carried.0.push(**own),
+            },
+            (DeviceOrPlatform::Platform(of), Some(outer)) if device.on != base => {
+                let (platform, suspension) = **of;
+                let inner = Isolated { carrier: platform, suspension, carried: Vec::new() };
+                outer.carried.1.push(inner);
+            }
+            (DeviceOrPlatform::Platform(of), _) => {
+                let (platform, suspension) = **of;
+                let carried = (Vec::new(), Vec::new());
+                set.1.push(Isolated { carrier: platform, suspension, carried });
+            }
+        }
+    }
+    set
+}
