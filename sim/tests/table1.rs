@@ -86,8 +86,7 @@ fn tool(name: &str) -> (Hub, Dgvscmg, State<Set<1>>, Inputs<Set<1>>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/{name}.toml"));
     let (file, _) =
         precess::file::from_file(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    let (on_hub, isolated) = &file.devices;
-    let ([BuiltIn::Dgvscmg(device)], []) = (&on_hub[..], &isolated[..]) else {
+    let Some([BuiltIn::Dgvscmg(device)]) = file.devices_on_hub() else {
         panic!("{:?}", file.devices)
     };
     let device = *device;

@@ -181,7 +181,7 @@ fn joined(
 
 /// The engine in lanes; none where they do not support the spacecraft.
 fn of_kind(scenarios: &[&Scenario], each: bool, in_lanes: bool) -> Option<Engine> {
-    let simple = |of: &&Scenario| of.structure.is_none() && of.devices.1.is_empty();
+    let simple = |of: &&Scenario| of.structure.is_none() && of.devices_on_hub().is_some();
     if !in_lanes || !scenarios.iter().all(simple) {
         return None;
     }

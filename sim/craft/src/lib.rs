@@ -15,8 +15,8 @@ mod derivatives;
 pub mod tangent;
 
 use precess_dynamics::{
-    BuiltIn, DeviceSet, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError, Spacecraft,
-    Wrench, platform, set,
+    BuiltIn, DeviceSet, Hub, Isolated, ListedModes, Modes, ModesError, OnPanel, ParameterError,
+    Spacecraft, Wrench, platform, set,
 };
 
 pub use craft::{
@@ -30,14 +30,27 @@ pub use derivatives::{
 /// What stands on a platform: devices, and platforms that carry devices only.
 pub type Carried = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
 
-/// The set that is run: devices on the hub, each of any kind, and platforms with what stands on them.
-pub type Set = (Vec<BuiltIn>, Vec<Isolated<Carried>>);
+/// A panel with the devices on it: the third of a row.
+pub type ThirdPanel = OnPanel<Vec<BuiltIn>>;
 
-/// A value for each member that stands on a platform.
+/// A panel with the devices on it, and third panels with theirs.
+pub type SecondPanel = OnPanel<(Vec<BuiltIn>, Vec<ThirdPanel>)>;
+
+/// A panel on the hub with the devices on it, and second panels with what stands on them.
+pub type FirstPanel = OnPanel<(Vec<BuiltIn>, Vec<SecondPanel>)>;
+
+/// The set that is run: devices on the hub, each of any kind, platforms with what stands on them, and panels with what
+/// stands on them.
+pub type Set = (Vec<BuiltIn>, Vec<Isolated<Carried>>, Vec<FirstPanel>);
+
+/// A value for each member that stands on a carrier, which carries devices only where it is carried itself.
 pub type OfCarried<T> = (Vec<T>, Vec<platform::Data<T, Vec<T>>>);
 
+/// A value for each member of a row of panels.
+pub type OfRow<T> = platform::Data<T, (Vec<T>, Vec<platform::Data<T, OfCarried<T>>>)>;
+
 /// A value for each member of the set.
-pub type OfMembers<T> = (Vec<T>, Vec<platform::Data<T, OfCarried<T>>>);
+pub type OfMembers<T> = (Vec<T>, Vec<platform::Data<T, OfCarried<T>>>, Vec<OfRow<T>>);
 
 /// A wrench on the child body of each joint.
 pub type BodyWrenches = <Set as DeviceSet>::Per<set::PerJoint<Wrench>>;

@@ -172,7 +172,7 @@ fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
                 inertia(held),
                 inertia(free),
                 match member.device() {
-                    Some(device) if info.tip => shown_imbalance(device),
+                    Some(device) if info.tip => shown_imbalance(&device),
                     _ => String::new(),
                 },
             ]);

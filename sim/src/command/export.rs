@@ -149,7 +149,11 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
 }
 
 /// Rejects more platforms, and more on one, than the flight library takes.
-fn check_platforms((_, isolated): &precess_craft::Set) -> Result<(), CommandError> {
+fn check_platforms((_, isolated, rows): &precess_craft::Set) -> Result<(), CommandError> {
+    if !rows.is_empty() {
+        let message = "a device stands on a panel; the flight library's table has devices on the hub and on platforms";
+        return Err(CommandError::Other(message.to_owned()));
+    }
     let upper = isolated.iter().map(|of| of.carried.1.len());
     let lower = upper.clone().filter(|count| *count > 0).count();
     let all = isolated.iter().flat_map(|of| {

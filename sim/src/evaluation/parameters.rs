@@ -11,7 +11,7 @@ use precess_dynamics::{
 };
 
 use crate::nearest::nearest;
-use crate::scenario::{Scenario, Set, members};
+use crate::scenario::{Scenario, Set, members, with_device};
 
 use super::EvaluationError;
 
@@ -239,7 +239,7 @@ impl Parameter {
                 hub.i_b_bc[(column, row)] = number;
             }
             ParameterSubject::Field(index, name, component) => {
-                let Some(device) = device_mut(devices, *index) else { return false };
+                let Some(device) = device(devices, *index) else { return false };
                 let Ok(mut value) = device.parameter(name) else { return false };
                 match (&mut value, component) {
                     (ParameterValue::Scalar(value), Component::Number) => *value = number,
@@ -253,7 +253,8 @@ impl Parameter {
                     }
                     _ => return false,
                 }
-                return device.set_parameter(name, value).is_ok();
+                let set = |device: &mut BuiltIn| device.set_parameter(name, value).is_ok();
+                return with_device(devices, *index, set).unwrap_or(false);
             }
             ParameterSubject::Mount(..)
             | ParameterSubject::StaticImbalance(_)
@@ -275,22 +276,6 @@ fn place(axis: Axis) -> usize {
 }
 
 /// The device of a number of the set, platforms counted.
-fn device(set: &Set, index: usize) -> Option<&BuiltIn> {
+fn device(set: &Set, index: usize) -> Option<BuiltIn> {
     members(set).get(index)?.device()
-}
-
-/// The same, to be changed.
-fn device_mut((on_hub, isolated): &mut Set, index: usize) -> Option<&mut BuiltIn> {
-    // None is a platform.
-    let mut all: Vec<Option<&mut BuiltIn>> = on_hub.iter_mut().map(Some).collect();
-    for of in isolated {
-        let (devices, platforms) = &mut of.carried;
-        all.push(None);
-        all.extend(devices.iter_mut().map(Some));
-        for of in platforms {
-            all.push(None);
-            all.extend(of.carried.iter_mut().map(Some));
-        }
-    }
-    all.into_iter().nth(index).flatten()
 }

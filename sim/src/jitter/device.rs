@@ -11,6 +11,7 @@ use precess_dynamics::{
     DerivativeError, HubMode, Inputs, LoadAxes, Loads, Mode, Spacecraft, State,
 };
 
+use crate::engine::MemberLoads;
 use crate::scenario::steady::SteadyJoints;
 use crate::scenario::{Scenario, Set, set_of};
 use crate::structure::averaged::{AveragedDevices, mount_hub};
@@ -352,16 +353,5 @@ impl BlockedLoads<'_> {
 
 /// Motor torques of all joints, in order.
 fn motors(loads: &Loads<Set>) -> Vec<f64> {
-    let (on_hub, platforms) = &loads.devices;
-    let mut all: Vec<f64> = on_hub.iter().flat_map(|of| of.motors.values()).collect();
-    for of in platforms {
-        all.extend(of.carrier.motors.values());
-        let (devices, platforms) = &of.carried;
-        all.extend(devices.iter().flat_map(|of| of.motors.values()));
-        for of in platforms {
-            all.extend(of.carrier.motors.values());
-            all.extend(of.carried.iter().flat_map(|of| of.motors.values()));
-        }
-    }
-    all
+    MemberLoads::new(loads, &[]).motors
 }

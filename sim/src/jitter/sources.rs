@@ -77,7 +77,7 @@ impl Model {
             }
         };
         if members(&scenario.devices).get(member).is_none_or(|member| member.on().is_some()) {
-            return Err("its device stands on a platform");
+            return Err("its device stands on a platform or panel");
         }
         let first = scenario.joints().take_while(|(device, ..)| *device < member).count();
         let device = self.devices.iter().find(|(_, device)| device.first_joint == first);

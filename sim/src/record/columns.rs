@@ -63,8 +63,7 @@ impl Columns {
         disturbances::columns(&mut columns, scenario);
         totals(&mut columns);
         for (index, (name, member)) in scenario.members().enumerate() {
-            let base = member.on().and_then(|on| scenario.names.get(on));
-            of_mount(&mut columns, (index, name), base.map(String::as_str));
+            of_mount(&mut columns, (index, name), member.on().and_then(|on| scenario.body_of(on)));
             let joints = scenario.joints().enumerate();
             for (joint, (.., info)) in joints.filter(|(_, (device, ..))| *device == index) {
                 // Of a platform, not the five bodies without mass.

@@ -4,19 +4,18 @@ use precess_dynamics::kind::JointInfo;
 
 use super::columns::{Column, Quantity, vector};
 
-/// The load at the mount of a device or platform on the hub, or on the platform of a name.
+/// The load at the mount of a device or platform on the hub, or on the body of a name of another.
 pub(super) fn of_mount(
     columns: &mut Vec<Column>,
     (index, name): (usize, &str),
-    platform: Option<&str>,
+    base: Option<String>,
 ) {
     let two = [
         (Quantity::MountForce as fn(usize, usize) -> Quantity, "force", "N"),
         (Quantity::MountMoment, "moment", "N m"),
     ];
-    let axes = platform.map_or_else(|| "B".to_owned(), |platform| format!("{platform}.platform"));
-    let base =
-        platform.map_or_else(|| "the hub".to_owned(), |platform| format!("platform {platform}"));
+    let axes = base.clone().unwrap_or_else(|| "B".to_owned());
+    let base = base.unwrap_or_else(|| "the hub".to_owned());
     for (quantity, what, unit) in two {
         let about = if what == "moment" { " about its position," } else { "" };
         let meaning = format!("{what} that {base} exerts on {name} at its mount,{about} component");

@@ -68,7 +68,7 @@ impl Scenario {
         let mut states = self.initial.devices.states();
         let mut device = Vec::new();
         for (name, member) in self.members() {
-            let Some(own) = member.device() else {
+            let Some(own) = member.device().filter(|_| member.on().is_none()) else {
                 return Err(UndescribedError::Platform(name.to_owned()));
             };
             let parameters = own.parameters();

@@ -178,7 +178,7 @@ impl Scenario {
         let warning = |of: &Disturbance| {
             let Model::Harmonic(harmonics) = &of.model else { return None };
             let (name, device) = self.device_of(of, &placed)?;
-            if of.fundamental_removed || !is_imbalanced(device) {
+            if of.fundamental_removed || !is_imbalanced(&device) {
                 return None;
             }
             let apart = |tone: &Harmonic| (tone.number - 1.0).abs() - DECIMAL;
@@ -215,7 +215,7 @@ impl Scenario {
         &self,
         of: &Disturbance,
         placed: &[NumberedMember<'a>],
-    ) -> Option<(&str, &'a BuiltIn)> {
+    ) -> Option<(&str, BuiltIn)> {
         let joint_of = |joint: usize| {
             let within = |(first, member): &&NumberedMember<'_>| {
                 (*first..first + member.joints().len()).contains(&joint)
@@ -250,7 +250,7 @@ impl Scenario {
             );
             return Some(("modes_removed", message));
         }
-        if of.fundamental_removed || !is_imbalanced(device) {
+        if of.fundamental_removed || !is_imbalanced(&device) {
             return None;
         }
         let what = match &of.model {

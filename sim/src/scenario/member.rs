@@ -1,12 +1,13 @@
 //! [`Member`]: a device or a platform of a scenario's set.
 //!
-//! The order of the set: the devices on the hub, then platform by platform the platform, the devices
-//! on it, and platform by platform those that stand on it, each with its devices. Names, mounts, joints
+//! The order of the set: the devices on the hub that carry nothing; platform by platform the platform, the devices
+//! on it, and platform by platform those that stand on it, each with its devices; panel by panel the panels on the
+//! hub that carry devices, each with what stands on it in the same order. Names, mounts, joints
 //! and drives of a scenario are in this order.
 
 use nalgebra::Matrix3;
 use precess_dynamics::kind::{BodyParameters, Each, ImbalanceModel, JointInfo, Kind};
-use precess_dynamics::{BuiltIn, Passive, Platform, Suspension};
+use precess_dynamics::{BuiltIn, CarryingPanel, Passive, Platform, Suspension};
 
 use super::Scenario;
 
@@ -18,8 +19,8 @@ pub enum Member<'a> {
     /// A device of some kind.
     Device {
         /// Its parameters.
-        device: &'a BuiltIn,
-        /// The number of the platform that it stands on, as a member; none on the hub.
+        device: BuiltIn,
+        /// The number of the platform or panel that it stands on, as a member; none on the hub.
         on: Option<usize>,
     },
     /// A platform.
@@ -35,7 +36,7 @@ pub enum Member<'a> {
 
 /// The members of a set, in order.
 #[must_use]
-pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
+pub fn members((on_hub, isolated, rows): &Set) -> Vec<Member<'_>> {
     let mut all = Vec::new();
     extend(&mut all, on_hub, None);
     for of in isolated {
@@ -50,25 +51,92 @@ pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
             extend(&mut all, &of.carried, on);
         }
     }
+    for first in rows {
+        let on_first = push(&mut all, first.carrier, None);
+        extend(&mut all, &first.carried.0, on_first);
+        for second in &first.carried.1 {
+            let on_second = push(&mut all, second.carrier, on_first);
+            extend(&mut all, &second.carried.0, on_second);
+            for third in &second.carried.1 {
+                let on_third = push(&mut all, third.carrier, on_second);
+                extend(&mut all, &third.carried, on_third);
+            }
+        }
+    }
     all
 }
 
-fn extend<'a>(all: &mut Vec<Member<'a>>, devices: &'a [BuiltIn], on: Option<usize>) {
-    all.extend(devices.iter().map(|device| Member::Device { device, on }));
+fn extend(all: &mut Vec<Member<'_>>, devices: &[BuiltIn], on: Option<usize>) {
+    all.extend(devices.iter().map(|device| Member::Device { device: *device, on }));
 }
 
-/// Some devices and platforms of a scenario by themselves; what stands on a platform comes with it.
+/// A panel that carries devices; its number.
+fn push(all: &mut Vec<Member<'_>>, panel: CarryingPanel, on: Option<usize>) -> Option<usize> {
+    all.push(Member::Device { device: BuiltIn::HingedPanel(panel.0), on });
+    all.len().checked_sub(1)
+}
+
+/// Some devices and platforms of a scenario by themselves; what stands on one comes with it.
 #[must_use]
 pub fn set_of(scenario: &Scenario, chosen: &[usize]) -> Set {
-    let (on_hub, isolated) = &scenario.devices;
+    let (on_hub, isolated, rows) = &scenario.devices;
     let members = members(&scenario.devices);
-    // What stands on the hub, in order: all devices on it, then the platforms.
+    // What stands on the hub, in order: all devices that carry nothing, then platforms, then panels.
     let standing = members.iter().enumerate().filter(|(_, member)| member.on().is_none());
-    let is_chosen: Vec<bool> = standing.map(|(index, _)| chosen.contains(&index)).collect();
-    let (devices, platforms) = is_chosen.split_at(on_hub.len().min(is_chosen.len()));
-    let devices = on_hub.iter().zip(devices).filter(|(_, chosen)| **chosen);
-    let platforms = isolated.iter().zip(platforms).filter(|(_, chosen)| **chosen);
-    (devices.map(|(of, _)| *of).collect(), platforms.map(|(of, _)| of.clone()).collect())
+    let mut is_chosen = standing.map(|(index, _)| chosen.contains(&index));
+    let mut next = || is_chosen.next().unwrap_or(false);
+    (
+        on_hub.iter().filter(|_| next()).copied().collect(),
+        isolated.iter().filter(|_| next()).cloned().collect(),
+        rows.iter().filter(|_| next()).cloned().collect(),
+    )
+}
+
+/// Does something with the device of a number; nothing of a platform.
+pub(crate) fn with_device<R>(
+    (on_hub, isolated, rows): &mut Set,
+    index: usize,
+    change: impl FnOnce(&mut BuiltIn) -> R,
+) -> Option<R> {
+    enum Place<'a> {
+        Device(&'a mut BuiltIn),
+        Panel(&'a mut CarryingPanel),
+        Platform,
+    }
+    let mut all: Vec<Place<'_>> = on_hub.iter_mut().map(Place::Device).collect();
+    for of in isolated {
+        let (devices, platforms) = &mut of.carried;
+        all.push(Place::Platform);
+        all.extend(devices.iter_mut().map(Place::Device));
+        for of in platforms {
+            all.push(Place::Platform);
+            all.extend(of.carried.iter_mut().map(Place::Device));
+        }
+    }
+    for first in rows {
+        all.push(Place::Panel(&mut first.carrier));
+        all.extend(first.carried.0.iter_mut().map(Place::Device));
+        for second in &mut first.carried.1 {
+            all.push(Place::Panel(&mut second.carrier));
+            all.extend(second.carried.0.iter_mut().map(Place::Device));
+            for third in &mut second.carried.1 {
+                all.push(Place::Panel(&mut third.carrier));
+                all.extend(third.carried.iter_mut().map(Place::Device));
+            }
+        }
+    }
+    match all.into_iter().nth(index)? {
+        Place::Device(device) => Some(change(device)),
+        Place::Panel(panel) => {
+            let mut device = BuiltIn::HingedPanel(panel.0);
+            let result = change(&mut device);
+            if let BuiltIn::HingedPanel(changed) = device {
+                panel.0 = changed;
+            }
+            Some(result)
+        }
+        Place::Platform => None,
+    }
 }
 
 /// The key of a body: `inner_gimbal`.
@@ -82,6 +150,19 @@ pub(crate) fn joint_key(joint: &JointInfo) -> String {
 }
 
 impl Scenario {
+    /// The devices, where all stand on the hub and none carries another.
+    #[must_use]
+    pub fn devices_on_hub(&self) -> Option<&[BuiltIn]> {
+        let (on_hub, platforms, rows) = &self.devices;
+        (platforms.is_empty() && rows.is_empty()).then_some(on_hub)
+    }
+
+    /// The body of a member on which others stand: `isolator.platform`, `inner.panel`.
+    pub(crate) fn body_of(&self, member: usize) -> Option<String> {
+        let (name, of) = self.members().nth(member)?;
+        Some(format!("{name}.{}", body_key(of.joints().last()?)))
+    }
+
     /// The members that stand on the hub or on a node, each with what stands on it, by their numbers.
     pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -161,9 +242,9 @@ impl<'a> Member<'a> {
 
     /// The device; none of a platform.
     #[must_use]
-    pub fn device(&self) -> Option<&'a BuiltIn> {
+    pub fn device(&self) -> Option<BuiltIn> {
         match self {
-            Self::Device { device, .. } => Some(device),
+            Self::Device { device, .. } => Some(*device),
             Self::Platform { .. } => None,
         }
     }
@@ -186,7 +267,7 @@ impl<'a> Member<'a> {
         }
     }
 
-    /// The number of the platform that it stands on, as a member; none on the hub.
+    /// The number of the platform or panel that it stands on, as a member; none on the hub.
     #[must_use]
     pub fn on(&self) -> Option<usize> {
         match self {

@@ -33,7 +33,7 @@ pub use check::ScenarioError;
 pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members, set_of};
-pub(crate) use member::{body_key, joint_key};
+pub(crate) use member::{body_key, joint_key, with_device};
 pub use orbital_frame::{OrbitalFrame, roll_pitch_yaw};
 pub use profile::{Interpolation, NoDerivative, Profile, Table};
 pub use projection::Projection;

@@ -139,19 +139,29 @@ impl Scenario {
 
     /// A value for each member, in their order, as the library has them.
     fn of_members(&self, mut values: impl Iterator<Item = usize>) -> OfMembers<usize> {
-        let (on_hub, isolated) = &self.devices;
-        let mut next = |count: usize| -> Vec<usize> { values.by_ref().take(count).collect() };
-        let devices = next(on_hub.len());
+        let (on_hub, isolated, rows) = &self.devices;
+        let values = &mut values as &mut dyn Iterator<Item = usize>;
+        let devices = next(values, on_hub.len());
         let platforms = isolated.iter().map(|of| {
-            let platform = next(1).first().copied().unwrap_or(0);
-            let devices = next(of.carried.0.len());
-            let platforms = of.carried.1.iter().map(|of| {
-                let platform = next(1).first().copied().unwrap_or(0);
-                platform::Data { carrier: platform, carried: next(of.carried.len()) }
-            });
-            platform::Data { carrier: platform, carried: (devices, platforms.collect()) }
+            let (carrier, devices) = carrier_and(values, of.carried.0.len());
+            let platforms = of.carried.1.iter().map(|of| data(values, of.carried.len()));
+            let platforms = platforms.collect();
+            platform::Data { carrier, carried: (devices, platforms) }
         });
-        (devices, platforms.collect())
+        let platforms = platforms.collect();
+        let rows = rows.iter().map(|first| {
+            let (carrier, devices) = carrier_and(values, first.carried.0.len());
+            let seconds = first.carried.1.iter().map(|second| {
+                let (carrier, devices) = carrier_and(values, second.carried.0.len());
+                let thirds = second.carried.1.iter().map(|third| data(values, third.carried.len()));
+                let thirds = thirds.collect();
+                platform::Data { carrier, carried: (devices, thirds) }
+            });
+            let seconds = seconds.collect();
+            platform::Data { carrier, carried: (devices, seconds) }
+        });
+        let rows = rows.collect();
+        (devices, platforms, rows)
     }
 
     /// What hub and modes contain of members: nothing, or their bodies at the initial coordinates.
@@ -330,4 +340,23 @@ fn set_as_one(
         first_moment += momentum.linear.cross(&state.omega) / 2.0;
     }
     Ok(RigidMass { mass: craft.mass() - hub.m_b, first_moment, inertia: inertia - hub.i_b_bc })
+}
+
+/// The next values.
+fn next(values: &mut dyn Iterator<Item = usize>, count: usize) -> Vec<usize> {
+    values.take(count).collect()
+}
+
+/// That of a carrier, and those of the devices on it.
+fn carrier_and(values: &mut dyn Iterator<Item = usize>, devices: usize) -> (usize, Vec<usize>) {
+    (values.next().unwrap_or(0), next(values, devices))
+}
+
+/// The same of a carrier that carries devices only.
+fn data(
+    values: &mut dyn Iterator<Item = usize>,
+    devices: usize,
+) -> platform::Data<usize, Vec<usize>> {
+    let (carrier, carried) = carrier_and(values, devices);
+    platform::Data { carrier, carried }
 }

@@ -105,7 +105,7 @@ fn every_key_has_its_error() {
         ),
         (
             with("node = \"tip\"\nmount", "on = \"iso\"\nnode = \"tip\"\nmount"),
-            "has the node of the platform",
+            "a device on `iso` has the node of `iso`",
         ),
     ];
     for (text, part) in cases {

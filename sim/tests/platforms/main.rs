@@ -1,7 +1,8 @@
 //! Isolated platforms in scenarios: a run against the library called directly, the written scenario, errors with their
-//! places, what refuses a platform, and platforms on platforms.
+//! places, what refuses a platform, platforms on platforms, and rows of panels.
 
 mod locked;
+mod rows;
 mod stacked;
 
 use std::ops::ControlFlow;
@@ -308,9 +309,13 @@ fn errors_name_the_place_the_fault_and_the_remedy() {
     };
     let on = "on = \"iso\"";
     for (from, to, parts) in [
-        (on, "on = \"isolator\"", ["no platform is named `isolator`", "there are iso"]),
+        (on, "on = \"isolator\"", ["no platform or panel is named `isolator`", "there are iso"]),
         (on, "on = \"rw1\"", ["`rw1` stands on itself", "there are iso"]),
-        (on, "on = \"panel\"", ["`panel` is a device", "stand on the hub and on platforms"]),
+        (
+            on,
+            "on = \"rw2\"",
+            ["`rw2` is no panel", "stand on the hub, on platforms and on hinged panels"],
+        ),
         ("mass = \"6 kg\"", "mass = \"0 kg\"", ["mass", "\"0 kg\""]),
         (
             "x_turn = { stiffness",

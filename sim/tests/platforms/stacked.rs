@@ -271,7 +271,7 @@ fn a_platform_on_a_platform_written_is_read_back_the_same() {
     let [base] = &first.devices.1[..] else { panic!("one platform on the hub") };
     assert_eq!((base.carried.0.len(), base.carried.1[0].carried.len()), (1, 2));
     let set = precess::scenario::set_of(&first, &[1, 2, 3, 4, 5]);
-    assert_eq!(set, (Vec::new(), first.devices.1.clone()));
+    assert_eq!(set, (Vec::new(), first.devices.1.clone(), Vec::new()));
 }
 
 #[test]

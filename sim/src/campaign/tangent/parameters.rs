@@ -33,7 +33,7 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
     };
     let has = [
         (scenario.structure.is_some(), "a flexible structure"),
-        (!scenario.devices.1.is_empty(), "platforms"),
+        (scenario.devices_on_hub().is_none(), "platforms, or panels that carry devices"),
         (!scenario.disturbances.is_empty(), "sources"),
         (!scenario.wrenches.is_empty(), "wrenches"),
         (!scenario.changes.is_empty(), "changes at times"),

@@ -120,12 +120,12 @@ impl DeviceOptions {
         let (mut chosen, members) = (Vec::new(), members(&scenario.devices));
         for (index, member) in members.iter().enumerate() {
             // Of what stands on a platform on a platform, the one on the hub.
-            let base = |on: usize| members.get(on).and_then(Member::on).unwrap_or(on);
-            let on = member.on().map(base).and_then(|on| names.get(on));
+            let below = |on: &usize| members.get(*on).and_then(Member::on);
+            let on = std::iter::successors(member.on(), below).last().and_then(|on| names.get(on));
             let is_named = is_chosen(names.get(index));
             if let (true, Some(on)) = (is_named && !is_chosen(on), on) {
                 let message = format!(
-                    "--device {}: it stands on a platform; name the platform, {on}",
+                    "--device {}: it stands on `{on}`; name that",
                     names.get(index).map_or("", String::as_str)
                 );
                 return Err(CommandError::Other(message));

@@ -1,5 +1,5 @@
 //! [`MemberLoads`]: the loads of a set, member by member and joint by joint in the order of the set,
-//! and what each platform exerts on what stands on it.
+//! and what each platform or panel exerts on what stands on it.
 //!
 //! ```text
 //! F = sum of F_k,   M = sum of (M_k + r_k x F_k)
@@ -24,7 +24,7 @@ pub(crate) struct MemberLoads {
     pub(crate) joints: Vec<Wrench>,
     /// Motor torque or force of each joint.
     pub(crate) motors: Vec<f64>,
-    /// On all that stands on the platform of each number; zero of a device.
+    /// On all that stands on the platform or panel of each number.
     pub(crate) carried: Vec<Wrench>,
 }
 
@@ -32,7 +32,7 @@ impl MemberLoads {
     pub(crate) fn new<S: StructureData>(loads: &Loads<Set, S>, chains: &[Chain]) -> Self {
         let (mounts, joints, motors) = (Vec::new(), Vec::new(), Vec::new());
         let mut of = Self { mounts, joints, motors, carried: vec![Wrench::none(); chains.len()] };
-        let (on_hub, isolated) = &loads.devices;
+        let (on_hub, isolated, rows) = &loads.devices;
         for device in on_hub {
             of.push(device);
         }
@@ -43,6 +43,18 @@ impl MemberLoads {
             for member in platforms {
                 of.push(&member.carrier);
                 member.carried.iter().for_each(|device| of.push(device));
+            }
+        }
+        for first in rows {
+            of.push(&first.carrier);
+            first.carried.0.iter().for_each(|device| of.push(device));
+            for second in &first.carried.1 {
+                of.push(&second.carrier);
+                second.carried.0.iter().for_each(|device| of.push(device));
+                for third in &second.carried.1 {
+                    of.push(&third.carrier);
+                    third.carried.iter().for_each(|device| of.push(device));
+                }
             }
         }
         for (chain, mount) in chains.iter().zip(&of.mounts) {

@@ -25,7 +25,7 @@ pub(crate) struct Lanes {
 
 impl Lanes {
     /// These runs. None where there are fewer than two, one has ended, keeps more than its motion, is not of
-    /// RK4 or has a structure or platforms, or where their devices are not of one kind.
+    /// RK4 or has a structure, platforms or panels that carry devices, or where their devices are not of one kind.
     pub(crate) fn from_runs<'a, 's: 'a, 'r: 'a>(
         runs: impl Iterator<Item = Option<&'a Recorded<'s, 'r>>>,
     ) -> Option<Self> {
@@ -37,12 +37,12 @@ impl Lanes {
             if run.system.craft.is_flexible() {
                 return None;
             }
-            let (devices, platforms) = &scenario.devices;
+            let devices = scenario.devices_on_hub()?;
             let fixed = matches!(scenario.settings.integrator, IntegratorChoice::Rk4 { .. });
-            if !(fixed && platforms.is_empty() && run.system.quantities == RunQuantities::Motion) {
+            if !(fixed && run.system.quantities == RunQuantities::Motion) {
                 return None;
             }
-            crafts.push((scenario.bare_hub().ok()?, devices.clone()));
+            crafts.push((scenario.bare_hub().ok()?, devices.to_vec()));
             at.push((run.motion(), run.state_inputs()));
         }
         if crafts.len() < 2 {

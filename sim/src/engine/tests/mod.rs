@@ -42,7 +42,7 @@ pub(crate) fn last(samples: &Samples, name: &str) -> f64 {
 
 /// A scenario with every joint driven by no torque, everything at rest.
 pub(crate) fn scenario(names: &[&str], devices: Vec<BuiltIn>, duration: f64) -> Scenario {
-    scenario_of(names, (devices, Vec::new()), duration)
+    scenario_of(names, (devices, Vec::new(), Vec::new()), duration)
 }
 
 /// The same of a set with platforms.

@@ -215,7 +215,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         hub,
         hub_size,
         names: devices.iter().map(|device| device.name.clone()).collect(),
-        devices: devices::arrangement::set(&devices),
+        devices: devices::rows::set(&devices),
         structure,
         mounts: devices.into_iter().map(|device| device.turns).collect(),
         initial,

@@ -101,7 +101,7 @@ impl JitterReport<'_> {
                 (false, true) => "swept, backward".to_owned(),
                 (false, false) => rpm(rate),
             };
-            let [u_s, u_d, phase] = match member.device().and_then(imbalance) {
+            let [u_s, u_d, phase] = match member.device().as_ref().and_then(imbalance) {
                 Some(Imbalance { u_s, u_d, phase }) => {
                     [short(units::to_g_cm(u_s), 5), short(units::to_g_cm2(u_d), 5), degrees(phase)]
                 }

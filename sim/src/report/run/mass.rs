@@ -66,7 +66,7 @@ fn devices(scenario: &Scenario) -> Block {
         let mass: f64 = member.bodies().iter().map(|body| body.mass).sum();
         let mut cells =
             vec![name.to_owned(), member.kind_name().to_owned(), number::short(mass, 7)];
-        match member.device().and_then(imbalance) {
+        match member.device().as_ref().and_then(imbalance) {
             Some(Imbalance { u_s, u_d, phase }) => {
                 cells.push(number::short(units::to_g_cm(u_s), 5));
                 cells.push(number::short(units::to_g_cm2(u_d), 5));

@@ -1,15 +1,14 @@
 //! What stands on what: devices and platforms in the order of the set, and what is wrong with `on`.
 //!
-//! A platform stands on the hub, or on a platform on the hub.
+//! A platform stands on the hub, or on a platform on the hub. A device stands on the hub, on a platform or on a hinged
+//! panel; one that carries a device stands on the hub, or on a panel: [`rows`](super::rows).
 
-use precess_dynamics::Isolated;
-
-use super::device::{Device, DeviceOrPlatform};
+use super::device::Device;
+use super::rows::Rows;
 use crate::file::keys::Keys;
 use crate::nearest::did_you_mean;
-use crate::scenario::Set;
 
-const HUB: &str = "hub";
+pub(super) const HUB: &str = "hub";
 
 /// Devices and platforms in the order of the set; reports those on what is no platform, and platforms that stand too
 /// deep. `tables` are also those of platforms in which something is wrong: what stands on them is not.
@@ -26,9 +25,11 @@ pub(super) fn arranged(
     let mut known: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
     known.sort_unstable();
     let is_device = |name: &str| known.binary_search_by(|of| of.as_str().cmp(name)).is_ok();
-    report_devices(keys, &devices, &named, &is_device);
+    let devices = Rows::new(devices.iter()).without_faults(keys, devices);
+    report_devices(keys, &devices, &named);
     let wrong: Vec<&str> =
         named.iter().filter(|of| of.reported(&named, &is_device)).map(|of| of.name).collect();
+    let (rows, devices) = Rows::new(devices.iter()).split(devices);
     let (mut arranged, mut rest): (Vec<_>, Vec<_>) =
         devices.into_iter().partition(|device| device.on == HUB);
     let (on_hub, mut inner): (Vec<_>, Vec<_>) =
@@ -52,29 +53,31 @@ pub(super) fn arranged(
     // Of a platform in which something is wrong: their joints are known by name.
     arranged.extend(inner);
     arranged.extend(rest);
+    arranged.extend(rows);
     arranged
 }
 
 /// Reports devices on what is no platform.
-fn report_devices(
-    keys: &Keys<'_>,
-    devices: &[Device],
-    named: &[Standing<'_>],
-    is_device: &dyn Fn(&str) -> bool,
-) {
+fn report_devices(keys: &Keys<'_>, devices: &[Device], named: &[Standing<'_>]) {
     let mut reported = Vec::new();
     for device in devices {
         // A layout makes several of one table.
-        let known = device.on == HUB || named.iter().any(|of| of.name == device.on);
+        let on = &device.on;
+        let base = devices.iter().find(|of| of.name == *on);
+        let known = on == HUB
+            || named.iter().any(|of| of.name == *on)
+            || base.is_some_and(|base| base.is_panel() && base.name != device.name);
         if known || reported.contains(&device.place) {
             continue;
         }
-        let what = if device.name == device.on {
-            format!("`{}` stands on itself", device.on)
-        } else if is_device(&device.on) {
-            format!("`{}` is a device: devices stand on the hub and on platforms", device.on)
+        let what = if device.name == *on {
+            format!("`{on}` stands on itself")
+        } else if base.is_some() {
+            format!(
+                "`{on}` is no panel: devices stand on the hub, on platforms and on hinged panels"
+            )
         } else {
-            format!("no platform is named `{}`", device.on)
+            format!("no platform or panel is named `{on}`")
         };
         let help = match named {
             [] => "add a `[[platform]]` of this name, or remove `on`".to_owned(),
@@ -161,34 +164,4 @@ pub(super) fn standing_on<'a>(name: &str, rest: &'a [Device]) -> &'a [Device] {
         |on: &str| rest.iter().any(|of| of.built_in().is_none() && of.name == on && of.on == name);
     let count = rest.iter().take_while(|of| of.on == name || is_inner(&of.on)).count();
     rest.get(..count).unwrap_or_default()
-}
-
-/// The set of arranged devices and platforms.
-pub(in crate::file::read) fn set(arranged: &[Device]) -> Set {
-    set_on(HUB, arranged)
-}
-
-/// The set of what stands on the hub or on the platform of a name, which takes the place of the hub.
-pub(super) fn set_on<'a>(base: &str, arranged: impl IntoIterator<Item = &'a Device>) -> Set {
-    let mut set = Set::default();
-    for device in arranged {
-        match (&device.of, set.1.last_mut()) {
-            (DeviceOrPlatform::BuiltIn(own), None) => set.0.push(**own),
-            (DeviceOrPlatform::BuiltIn(own), Some(outer)) => match outer.carried.1.last_mut() {
-                Some(inner) => inner.carried.push(**own),
-                None => outer.carried.0.push(**own),
-            },
-            (DeviceOrPlatform::Platform(of), Some(outer)) if device.on != base => {
-                let (platform, suspension) = **of;
-                let inner = Isolated { carrier: platform, suspension, carried: Vec::new() };
-                outer.carried.1.push(inner);
-            }
-            (DeviceOrPlatform::Platform(of), _) => {
-                let (platform, suspension) = **of;
-                let carried = (Vec::new(), Vec::new());
-                set.1.push(Isolated { carrier: platform, suspension, carried });
-            }
-        }
-    }
-    set
 }

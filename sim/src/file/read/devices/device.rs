@@ -32,7 +32,7 @@ pub(in crate::file::read) struct Device {
     /// The name of the layout that it is a member of.
     pub(in crate::file::read) layout: Option<String>,
     pub(in crate::file::read) of: DeviceOrPlatform,
-    /// The name of the platform that it stands on, or `hub`.
+    /// The name of the platform or panel that it stands on, or `hub`.
     pub(in crate::file::read) on: String,
     /// Where that is written.
     pub(in crate::file::read) place: Option<Span>,
@@ -75,6 +75,11 @@ impl Device {
             DeviceOrPlatform::BuiltIn(device) => Some(**device),
             DeviceOrPlatform::Platform(_) => None,
         }
+    }
+
+    /// Whether it is a hinged panel, on which devices may stand.
+    pub(super) fn is_panel(&self) -> bool {
+        matches!(&self.of, DeviceOrPlatform::BuiltIn(of) if of.kind() == BuiltInKind::HingedPanel)
     }
 
     pub(in crate::file::read) fn joints(&self) -> &'static [JointInfo] {
@@ -174,11 +179,11 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
         .collect()
 }
 
-/// Of a device or platform on a platform, which has the node of both.
-pub(super) fn none_of_its_own<T>(keys: &Keys<'_>, what: &str, platform: &str) -> Option<T> {
+/// Of a device or platform on a platform or panel, which has the node of both.
+pub(super) fn none_of_its_own<T>(keys: &Keys<'_>, what: &str, base: &str) -> Option<T> {
     if keys.has("node") {
-        let message = format!("a {what} on `{platform}` has the node of the platform");
-        keys.error("node", message, "remove `node` here; give it to the platform");
+        let message = format!("a {what} on `{base}` has the node of `{base}`");
+        keys.error("node", message, &format!("remove `node` here; give it to `{base}`"));
     }
     None
 }

@@ -94,7 +94,7 @@ pub(in crate::file::read) fn whole(keys: &Keys<'_>) -> WholeState {
 /// Everything at rest, for these devices.
 fn at_rest(devices: &[Device]) -> State<Set> {
     use precess_dynamics::{Hub, Spacecraft};
-    let set = super::arrangement::set(devices);
+    let set = super::rows::set(devices);
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
     // Devices that the solver rejects are reported with the whole; their state is not read.
     match Spacecraft::new(&hub, &set) {

@@ -13,4 +13,5 @@ mod layout;
 mod layout_members;
 mod motion;
 pub(super) mod platform;
+pub(super) mod rows;
 mod suspension;

@@ -18,11 +18,12 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointInfo, Kind};
 use precess_dynamics::{About, Hub, JointStates, Passive, Platform, State, platform};
 
-use super::arrangement::{arranged, set_on, standing_on};
+use super::arrangement::{arranged, standing_on};
 use super::body::{Joint, joint, mass};
 use super::device::{Device, DeviceOrPlatform, nodes, none_of_its_own};
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
+use super::rows::set_on;
 use super::suspension::suspension;
 use crate::file::keys::Keys;
 use crate::file::read::structure::Structure;
