@@ -41,7 +41,7 @@ fn described() -> impl Iterator<Item = KindDescription> {
         joints: <Platform as Kind>::JOINTS,
         parameters: <Platform as Kind>::PARAMETERS,
         example:
-            "A table `[[platform]]` of a scenario is one; devices stand on it by `on`. Example: \
+            "A table `[[platform]]` of a scenario is one; devices and platforms stand on it by `on`. Example: \
                   scenarios/wheels-on-isolator.toml."
                 .to_owned(),
     };

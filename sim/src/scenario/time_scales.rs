@@ -324,4 +324,24 @@ mod tests {
         assert!((5.0..=(18.0_f64 / 0.6).sqrt()).contains(&panel), "{panel}");
         assert_eq!([found[1].1, found[2].1], [2.0, 1.0]);
     }
+
+    /// 1 kg, 2 kg on it and a wheel of 6 kg on that: w^2 = k / (9 kg), and of the upper one k / (8 kg).
+    #[test]
+    fn a_slide_moves_all_that_stands_on_platforms_above() {
+        let platform = |name: &str, on: &str, mass: f64, stiffness: f64| {
+            format!(
+                "[[platform]]\nname = \"{name}\"\non = \"{on}\"\nmass = \"{mass} kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\
+                 position = \"1, 0, 0 m\"\nx_slide.stiffness = \"{stiffness} N/m\"\n"
+            )
+        };
+        let found = rates(&format!(
+            "{}{}[[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\non = \"upper\"\n\
+             wheel = {{ mass = \"6 kg\", inertia = \"2, 1, 1 g m^2\" }}\n",
+            platform("upper", "lower", 2.0, 32.0),
+            platform("lower", "hub", 1.0, 81.0),
+        ));
+        let expected = [("lower", 3.0), ("upper", 2.0)]
+            .map(|(name, rate)| (format!("the stiffness of `{name}.x_slide`"), rate));
+        assert_eq!(found, expected);
+    }
 }

@@ -183,8 +183,13 @@ z_turn = {{ locked = true }}
     )
 }
 
-/// (w^2 + s) eta - phi k_1 z_1 = 0, m_1 (s phi eta + s z_1) + k_1 z_1 - k_2 z_2 = 0 and
-/// m_2 (s phi eta + s z_1 + s z_2) + k_2 z_2 = F, with s the square of the frequency, less than zero.
+/// With s the square of the frequency, less than zero:
+///
+/// ```text
+/// (w^2 + s) eta - phi k_1 z_1 = 0
+/// m_1 (s phi eta + s z_1) + k_1 z_1 - k_2 z_2 = 0
+/// m_2 (s phi eta + s z_1 + s z_2) + k_2 z_2 = F
+/// ```
 #[test]
 fn a_wheel_on_two_isolators_shakes_the_mode_as_three_masses_in_series() {
     let scenario = text(&stacked(&panel(1.0, "", 100.0, "")));

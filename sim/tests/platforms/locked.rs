@@ -59,12 +59,14 @@ fn moved(outer: &Place, inner: &Place) -> Place {
 /// Locked at displacements and angles beside zero, both in the axes of the mount.
 fn locked(of: &Place, slides: [f64; 3], z_turn: f64) -> (String, Place) {
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), z_turn);
-    let keys = ["x_slide", "y_slide", "z_slide"].iter().zip(slides);
-    let mut text: String = keys
-        .map(|(key, at)| format!("{key} = {{ locked = true, displacement = \"{at:?} m\" }}\n"))
-        .collect();
-    text += "x_turn = { locked = true }\ny_turn = { locked = true }\n";
-    text += &format!("z_turn = {{ locked = true, angle = \"{z_turn:?} rad\" }}\n");
+    let [x, y, z] = slides;
+    let text = format!(
+        "x_slide = {{ locked = true, displacement = \"{x:?} m\" }}\n\
+         y_slide = {{ locked = true, displacement = \"{y:?} m\" }}\n\
+         z_slide = {{ locked = true, displacement = \"{z:?} m\" }}\n\
+         x_turn = {{ locked = true }}\ny_turn = {{ locked = true }}\n\
+         z_turn = {{ locked = true, angle = \"{z_turn:?} rad\" }}\n"
+    );
     (text, moved(of, &(Vector3::from(slides), turn.into_inner())))
 }
 

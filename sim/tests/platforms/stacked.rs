@@ -301,6 +301,9 @@ fn everything_on_two_platforms_runs_and_the_ledger_closes() {
     }
 }
 
+/// Name and `on` of each platform, and what is shown.
+type Case = (&'static [(&'static str, &'static str)], [&'static str; 2]);
+
 #[test]
 fn errors_of_what_stands_on_what_name_both_and_the_bound() {
     let plain = |name: &str, on: &str| {
@@ -314,7 +317,7 @@ fn errors_of_what_stands_on_what_name_both_and_the_bound() {
             "format = 1\n[hub]\nmass = \"300 kg\"\ninertia = \"90, 80, 60 kg m^2\"\n{WHEEL}on = \"a\"\n{platforms}{RUN}"
         ))
     };
-    let cases: [(&[(&str, &str)], [&str; 2]); 7] = [
+    let cases: [Case; 7] = [
         (
             &[("a", "hub"), ("b", "a"), ("c", "b")],
             ["`c` on `b` on `a`: at most two platforms stand on one another", "write `on = \"a\"`"],
@@ -329,6 +332,12 @@ fn errors_of_what_stands_on_what_name_both_and_the_bound() {
         (&[("a", "sky")], ["no platform is named `sky`", "remove `on`: it stands on the hub"]),
         (&[("a", "sky"), ("b", "hub")], ["no platform is named `sky`", "there are b;"]),
     ];
+    // Twenty in a circle: none of them is at the hub.
+    let names: Vec<String> = (0..20).map(|k| format!("p{k}")).collect();
+    let circle: Vec<_> = names.iter().zip(names.iter().cycle().skip(1)).collect();
+    let circle: Vec<_> = circle.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+    let shown = of(&circle);
+    assert!(shown.contains("`p3` on `p4` on `p5`") && shown.contains("at most two"), "{shown}");
     for (platforms, parts) in cases {
         let shown = of(platforms);
         for part in parts {

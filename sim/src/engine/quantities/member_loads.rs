@@ -39,21 +39,31 @@ impl MemberLoads {
         for member in isolated {
             of.push(&member.carrier);
             let (devices, platforms) = &member.carried;
-            devices.iter().for_each(|device| of.push(device));
+            for device in devices {
+                of.push(device);
+            }
             for member in platforms {
                 of.push(&member.carrier);
-                member.carried.iter().for_each(|device| of.push(device));
+                for device in &member.carried {
+                    of.push(device);
+                }
             }
         }
         for first in rows {
             of.push(&first.carrier);
-            first.carried.0.iter().for_each(|device| of.push(device));
+            for device in &first.carried.0 {
+                of.push(device);
+            }
             for second in &first.carried.1 {
                 of.push(&second.carrier);
-                second.carried.0.iter().for_each(|device| of.push(device));
+                for device in &second.carried.0 {
+                    of.push(device);
+                }
                 for third in &second.carried.1 {
                     of.push(&third.carrier);
-                    third.carried.iter().for_each(|device| of.push(device));
+                    for device in &third.carried {
+                        of.push(device);
+                    }
                 }
             }
         }

@@ -3,12 +3,16 @@
 //! A platform stands on the hub, or on a platform on the hub. A device stands on the hub, on a platform or on a hinged
 //! panel; one that carries a device stands on the hub, or on a panel: [`rows`](super::rows).
 
+use std::collections::BTreeMap;
+
 use super::device::Device;
 use super::rows::Rows;
 use crate::file::keys::Keys;
 use crate::nearest::did_you_mean;
 
 pub(super) const HUB: &str = "hub";
+/// Carriers that stand on one another are looked through up to so many.
+pub(super) const SHOWN_MAX: usize = 12;
 
 /// Devices and platforms in the order of the set; reports those on what is no platform, and platforms that stand too
 /// deep. `tables` are also those of platforms in which something is wrong: what stands on them is not.
@@ -60,13 +64,15 @@ pub(super) fn arranged(
 /// Reports devices on what is no platform.
 fn report_devices(keys: &Keys<'_>, devices: &[Device], named: &[Standing<'_>]) {
     let mut reported = Vec::new();
+    let panels: BTreeMap<&str, bool> =
+        devices.iter().map(|of| (of.name.as_str(), of.is_panel())).collect();
     for device in devices {
         // A layout makes several of one table.
         let on = &device.on;
-        let base = devices.iter().find(|of| of.name == *on);
+        let base = panels.get(on.as_str());
         let known = on == HUB
             || named.iter().any(|of| of.name == *on)
-            || base.is_some_and(|base| base.is_panel() && base.name != device.name);
+            || (base == Some(&true) && device.name != *on);
         if known || reported.contains(&device.place) {
             continue;
         }
@@ -130,26 +136,22 @@ impl Standing<'_> {
         };
         // The platforms below, until the hub or one that was there.
         let mut chain = vec![name, on];
-        let mut next = base;
-        while let Some(below) = base_of(next.on) {
+        let mut next = Some(base);
+        while let Some(below) = next.and_then(|of| base_of(of.on)) {
             let is_known = chain.contains(&below.name);
             chain.push(below.name);
-            if is_known {
-                break;
-            }
-            next = below;
+            next = (!is_known && chain.len() < SHOWN_MAX).then_some(below);
         }
         let [_, _, third, ..] = chain[..] else { return false };
-        let closes = chain.last() == Some(&name);
         let shown = chain.join("` on `");
-        if closes {
+        if chain.last() == Some(&name) {
             // Once for all of them.
             let first = named.iter().find(|of| chain.contains(&of.name));
             if first.is_some_and(|of| of.name == name) {
                 let message = format!("`{shown}`: platforms in a circle");
                 self.keys.error("on", message, "remove `on` of the one that stands on the hub");
             }
-        } else if next.on == HUB {
+        } else if chain.len() == SHOWN_MAX || next.is_some_and(|of| of.on == HUB) {
             let message = format!("`{shown}`: at most two platforms stand on one another");
             let help = format!("write `on = \"{third}\"`, or remove `on` of one of them");
             self.keys.error("on", message, &help);

@@ -3,10 +3,12 @@
 //! A panel that carries a device stands on the hub, or on another panel, and at most three in a row carry others: with
 //! the last one, which carries none, four stand on one another.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use precess_craft::FirstPanel;
 use precess_dynamics::{BuiltIn, HingedPanel, Isolated, OnPanel, Platform, Suspension};
 
-use super::arrangement::HUB;
+use super::arrangement::{HUB, SHOWN_MAX};
 use super::device::{Device, DeviceOrPlatform};
 use crate::file::keys::Keys;
 use crate::scenario::Set;
@@ -15,31 +17,29 @@ use crate::scenario::Set;
 const CARRYING_MAX: usize = 3;
 
 /// The panels that carry devices, by name, each with the name of what it stands on.
-pub(super) struct Rows(Vec<(String, String)>);
+pub(super) struct Rows(BTreeMap<String, String>);
 
 impl Rows {
     pub(super) fn new<'a>(devices: impl Iterator<Item = &'a Device> + Clone) -> Self {
-        let carries = |panel: &&Device| {
-            let mut others = devices.clone();
-            panel.is_panel() && others.any(|of| of.on == panel.name && of.name != panel.name)
-        };
-        let panels = devices.clone().filter(carries);
+        let carried = devices.clone().filter(|of| of.on != of.name);
+        let bases: BTreeSet<&str> = carried.map(|of| of.on.as_str()).collect();
+        let panels = devices.filter(|of| of.is_panel() && bases.contains(of.name.as_str()));
         Self(panels.map(|panel| (panel.name.clone(), panel.on.clone())).collect())
     }
 
     fn carries(&self, name: &str) -> bool {
-        self.0.iter().any(|(panel, _)| panel == name)
+        self.0.contains_key(name)
     }
 
-    /// A name and the panels below it, outwards to inwards, until what is no panel that carries or was there.
+    /// A name and the panels below it, until what is no panel that carries or was there.
     fn below<'a>(&'a self, name: &'a str, on: &'a str) -> Vec<&'a str> {
         let mut chain = vec![name, on];
-        while let Some((_, next)) =
-            self.0.iter().find(|(panel, _)| Some(&panel.as_str()) == chain.last())
-        {
-            let known = chain.contains(&next.as_str());
-            chain.push(next);
-            if known {
+        let mut last = on;
+        while let Some(next) = self.0.get(last) {
+            last = next;
+            let known = chain.contains(&last);
+            chain.push(last);
+            if known || chain.len() >= SHOWN_MAX {
                 break;
             }
         }
@@ -57,13 +57,13 @@ impl Rows {
             let shown = chain.join("` on `");
             let (what, help) = match chain.last() {
                 Some(&HUB) if chain.len() <= CARRYING_MAX.saturating_add(2) => return device,
-                Some(&HUB) => (
-                    format!("`{shown}`: at most four panels stand on one another"),
-                    "remove `on` of one of them: it stands on the hub",
-                ),
-                Some(last) if self.carries(last) => (
+                Some(last) if self.carries(last) && chain.iter().filter(|of| of == &last).count() > 1 => (
                     format!("`{shown}`: panels in a circle"),
                     "remove `on` of the one that stands on the hub",
+                ),
+                Some(last) if *last == HUB || chain.len() >= SHOWN_MAX => (
+                    format!("`{shown}`: at most four panels stand on one another"),
+                    "remove `on` of one of them: it stands on the hub",
                 ),
                 _ => (
                     format!("`{shown}`: a panel that carries devices stands on the hub or on a panel"),
@@ -86,6 +86,7 @@ impl Rows {
             devices.into_iter().partition(|of| self.carries(&of.on) || self.carries(&of.name));
         let mut rows = Vec::new();
         self.take(&mut on_panels, HUB, None, &mut rows);
+        rows.extend(on_panels);
         (rows, others)
     }
 
