@@ -1,4 +1,4 @@
-//! Runs of scenario files against closed forms.
+//! Runs of scenario files against closed forms, and against cases that NASA published.
 //!
 //! What limits the agreement. The integrator keeps the root mean square, over the numbers of the
 //! state, of each step's estimated error within `tolerance * (|number| + floor)`, here with a
@@ -17,6 +17,9 @@ use precess::file::from_file;
 use precess::record::{End, Outcome, Samples};
 use precess::scenario::Scenario;
 
+#[path = "known_answers/published/mod.rs"]
+mod published;
+
 /// A scenario and its run.
 struct ScenarioRun {
     scenario: Scenario,
@@ -30,11 +33,18 @@ impl ScenarioRun {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
         let read = from_file(&folder.join(name), &[]);
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        let ran = Self::of(scenario);
+        assert!(ran.samples.rows.len() > 100, "{name}: {} samples", ran.samples.rows.len());
+        ran
+    }
+
+    /// Runs a scenario to its duration.
+    fn of(scenario: Scenario) -> Self {
+        let name = scenario.name.clone();
         let mut samples = Samples::default();
         let outcome = run(&scenario, &mut samples, &mut |_| ControlFlow::Continue(()));
         let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
         assert!(matches!(outcome.end, End::Finished), "{name}: {}", outcome.end);
-        assert!(samples.rows.len() > 100, "{name}: {} samples", samples.rows.len());
         Self { scenario, samples, outcome }
     }
 

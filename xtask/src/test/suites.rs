@@ -261,7 +261,11 @@ pub(crate) const SUITES: &[Suite] = &[
         &[SOLVER, DESKTOP, &["sim/tests/jitter", "sim/examples", "docs/imbalance-map.md"]],
     ),
     always("precess", "kill", &[DESKTOP, &["sim/tests/kill.rs", "sim/tests/shared"]]),
-    always("precess", "known_answers", &[SOLVER, DESKTOP, &["sim/tests/known_answers.rs"]]),
+    always(
+        "precess",
+        "known_answers",
+        &[SOLVER, DESKTOP, &["sim/tests/known_answers", "sim/tests/known_answers.rs"]],
+    ),
     always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs", "sim/tests/shared"]]),
     always("precess", "picture", &[SOLVER, DESKTOP, &["sim/tests/picture.rs", "docs"]]),
     always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms"]]),
