@@ -6,7 +6,7 @@ use super::super::{ScenarioRun, within};
 use super::{largest, turned};
 
 /// Time in s; yaw, pitch and roll from north, east, down, deg; rates in B with respect to inertial space, deg/s; longitude, deg.
-/// NASA/TM-2015-218675, Atmos_02_TumblingBrickNoDamping, Atmos_02_sim_01.csv (kept in
+/// NASA/TM-2015-218675, `Atmos_02_TumblingBrickNoDamping`, `Atmos_02_sim_01.csv` (kept in
 /// github.com/nasa/simupy-flight, `NESC_data`). Simulation 4 differs from it by at most 4e-9 deg and
 /// 1.4e-10 deg/s, 5 by 9e-5 deg and 5e-5 deg/s, 6 and 2 by more.
 const BRICK: [(f64, [f64; 3], [f64; 3], f64); 4] = [

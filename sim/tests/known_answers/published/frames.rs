@@ -7,8 +7,8 @@ use super::super::{ScenarioRun, within};
 use super::{dcm, largest, read, rows, turned};
 
 /// Time in s, `Q_parent_this` (scalar, vector) and rate about y in rad/s of the frame of a point that moves from (10, 0, 0) m
-/// at (2, 1, 0) m/s without gravity: JEOD, models/utils/lvlh_frame/verif/SIM_LVLH_Frame,
-/// SET_test_val/RUN_test/log_LvlhState.csv. Its rates about x and z are zero.
+/// at (2, 1, 0) m/s without gravity: JEOD, `models/utils/lvlh_frame/verif/SIM_LVLH_Frame`,
+/// `SET_test_val/RUN_test/log_LvlhState.csv`. Its rates about x and z are zero.
 const FRAMES: [(f64, [f64; 4], f64); 8] = [
     (0.0, [0.5, 0.5, 0.5, -0.5], -0.1),
     (
@@ -153,9 +153,9 @@ columns = ["orbit", "omega"]
 }
 
 /// Position and velocity of the cases, which are in `set_trans_init_typical`; attitudes from the frame by three
-/// turns; `T_parent_this` and `ang_vel_this` at the time 0. JEOD, verif/SIM_dyncomp, Modified_data/state.py,
-/// SET_test/RUN_8B and RUN_10A, SET_test_val/RUN_8A and RUN_10A/log_state_ASCII.csv (the rate of the first from
-/// SET_test_val_rh8/RUN_8B).
+/// turns; `T_parent_this` and `ang_vel_this` at the time 0. JEOD, `verif/SIM_dyncomp`, `Modified_data/state.py`,
+/// `SET_test/RUN_8B` and `RUN_10A`, `SET_test_val/RUN_8A` and `RUN_10A/log_state_ASCII.csv` (the rate of the first from
+/// `SET_test_val_rh8/RUN_8B`).
 const STARTS: [Start; 2] = [
     Start {
         what: "8B, yaw, pitch, roll",
@@ -205,8 +205,8 @@ fn attitudes_from_the_orbital_frame_are_jeods() {
 }
 
 /// The rate of the frame of the ISS, -0.06556131568278 deg/s about y. JEOD,
-/// models/dynamics/body_action/verif/SIM_orbinit, Modified_data/ISS: lvlh_rate_def.py, for the state of
-/// reference_inertial_trans_state.py.
+/// `models/dynamics/body_action/verif/SIM_orbinit`, `Modified_data/ISS`: `lvlh_rate_def.py`, for the state of
+/// `reference_inertial_trans_state.py`.
 #[test]
 fn the_rate_of_the_orbital_frame_of_the_iss_is_jeods() {
     let text = r#"format = 1

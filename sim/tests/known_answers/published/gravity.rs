@@ -5,12 +5,12 @@ use nalgebra::{Matrix3, Vector3};
 use super::super::{ScenarioRun, within};
 use super::largest;
 
-/// Latitude and longitude in deg of ten points at a radius of 6800 km; the torque in B, N m. JEOD, models/interactions/
-/// gravity_torque/docs/tex/gravity_torqueChapters.tex, tables `testpoints` and `torqueresults`, the column of spherical harmonics. The planet there is
-/// twelve points of mass within 4 km of its centre, with the gravitational parameter in
-/// models/environment/gravity/verif/data/src/mass_data.cc.
+/// Latitude and longitude in deg of ten points at a radius of 6800 km; the torque in B, N m. JEOD,
+/// `models/interactions/gravity_torque/docs/tex/gravity_torqueChapters.tex`, tables `testpoints` and `torqueresults`, the
+/// column of spherical harmonics. The planet there is twelve points of mass within 4 km of its centre, with the gravitational
+/// parameter in `models/environment/gravity/verif/data/src/mass_data.cc`.
 const TORQUES: [(f64, f64, [f64; 3]); 10] = [
-    (90.0, 120.0, [-6.576_995_906_413_200e-4, 1.269_164_209_592_045e-4, -4.723_482_089_916_854e-4]),
+    (90.0, 120.0, [-6.576_995_906_413_2e-4, 1.269_164_209_592_045e-4, -4.723_482_089_916_854e-4]),
     (
         89.99,
         353.0,
@@ -18,7 +18,7 @@ const TORQUES: [(f64, f64, [f64; 3]); 10] = [
     ),
     (73.0, 9.0, [-4.667_054_619_988_188e-4, 2.230_918_182_780_193e-4, -2.308_991_703_765_578e-4]),
     (13.0, 100.0, [9.643_230_821_702_463e-4, 3.894_826_293_977_236e-4, 1.192_559_213_912_787e-3]),
-    (0.0, 0.0, [5.947_635_780_445_906e-5, -1.824_208_387_207_120e-4, -1.311_220_703_920_095e-4]),
+    (0.0, 0.0, [5.947_635_780_445_906e-5, -1.824_208_387_207_12e-4, -1.311_220_703_920_095e-4]),
     (0.0, 180.0, [5.947_635_779_717_441e-5, -1.824_208_387_253_428e-4, -1.311_220_704_109_403e-4]),
     (
         -26.0,
@@ -26,11 +26,7 @@ const TORQUES: [(f64, f64, [f64; 3]); 10] = [
         [7.585_422_706_336_786e-4, -1.035_277_845_536_193e-3, -5.060_880_799_457_042e-5],
     ),
     (-52.0, 310.0, [5.494_210_701_133_441e-4, 1.890_337_404_179_465e-4, 6.827_228_269_632_132e-4]),
-    (
-        -89.99,
-        10.0,
-        [-6.577_823_003_575_999e-4, 1.268_171_069_274_990e-4, -4.724_987_427_239_774e-4],
-    ),
+    (-89.99, 10.0, [-6.577_823_003_575_999e-4, 1.268_171_069_274_99e-4, -4.724_987_427_239_774e-4]),
     (
         -90.0,
         160.0,

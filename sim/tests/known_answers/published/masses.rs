@@ -10,7 +10,7 @@ use precess::scenario::{MassProperties, Scenario};
 use super::super::within;
 use super::{largest, read, rows};
 
-/// The tests of JEOD, models/dynamics/mass/docs/tex/ivv_tests.tex: plates of 1 m by 2 m and 1 kg across the y axis.
+/// The tests of JEOD, `models/dynamics/mass/docs/tex/ivv_tests.tex`: plates of 1 m by 2 m and 1 kg across the y axis.
 const PLATE: &str = "0.33333333333333333, 0.41666666666666667, 0.08333333333333333 kg m^2";
 
 /// From the structural axes to those of the body, test `mass_09`: a turn by -30 deg about z, then by 45 deg about x.
@@ -117,8 +117,8 @@ fn three_plates_have_jeods_product_of_inertia() {
     within("JEOD mass_08, centre of mass, m", largest(centre.iter()), ROUNDING);
 }
 
-/// Test `mass_07`: the tensor of a plate about axes that are turned by 30 deg about z (Modified_data/child1_mass.py of
-/// models/dynamics/body_action/verif/SIM_verif_attach_mass has its digits).
+/// Test `mass_07`: the tensor of a plate about axes that are turned by 30 deg about z (`Modified_data/child1_mass.py` of
+/// `models/dynamics/body_action/verif/SIM_verif_attach_mass` has its digits).
 const TURNED: &str = r#"format = 1
 [hub]
 mass = "1 kg"
@@ -157,7 +157,7 @@ fn check_prints_jeods_principal_axes() {
     }
 }
 
-/// The body of three points of mass in models/interactions/gravity_torque/docs/tex/gravity_torqueChapters.tex, table `sc_masses`, beside a sphere of
+/// The body of three points of mass in `models/interactions/gravity_torque/docs/tex/gravity_torqueChapters.tex`, table `sc_masses`, beside a sphere of
 /// 10 kg m^2 at its centre of mass.
 #[test]
 fn points_of_mass_have_jeods_products_of_inertia() {

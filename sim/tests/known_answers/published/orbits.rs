@@ -28,8 +28,8 @@ struct Case<'a> {
     bounds: [f64; 4],
 }
 
-/// `set_mass_sphere`, `set_mass_iss`, `set_mass_cylinder` of JEOD, verif/SIM_dyncomp, Modified_data/mass.py; the ISS also
-/// with the other sign of its products of inertia, as in the check cases' orbital_station_inertia.dml.
+/// `set_mass_sphere`, `set_mass_iss`, `set_mass_cylinder` of JEOD, `verif/SIM_dyncomp`, `Modified_data/mass.py`; the ISS also
+/// with the other sign of its products of inertia, as in the check cases' `orbital_station_inertia.dml`.
 const SPHERE: &str = r#"mass = "1 kg"
 inertia = "0.4, 0.4, 0.4 kg m^2""#;
 const ISS: &str = r#"mass = "400000 kg"
@@ -43,13 +43,13 @@ inertia = "500, 12250, 12250 kg m^2""#;
 const SMALL_CYLINDER: &str = r#"mass = "1000 kg"
 inertia = "0.5, 12.25, 12.25 kg m^2""#;
 
-/// `set_trans_init_typical` and `set_trans_init_elliptical` of Modified_data/state.py.
+/// `set_trans_init_typical` and `set_trans_init_elliptical` of `Modified_data/state.py`.
 const TYPICAL: &str = r#"position = "-4292653.41, 955168.47, 5139356.57 m"
 velocity = "109.649663, -7527.726490, 1484.521489 m/s""#;
 const ELLIPTICAL: &str = r#"position = "-4315967.74, 960356.20, 5167269.53 m"
 velocity = "129.091037, -7491.513855, 1452.515654 m/s""#;
 
-/// From the orbital frame: Modified_data/state.py and SET_test/RUN_10A.
+/// From the orbital frame: `Modified_data/state.py` and `SET_test/RUN_10A`.
 const EQUILIBRIUM: &str =
     r#"attitude = { euler = "0, -11.6, 0 deg", sequence = "ZYX", direction = "N to B" }"#;
 const NEARLY_VERTICAL: &str =
@@ -69,8 +69,8 @@ const TORQUE: &str = r#"[[wrench]]
 on = "hub"
 moment = { x = { constant = "10 N m", from = "1000 s", to = "2000 s" } }"#;
 
-/// NASA/TM-2015-218675, check cases 8B, 9B, 9C, 10A to 10D of flights outside the atmosphere, as JEOD's verif/SIM_dyncomp:
-/// inputs in SET_test, values in SET_test_val (8B and 10B: SET_test_val_rh8)/RUN_NAME/log_state_ASCII.csv, those of
+/// NASA/TM-2015-218675, check cases 8B, 9B, 9C, 10A to 10D of flights outside the atmosphere, as JEOD's `verif/SIM_dyncomp`:
+/// inputs in `SET_test`, values in `SET_test_val` (8B and 10B: `SET_test_val_rh8`), `RUN_NAME/log_state_ASCII.csv`, those of
 /// `composite_body`.
 const CASES: [Case<'static>; 7] = [
     Case {
@@ -83,7 +83,7 @@ const CASES: [Case<'static>; 7] = [
             time: 28_800.0,
             orbit: Some([
                 [-1_024_262.411_095_882, -6_151_093.565_368_023, 2_599_975.062_178_99],
-                [4736.659_484_718_068, -3000.745_878_123_36, -5251.712_385_533_817],
+                [4_736.659_484_718_068, -3_000.745_878_123_36, -5_251.712_385_533_817],
             ]),
             omega: [0.0, -0.001_134_454_274_550_824, 0.0],
             t: [
@@ -175,7 +175,7 @@ const CASES: [Case<'static>; 7] = [
                 time: 300.0,
                 orbit: Some([
                     [-4_013_924.982_713_786, -1_314_597.200_719_335, 5_281_075.779_524_183],
-                    [1730.749_311_091_039, -7457.525_692_534_655, -549.126_684_931_067],
+                    [1_730.749_311_091_039, -7_457.525_692_534_655, -549.126_684_931_067],
                 ]),
                 omega: [
                     -1.979_895_708_397_46e-5,
@@ -192,7 +192,7 @@ const CASES: [Case<'static>; 7] = [
                 time: 28_800.0,
                 orbit: Some([
                     [-1_024_262.411_095_882, -6_151_093.565_368_023, 2_599_975.062_178_99],
-                    [4736.659_484_718_068, -3000.745_878_123_36, -5251.712_385_533_817],
+                    [4_736.659_484_718_068, -3_000.745_878_123_36, -5_251.712_385_533_817],
                 ]),
                 omega: [
                     -1.979_895_708_397_46e-5,
@@ -218,7 +218,7 @@ const CASES: [Case<'static>; 7] = [
             time: 28_800.0,
             orbit: Some([
                 [-1_024_262.411_095_882, -6_151_093.565_368_023, 2_599_975.062_178_99],
-                [4736.659_484_718_068, -3000.745_878_123_36, -5251.712_385_533_817],
+                [4_736.659_484_718_068, -3_000.745_878_123_36, -5_251.712_385_533_817],
             ]),
             omega: [
                 -1.979_895_708_397_46e-5,
@@ -243,7 +243,7 @@ const CASES: [Case<'static>; 7] = [
             time: 28_800.0,
             orbit: Some([
                 [-1_051_395.223_245_429, -6_116_653.272_961_161, 2_626_343.274_205_685],
-                [4747.652_816_813_323, -3014.482_597_291_933, -5262.442_737_782_26],
+                [4_747.652_816_813_323, -3_014.482_597_291_933, -5_262.442_737_782_26],
             ]),
             omega: [
                 -1.958_561_461_497_211e-5,
@@ -268,7 +268,7 @@ const CASES: [Case<'static>; 7] = [
             time: 28_800.0,
             orbit: Some([
                 [-1_051_395.223_245_429, -6_116_653.272_961_161, 2_626_343.274_205_685],
-                [4747.652_816_813_323, -3014.482_597_291_933, -5262.442_737_782_26],
+                [4_747.652_816_813_323, -3_014.482_597_291_933, -5_262.442_737_782_26],
             ]),
             omega: [
                 -1.958_561_461_497_211e-5,
