@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import nunjucks from 'nunjucks';
 import { chromium } from 'playwright-core';
-import { bucketValues, decode } from './check-data.mjs';
+import { bucketValues, decode, pointValues } from './check-data.mjs';
 import { sampleContext, sampleData } from './sample.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -78,17 +78,17 @@ const frames = (page) => page.evaluate(() => new Promise((done) => { requestAnim
 const readTime = async (page) => Number((await page.locator('.bar .time').first().textContent()).replace('\u2212', '-').match(/-?[\d.]+/)[0]);
 const readRange = async (page) => (await page.locator('.bar .range').first().textContent()).replaceAll('\u2212', '-').match(/-?[\d.]+/g).map(Number);
 
-/** The legend of a chart holds the values of the bucket that holds the cursor. */
+/** The legend of a chart holds the values of the sample at the cursor. */
 async function legendFollows(page, index, time) {
   const chart = report.charts[index];
-  const rows = await page.locator(`#${chart.id} .legend tbody tr`).all();
-  assert.equal(rows.length, chart.columns.length);
-  for (const [n, row] of rows.entries()) {
-    const cells = await row.locator('.now').allTextContents();
-    const candidates = bucketValues(report, chart.columns[n], time).map((pair) => pair.slice(0, cells.length));
-    check(candidates.some((pair) => pair.every((value, i) => value === cells[i])),
-      `${chart.title}, curve ${n} at ${time} s: ${cells} is none of ${JSON.stringify(candidates)}`);
+  const cells = await page.locator(`#${chart.id} .legend .now`).allTextContents();
+  assert.equal(cells.length, chart.columns.length);
+  for (const [n, cell] of cells.entries()) {
+    const candidates = bucketValues(report, chart.columns[n], time);
+    check(candidates.includes(cell), `${chart.title}, curve ${n} at ${time} s: ${cell} is none of ${JSON.stringify(candidates)}`);
   }
+  const limits = await page.locator(`#${chart.id} .legend .limit`).count();
+  check(limits === (chart.limits ?? []).length, `${chart.title}: ${limits} limits in the legend`);
 }
 
 async function cursorAndZoom(page, narrow) {
@@ -119,9 +119,9 @@ async function cursorAndZoom(page, narrow) {
   await page.getByRole('button', { name: 'Show the whole run' }).first().click();
   await frames(page);
   check(String(await readRange(page)) === String(whole), 'the button shows the whole run');
-  await page.getByRole('button', { name: 'Show a shorter time' }).first().click();
+  await page.getByRole('button', { name: 'Show a narrower range of the time' }).first().click();
   await frames(page);
-  check((await readRange(page))[1] - (await readRange(page))[0] < whole[1] - whole[0], 'the plus button shortens the span');
+  check((await readRange(page))[1] - (await readRange(page))[0] < whole[1] - whole[0], 'the plus button narrows the range');
   await first.dblclick({ position: { x: 40, y: 40 } });
   await frames(page);
   check(String(await readRange(page)) === String(whole), 'a double click shows the whole run');
@@ -147,6 +147,38 @@ async function spike(page) {
     return [top(share), top(share + 0.06)];
   }, 3.3333 / 10);
   check(tops[1] - tops[0] > 30, `the spike is drawn: highest pixels ${tops}`);
+}
+
+/** Charts over a speed or a frequency: the cursor stands at a point of a curve, whose value is in the legend; a drag enlarges. */
+async function overAxes(page) {
+  for (const plane of report.planes) {
+    const chart = page.locator(`#${plane.id}`);
+    const over = chart.locator('.u-over');
+    await over.scrollIntoViewIfNeeded();
+    const box = await over.boundingBox();
+    await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.5 * box.height);
+    await frames(page);
+    const line = await chart.locator('.cursor-line').evaluate((node) => new DOMMatrix(getComputedStyle(node).transform).m41);
+    const { from, to, log } = plane.axis;
+    const share = line / box.width;
+    const place = log ? from * (to / from) ** share : from + share * (to - from);
+    check(Math.abs(share - 0.6) < 0.25, `${plane.title}: the cursor is at ${place}`);
+    const cells = await chart.locator('.legend .now').allTextContents();
+    for (const [n, curve] of plane.curves.entries()) {
+      const candidates = pointValues(curve, place);
+      check(candidates.includes(cells[n]), `${plane.title}, ${curve.label} at ${place}: ${cells[n]} is none of ${candidates}`);
+    }
+    const painted = () => chart.locator('canvas').evaluate((canvas) => canvas.toDataURL());
+    const whole = await painted();
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.8 * box.width, box.y + 0.5 * box.height, { steps: 4 });
+    await page.mouse.up();
+    await frames(page);
+    check(whole !== await painted(), `${plane.title}: a drag shows a part`);
+    await over.dblclick({ position: { x: 30, y: 30 } });
+    await frames(page);
+    check(whole === await painted(), `${plane.title}: a double click shows all`);
+  }
 }
 
 async function keyboard(page) {
@@ -292,7 +324,9 @@ async function main() {
       const page = await open(browser, { viewport: { width, height: 900 }, colorScheme, hasTouch: width < 500 });
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);
       check(wide <= width, `the page is ${wide} px wide in a window of ${width} px`);
-      check(await page.locator('.chart').count() === report.charts.length, 'each chart of the data is there');
+      const drawn = report.charts.length + report.planes.length;
+      check(await page.locator('.chart').count() === drawn, 'each chart of the data is there');
+      if (report.planes.length > 0) await overAxes(page);
       if (report.charts.length > 0) {
         if (options.page === undefined) await spike(page);
         await cursorAndZoom(page, width < 500);

@@ -64,8 +64,7 @@ const attitudeAt = (t) => {
 /** Least and largest value of each bucket, less an offset. */
 function column(name, label, unit, frame, f, offset = 0) {
   const per = STEPS / BUCKETS;
-  const low = [];
-  const high = [];
+  const [low, high, first] = [[], [], []];
   for (let b = 0; b < BUCKETS; b += 1) {
     let [least, most] = [Infinity, -Infinity];
     for (let k = Math.ceil(b * per); k < (b + 1) * per; k += 1) {
@@ -73,12 +72,16 @@ function column(name, label, unit, frame, f, offset = 0) {
       least = Math.min(least, value);
       most = Math.max(most, value);
     }
+    first.push(f((Math.ceil(b * per) * END) / STEPS) - offset);
     low.push(least);
     high.push(most);
   }
-  const made = { name, label, unit, frame, min: f32(low), max: f32(high), final: f(END) };
+  const made = { name, label, unit, frame, min: f32(low), max: f32(high), first: f32(first), final: f(END) };
   if (offset !== 0) made.offset = offset;
-  if (low.every((value, b) => Math.fround(value) === Math.fround(high[b]))) delete made.max;
+  if (low.every((value, b) => Math.fround(value) === Math.fround(high[b]))) {
+    delete made.max;
+    delete made.first;
+  }
   return made;
 }
 
@@ -111,6 +114,10 @@ const CHARTS = [
   ['Relative drift', '', [17, 18], true],
   ['Force on the mount of cmg1', 'N', [19]],
 ].map(([title, unit, list, log = false], i) => ({ id: `chart-${i}`, title, unit, columns: list, log, static: `figure-${i}` }));
+
+// A limit over a part of the run, on both sides, and one that is too far away to be drawn.
+CHARTS[2].limits = [{ label: 'limit of a gimbal', values: [70, -70], from: 2, to: END }];
+CHARTS[7].limits = [{ label: 'limit of load', values: [200], from: 0, to: END }];
 
 /** Joint frames of the pyramid: gimbal axis z, spin axis x of the gimbal frame. */
 function joints() {

@@ -1,11 +1,78 @@
 // Curves on the canvas of a chart. Where the least and the largest value of a bucket lie apart on the
-// screen, the band between them is filled and both edges are drawn; where they do not, one dashed line.
+// screen, the band between them is filled and both edges are drawn; where they do not, one dashed line. Values that were
+// measured are crosses, limits dashed lines.
+
+import { LIMIT_DASH } from './palette.js';
 
 /** Above this distance of the edges, in CSS pixels, a band is drawn. */
 const APART = 2.5;
 
-/** Draws one column. `curve` has x, low, high (arrays), colour and dash. */
+/** Half the size of a cross, CSS pixels. */
+const CROSS = 3.5;
+
+/** Values that were measured, as crosses. */
+function drawMarks(u, { colour, measured: { x: all, y: values } }) {
+  const { ctx } = u;
+  const ratio = window.devicePixelRatio || 1;
+  const floor = u.scales.y.distr === 3 ? u.scales.y.min : -Infinity;
+  const half = CROSS * ratio;
+  const path = new Path2D();
+  for (let k = 0; k < all.length; k += 1) {
+    if (!(values[k] >= floor)) continue;
+    const [x, y] = [u.valToPos(all[k], 'x', true), u.valToPos(values[k], 'y', true)];
+    path.moveTo(x - half, y);
+    path.lineTo(x + half, y);
+    path.moveTo(x, y - half);
+    path.lineTo(x, y + half);
+  }
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 1.2 * ratio;
+  ctx.setLineDash([]);
+  ctx.stroke(path);
+}
+
+/** The interval of a fitted curve, as a band. */
+function fillInterval(u, curve, from, to) {
+  const { ctx } = u;
+  const floor = u.scales.y.distr === 3 ? u.scales.y.min : -Infinity;
+  const [low, high] = curve.interval;
+  const path = new Path2D();
+  const place = (k, values) => [u.valToPos(curve.x[k], 'x', true), u.valToPos(Math.max(values[k], floor), 'y', true)];
+  for (let k = from; k < to; k += 1) {
+    if (![low[k], high[k], low[k + 1], high[k + 1]].every(Number.isFinite)) continue;
+    path.moveTo(...place(k, high));
+    path.lineTo(...place(k + 1, high));
+    path.lineTo(...place(k + 1, low));
+    path.lineTo(...place(k, low));
+    path.closePath();
+  }
+  ctx.fillStyle = curve.colour;
+  ctx.globalAlpha = 0.3;
+  ctx.fill(path);
+  ctx.globalAlpha = 1;
+}
+
+/** A limit over the time in which it holds: dashed lines. */
+export function drawLimit(u, { values, from, to }, colours) {
+  const { ctx } = u;
+  const ratio = window.devicePixelRatio || 1;
+  ctx.strokeStyle = colours.ink;
+  ctx.lineWidth = 1.3 * ratio;
+  ctx.setLineDash(LIMIT_DASH.map((length) => length * ratio));
+  for (const value of values) {
+    const y = u.valToPos(value, 'y', true);
+    ctx.beginPath();
+    ctx.moveTo(u.valToPos(from, 'x', true), y);
+    ctx.lineTo(u.valToPos(to, 'x', true), y);
+    ctx.stroke();
+  }
+  ctx.setLineDash([]);
+}
+
+/** Draws one curve, from one index to another: it has x, low, high (arrays), colour and dash. */
 export function drawCurve(u, curve, from, to) {
+  if (curve.measured) drawMarks(u, curve);
+  if (curve.interval) fillInterval(u, curve, from, to);
   const { ctx } = u;
   const ratio = window.devicePixelRatio || 1;
   const log = u.scales.y.distr === 3;

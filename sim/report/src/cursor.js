@@ -1,53 +1,63 @@
-// What all charts and the replay share: the time of the cursor, and the range of time on show.
+// What charts over one axis share, and the replay: the place of the cursor on that axis, and the range on show.
 
-/** A shared cursor over a run from `start` to `end`. */
-export function createCursor(start, end) {
-  const listeners = { time: [], range: [] };
+/** A shared cursor on an axis from `start` to `end`; `log` where equal ratios are equally far apart. */
+export function createCursor(start, end, log = false) {
+  const listeners = { at: [], range: [] };
   const whole = [start, end > start ? end : start + 1];
-  // A range shorter than this share of the run is not shown.
-  const shortest = (whole[1] - whole[0]) * 1e-7;
-  const state = { time: start, range: [...whole] };
+  const [place, value] = log ? [Math.log, Math.exp] : [(v) => v, (p) => p];
+  const ends = whole.map(place);
+  // A range shorter than this share of the axis is not shown.
+  const shortest = (ends[1] - ends[0]) * 1e-7;
+  const state = { at: start, range: [...whole] };
 
   const emit = (kind) => listeners[kind].forEach((listener) => listener(state));
 
   return {
     whole,
     state,
-    onTime(listener) {
-      listeners.time.push(listener);
+    /** Whether the whole axis is on show. */
+    isWhole: () => state.range[0] === whole[0] && state.range[1] === whole[1],
+    onMove(listener) {
+      listeners.at.push(listener);
     },
     onRange(listener) {
       listeners.range.push(listener);
     },
-    setTime(time) {
-      const clamped = Math.min(Math.max(time, whole[0]), whole[1]);
-      if (clamped === state.time) return;
-      state.time = clamped;
-      emit('time');
+    moveTo(at) {
+      const clamped = Math.min(Math.max(at, whole[0]), whole[1]);
+      if (clamped === state.at) return;
+      state.at = clamped;
+      emit('at');
     },
     setRange(from, to) {
-      const width = Math.min(Math.max(to - from, shortest), whole[1] - whole[0]);
-      let left = Math.max(whole[0], from);
-      left = Math.min(left, whole[1] - width);
-      if (left === state.range[0] && left + width === state.range[1]) return;
-      state.range = [left, left + width];
+      const [a, b] = [place(Math.max(from, log ? whole[0] : -Infinity)), place(to)];
+      const width = Math.min(Math.max(b - a, shortest), ends[1] - ends[0]);
+      const left = Math.min(Math.max(ends[0], a), ends[1] - width);
+      // At its ends the axis has its own numbers, which a logarithm would round.
+      const range = [
+        left === ends[0] ? whole[0] : value(left),
+        left + width >= ends[1] ? whole[1] : value(left + width),
+      ];
+      if (range[0] === state.range[0] && range[1] === state.range[1]) return;
+      state.range = range;
       emit('range');
     },
     /** The range divided by a factor, about the cursor if it is on show and about the middle if not. */
     zoom(factor) {
-      const [from, to] = state.range;
-      const about = state.time >= from && state.time <= to ? state.time : (from + to) / 2;
-      this.setRange(about - (about - from) / factor, about + (to - about) / factor);
+      const [from, to] = state.range.map(place);
+      const at = place(state.at);
+      const about = at >= from && at <= to ? at : (from + to) / 2;
+      this.setRange(value(about - (about - from) / factor), value(about + (to - about) / factor));
     },
     showAll() {
       this.setRange(whole[0], whole[1]);
     },
     /** The range moved, where need be, so that the cursor is on show. */
     reveal() {
-      const [from, to] = state.range;
-      const width = to - from;
-      if (state.time < from) this.setRange(state.time - 0.1 * width, state.time + 0.9 * width);
-      if (state.time > to) this.setRange(state.time - 0.9 * width, state.time + 0.1 * width);
+      const [from, to] = state.range.map(place);
+      const [at, width] = [place(state.at), to - from];
+      if (at < from) this.setRange(value(at - 0.1 * width), value(at + 0.9 * width));
+      if (at > to) this.setRange(value(at - 0.9 * width), value(at + 0.1 * width));
     },
   };
 }

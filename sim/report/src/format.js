@@ -26,6 +26,11 @@ export function number(value, digits = 5) {
   return `${signed(mantissa)}×${powerOfTen(Number(exponent))}`;
 }
 
+/** One value, or two with a word between where they differ. */
+export function interval([low, high], between = ' \u2026 ') {
+  return low === high || Number.isNaN(low) ? number(low) : `${number(low)}${between}${number(high)}`;
+}
+
 /** A number without zeros at the end, for lengths of time and scales. */
 export function plain(value, digits = 4) {
   const text = number(value, digits);
@@ -43,7 +48,7 @@ export function duration(seconds) {
   return `${plain(seconds / unit)}\u00a0${name}`;
 }
 
-/** An instant in seconds, with the decimals that tell steps of `step` apart. */
+/** A place on an axis, with the decimals that tell steps of `step` apart. */
 export function instant(seconds, step) {
   const decimals = step > 0 ? Math.max(0, Math.min(12, Math.ceil(-Math.log10(step)) + 1)) : 3;
   const text = seconds.toFixed(decimals);

@@ -14,6 +14,9 @@ const CURVES = [
 /** Lengths of strokes and gaps, in CSS pixels. */
 const DASHES = [[], [8, 3], [2, 2.5], [9, 3, 2, 3], [14, 4], [4, 4], [9, 3, 2, 3, 2, 3], [5, 2]];
 
+/** Dash of limits. */
+export const LIMIT_DASH = [6, 3, 1, 3];
+
 /** Colour of the nth curve of a chart. */
 export function curveColour(n, dark) {
   const pair = CURVES[n % CURVES.length];

@@ -85,7 +85,7 @@ export function createReplay(place, report, cursor, theme) {
   let scale = 1;
   let playing = null;
   // An instant finer than the shared cursor's listeners need: the replay's own time is the cursor's.
-  const now = () => cursor.state.time;
+  const now = () => cursor.state.at;
 
   const play = element('button', { type: 'button', class: 'play' });
   const slider = element('input', { type: 'range', min: '0', max: '10000', step: '1', 'aria-label': 'Time in the window' });
@@ -173,7 +173,7 @@ export function createReplay(place, report, cursor, theme) {
   }
 
   function start() {
-    if (now() < motion.start || now() >= motion.end) cursor.setTime(motion.start);
+    if (now() < motion.start || now() >= motion.end) cursor.moveTo(motion.start);
     playing = { request: 0, from: now(), since: performance.now(), still: 0 };
     play.textContent = 'Pause';
     playing.request = requestAnimationFrame(advance);
@@ -191,22 +191,22 @@ export function createReplay(place, report, cursor, theme) {
     const shown = calm.matches ? Math.floor(elapsed * STILLS) / STILLS : elapsed;
     const time = playing.from + shown * scale;
     if (time >= motion.end || now() < motion.start) {
-      cursor.setTime(motion.end);
+      cursor.moveTo(motion.end);
       pause();
       return;
     }
-    cursor.setTime(time);
+    cursor.moveTo(time);
     playing.set = now();
   }
 
   play.addEventListener('click', () => (playing === null ? start() : pause()));
   slider.addEventListener('input', () => {
-    cursor.setTime(motion.start + (Number(slider.value) / 10000) * (motion.end - motion.start));
+    cursor.moveTo(motion.start + (Number(slider.value) / 10000) * (motion.end - motion.start));
   });
   windows.addEventListener('change', () => {
     pause();
     choose(Number(windows.value));
-    if (now() < motion.start || now() > motion.end) cursor.setTime(motion.start);
+    if (now() < motion.start || now() > motion.end) cursor.moveTo(motion.start);
   });
   speeds.addEventListener('change', () => {
     scale = Number(speeds.value);
@@ -221,7 +221,7 @@ export function createReplay(place, report, cursor, theme) {
     pause();
     statement.replaceChildren(element('span', {}, 'The browser has taken WebGL away from this page; reload it for the replay.'));
   });
-  cursor.onTime(draw);
+  cursor.onMove(draw);
 
   const colours = () => {
     const { paper, ink } = surface(theme.dark());

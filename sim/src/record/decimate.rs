@@ -1,5 +1,5 @@
-//! [`Decimate`]: a history in bounded memory for figures: least and greatest value of each column
-//! in buckets of 2^k samples.
+//! [`Decimate`]: a history in bounded memory for figures: first, least and greatest value of each
+//! column in buckets of 2^k samples.
 //!
 //! When all buckets are full, neighbours are merged and each is of twice as many samples; so a run
 //! of any length has between half the capacity and the capacity, and no spike is lost.
@@ -25,6 +25,8 @@ pub struct Bucket {
     pub start: f64,
     /// Time of the last sample, s.
     pub end: f64,
+    /// The first sample.
+    pub first: Vec<f64>,
     /// Least value of each column; NaN only where every value is.
     pub min: Vec<f64>,
     /// Greatest value of each column.
@@ -92,8 +94,8 @@ impl Recorder for Decimate {
             bucket.include(time, row, row);
             self.in_last += 1;
         } else {
-            let (min, max) = (row.to_vec(), row.to_vec());
-            self.buckets.push(Bucket { start: time, end: time, min, max });
+            let [first, min, max] = std::array::from_fn(|_| row.to_vec());
+            self.buckets.push(Bucket { start: time, end: time, first, min, max });
             self.in_last = 1;
         }
         Ok(())

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::draw::curves::CurveChart;
+
 /// A section.
 #[derive(Serialize)]
 pub(super) struct Section {
@@ -23,8 +25,15 @@ pub(super) enum Block {
     Note { text: String },
     /// A table.
     Table { caption: String, columns: Vec<Heading>, rows: Vec<TableRow> },
-    /// A static figure.
-    Figure { id: String, number: String, caption: String, svg: String },
+    /// A static figure, and what the script draws in its place.
+    Figure {
+        id: String,
+        number: String,
+        caption: String,
+        svg: String,
+        #[serde(skip)]
+        charts: Vec<CurveChart>,
+    },
     /// Events, numbered from 1.
     Events { items: Vec<Item> },
     /// A list; `style` is `warnings` or `plain`.

@@ -1,7 +1,7 @@
 //! The page of a sweep or of a Monte Carlo campaign: what became of the requirements, tables, pictures, the scenario.
 
 use super::blocks::{Block, Fact, Section, Summary, Verdict, table};
-use super::data::without_charts;
+use super::data::of_curves;
 use super::draw::picture::Picture;
 use super::error::ReportError;
 use super::page::{Page, lines};
@@ -66,7 +66,8 @@ impl CampaignPage<'_> {
         let pictures = self.pictures.iter().enumerate().map(|(index, (caption, picture))| {
             let number = (index + 1).to_string();
             let id = format!("figure-{number}");
-            Ok(Block::Figure { id, number, caption: caption.clone(), svg: picture.inline()? })
+            let (caption, charts) = (caption.clone(), picture.charts());
+            Ok(Block::Figure { id, number, caption, svg: picture.inline()?, charts })
         });
         let pictures = pictures.collect::<Result<Vec<_>, ReportError>>()?;
         let tables = self.tables.iter().filter(|table| !table.rows.is_empty());
@@ -86,17 +87,18 @@ impl CampaignPage<'_> {
         sections.retain(|(_, _, blocks)| !blocks.is_empty());
         let sections =
             sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
+        let sections: Vec<_> = sections.collect();
         let page = Page {
             subject: self.subject,
             title: &self.scenario.title,
             name: &self.scenario.name,
-            data: without_charts(&self.scenario.name, &self.scenario.title)?,
+            data: of_curves(&self.scenario.name, &self.scenario.title, &sections)?,
             verdict,
             summary: Summary {
                 paragraphs: Vec::new(),
                 facts: self.facts.into_iter().map(|(name, value)| Fact::new(name, value)).collect(),
             },
-            sections: sections.collect(),
+            sections,
         };
         page.html()
     }

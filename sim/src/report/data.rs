@@ -2,8 +2,11 @@
 
 use serde::Serialize;
 
+use super::blocks::Section;
+use super::curve_data::CurveData;
 use super::error::ReportError;
 use super::run::chart::ScaledChart;
+use super::run::limits::DrawnLimit;
 use super::run::replay::ReplayData;
 use crate::record::Event;
 use crate::scenario::Scenario;
@@ -25,6 +28,8 @@ struct Data<'a> {
     charts: Vec<ChartData<'a>>,
     events: Vec<EventData<'a>>,
     replay: Option<&'a ReplayData>,
+    #[serde(flatten)]
+    curves: CurveData<'a>,
 }
 
 #[derive(Serialize)]
@@ -36,6 +41,8 @@ struct ColumnData<'a> {
     min: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     max: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<f64>,
     #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
@@ -51,12 +58,29 @@ struct ChartData<'a> {
     log: bool,
     #[serde(rename = "static")]
     figure: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    limits: Vec<LimitData<'a>>,
+}
+
+#[derive(Serialize)]
+struct LimitData<'a> {
+    label: &'a str,
+    values: &'a [f64],
+    from: f64,
+    to: f64,
 }
 
 #[derive(Serialize)]
 struct EventData<'a> {
     time: f64,
     text: &'a str,
+}
+
+impl<'a> LimitData<'a> {
+    fn new(limit: &'a DrawnLimit) -> Self {
+        let [from, to] = limit.window;
+        Self { label: &limit.label, values: &limit.values, from, to }
+    }
 }
 
 /// The data block of these charts, whose buckets start at `time`; `<` written as `\u003c`.
@@ -79,12 +103,14 @@ pub(super) fn data(
                 singles(&values.iter().map(|value| value - less).collect::<Vec<_>>())
             };
             let (min, max) = (less(&curve.min), less(&curve.max));
+            let banded = max != min;
             ColumnData {
                 name: &curve.curve.name,
                 label: &curve.curve.label,
                 unit: chart.unit.name,
                 frame: &curve.curve.frame,
-                max: (max != min).then_some(max),
+                max: banded.then_some(max),
+                first: banded.then(|| less(&curve.first)),
                 offset,
                 min,
                 last: curve.last.is_finite().then_some(curve.last),
@@ -97,6 +123,7 @@ pub(super) fn data(
             columns: (first..columns.len()).collect(),
             log: false,
             figure: figure_id(chart),
+            limits: chart.limits.iter().map(LimitData::new).collect(),
         });
     }
     let data = Data {
@@ -109,12 +136,17 @@ pub(super) fn data(
         charts,
         events: events.iter().map(|Event { time, text }| EventData { time: *time, text }).collect(),
         replay,
+        curves: CurveData::default(),
     };
     Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
 }
 
-/// The data block of a page whose figures are only static.
-pub(super) fn without_charts(name: &str, title: &str) -> Result<String, ReportError> {
+/// The data block of a page that is not of a run: the charts of its figures.
+pub(super) fn of_curves(
+    name: &str,
+    title: &str,
+    sections: &[Section],
+) -> Result<String, ReportError> {
     let data = Data {
         format: FORMAT,
         name,
@@ -125,6 +157,7 @@ pub(super) fn without_charts(name: &str, title: &str) -> Result<String, ReportEr
         charts: Vec::new(),
         events: Vec::new(),
         replay: None,
+        curves: CurveData::of_sections(sections),
     };
     Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
 }

@@ -13,6 +13,7 @@
 
 mod blocks;
 pub(crate) mod campaign;
+mod curve_data;
 mod data;
 mod draw;
 mod error;
@@ -34,6 +35,7 @@ pub use error::{DrawError, ReportError};
 
 use run::chart::{Chart, ScaledChart, drawn};
 use run::extremes::{Extremes, Magnitude};
+use run::limits::limits;
 use run::replay::Collector;
 use run::{grouping, summary};
 
@@ -44,9 +46,9 @@ use crate::scenario::Scenario;
 
 /// Bytes of a page for the histories in its data block; with script, replay and figures a page of
 /// four double-gimbal devices is below 1.5 MB.
-const HISTORY_BYTES: usize = 300_000;
-/// Bytes of a bucket of one curve: two single-precision numbers, four characters for three bytes.
-const BUCKET_BYTES: usize = 11;
+const HISTORY_BYTES: usize = 436_000;
+/// Bytes of a bucket of one curve: three single-precision numbers, four characters for three bytes.
+const BUCKET_BYTES: usize = 16;
 /// Fewest and most buckets.
 const BUCKETS: [usize; 2] = [120, 1600];
 
@@ -135,8 +137,13 @@ impl Report {
         let Some(collected) = &self.collected else { return Vec::new() };
         let buckets = collected.history.buckets();
         let [first, last] = [&collected.first, &collected.row];
-        let charts = collected.charts.iter();
-        charts.map(|chart| drawn(chart, buckets, first, last)).filter(|d| !d.is_zero()).collect()
+        let stated = (self.scenario.requirements.as_slice(), &collected.header);
+        let scaled = |chart| {
+            let mut drawn = drawn(chart, buckets, first, last);
+            drawn.limits = limits((chart, &drawn), stated, first);
+            drawn
+        };
+        collected.charts.iter().map(scaled).filter(|drawn| !drawn.is_zero()).collect()
     }
 
     /// Titles of the charts whose curves are zero throughout, which are not drawn.

@@ -117,6 +117,7 @@ fn sections(
                     number: number.to_string(),
                     caption: caption(drawn),
                     svg: drawn.figure().inline()?,
+                    charts: Vec::new(),
                 })
             })
             .collect()
@@ -160,6 +161,10 @@ fn caption(drawn: &ScaledChart) -> String {
             " Only one of these curves is seen, since they lie on one another: {}.",
             same.join(", ")
         );
+    }
+    let peak = drawn.peak();
+    for limit in drawn.limits.iter().filter(|limit| limit.near(peak).is_empty()) {
+        let _ = write!(caption, " Beyond the axis: {}, {}.", limit.label, limit.written);
     }
     caption
 }

@@ -12,6 +12,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::axes::{Space, axes, svg_file, title};
+use super::legend::{Entry, Sample, colour, legend, limit_stroke, stroke};
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
 use crate::report::number::power_of_ten;
@@ -23,13 +24,6 @@ pub(in crate::report) const THEME: &str = include_str!("theme.css");
 pub(in crate::report) const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 /// Grid lines.
 pub(in crate::report) const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
-/// Colours of the curves in order; they repeat.
-const COLOURS: [&str; 7] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9"];
-/// Dashes of the curves in order, tenths of a unit; they repeat.
-const DASHES: [&str; 8] =
-    ["", "80 30", "20 25", "90 30 20 30", "140 40", "40 40", "90 30 20 30 20 30", "50 20"];
-
 pub(in crate::report) const FONT: &str =
     "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 /// Tenths of a unit, see above.
@@ -71,6 +65,19 @@ pub(in crate::report) struct Figure {
     pub(in crate::report) span: [f64; 2],
     /// The curves.
     pub(in crate::report) lines: Vec<Line>,
+    /// Limits on them.
+    pub(in crate::report) limits: Vec<LimitLine>,
+}
+
+/// A limit: horizontal lines over a time.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct LimitLine {
+    /// Its name in the legend.
+    pub(in crate::report) name: String,
+    /// Where the lines are; none where they would leave no room for the curves.
+    pub(in crate::report) values: Vec<f64>,
+    /// Where they begin and end, s.
+    pub(in crate::report) window: [f64; 2],
 }
 
 /// One curve.
@@ -110,8 +117,10 @@ impl Figure {
     }
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
-        let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
-        document(&self.description, style, &names, [WIDTH, PANEL], |panel| self.draw(panel))
+        let mut entries = Entry::curves(self.lines.iter().map(|line| line.name.as_str()));
+        let limits = self.limits.iter().filter(|limit| !limit.values.is_empty());
+        entries.extend(limits.map(|limit| Entry { name: &limit.name, sample: Sample::Limit }));
+        document(&self.description, style, &entries, [WIDTH, PANEL], |panel| self.draw(panel))
     }
 
     /// Draws the axes and returns the curves.
@@ -119,7 +128,9 @@ impl Figure {
         title(area, &self.title)?;
         let (power, label) = self.label();
         let values = || self.lines.iter().flat_map(|line| &line.bands);
-        let y = range_of(values().flat_map(|band| [band.min * power, band.max * power]));
+        let limits = self.limits.iter().flat_map(|limit| limit.values.iter().copied());
+        let all = values().flat_map(|band| [band.min, band.max]).chain(limits);
+        let y = range_of(all.map(|value| value * power));
         let [from, to] = self.span;
         let x = if from < to { from..to } else { from - 0.5..from + 0.5 };
         let labels = ["Time t (s)", label.as_str()];
@@ -130,6 +141,13 @@ impl Figure {
             [time, greatest, least]
         };
         let mut out = String::new();
+        for limit in &self.limits {
+            for value in &limit.values {
+                let ends = limit.window.map(|time| chart.backend_coord(&(time, value * power)));
+                let ends = ends.map(<[i32; 2]>::from);
+                let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&ends), limit_stroke(10));
+            }
+        }
         for (index, line) in self.lines.iter().enumerate() {
             for run in line.merged() {
                 let placed: Vec<_> = run.iter().map(place).collect();
@@ -163,11 +181,11 @@ impl Figure {
 pub(in crate::report) fn document(
     description: &str,
     style: &str,
-    names: &[&str],
+    entries: &[Entry<'_>],
     [width, panel_height]: [f64; 2],
     draw: impl FnOnce(&Area<'_>) -> Result<String, DrawError>,
 ) -> Result<String, DrawError> {
-    let (legend, rows) = legend(names, width);
+    let (legend, rows) = legend(entries, width);
     let height = LEGEND * f64::from(rows) + panel_height;
     let mut axes = String::new();
     let curves;
@@ -192,50 +210,6 @@ pub(in crate::report) fn document(
          <rect x=\"{x}\" y=\"{x}\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>\n\
          {legend}<g stroke-linejoin=\"round\">{body}</g>\n{curves}</svg>\n"
     ))
-}
-
-/// The legend in a width, and its rows.
-fn legend(names: &[&str], room: f64) -> (String, u32) {
-    /// Width that a letter of a name takes, on average, and that of a line sample with its gaps.
-    const LETTER: f64 = 0.52 * TYPE;
-    const SAMPLE: f64 = 22.0;
-    const GAP: f64 = 6.0;
-    const BETWEEN: f64 = 20.0;
-    #[expect(clippy::cast_precision_loss, reason = "names are short")]
-    let width = |name: &str| SAMPLE + GAP + LETTER * name.chars().count() as f64;
-    let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
-    for (index, name) in names.iter().enumerate() {
-        match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(name) <= room) {
-            Some((used, row)) => {
-                *used += BETWEEN + width(name);
-                row.push(index);
-            }
-            None => rows.push((width(name), vec![index])),
-        }
-    }
-    let mut out = format!("<g font-family=\"{FONT}\" font-size=\"{}\">", px(TYPE));
-    let mut y = 0.5 * LEGEND;
-    for (used, row) in &rows {
-        let mut x = 0.5 * (room - used);
-        for (index, name) in row.iter().filter_map(|&index| names.get(index).map(|n| (index, n))) {
-            let stroke = stroke(index, 20);
-            let _ = write!(
-                out,
-                "<path d=\"M{} {}h{}\" {stroke}/><text x=\"{}\" y=\"{}\" dy=\"0.32em\" \
-                 fill=\"#1C1C1E\">{}</text>",
-                px(x),
-                px(y),
-                px(SAMPLE),
-                px(x + SAMPLE + GAP),
-                px(y),
-                symbol(name)
-            );
-            x += width(name) + BETWEEN;
-        }
-        y += LEGEND;
-    }
-    out.push_str("</g>\n");
-    (out, u32::try_from(rows.len()).unwrap_or(1))
 }
 
 impl Line {
@@ -280,7 +254,7 @@ fn path(out: &mut String, run: &[BandPosition], index: usize) {
     let greatest: Vec<_> = run.iter().map(|[time, greatest, _]| [*time, *greatest]).collect();
     let least = run.iter().rev().map(|[time, _, least]| [*time, *least]);
     let points: Vec<_> = greatest.into_iter().chain(least).collect();
-    let colour = COLOURS[index % COLOURS.len()];
+    let colour = colour(index);
     let _ = writeln!(
         out,
         "<path d=\"{}z\" fill=\"{colour}\" fill-opacity=\"0.45\" stroke=\"{colour}\" \
@@ -306,26 +280,6 @@ pub(in crate::report) fn moves(points: &[[i32; 2]]) -> String {
         at = *point;
     }
     if points.len() == 1 { out + "0 0" } else { out }
-}
-
-/// The attributes of the nth curve's line.
-pub(in crate::report) fn stroke(index: usize, width: u32) -> String {
-    let colour = COLOURS[index % COLOURS.len()];
-    let dash = DASHES[index % DASHES.len()];
-    let dash =
-        if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
-    format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dash}")
-}
-
-/// A label with what follows its `_` lowered.
-fn symbol(label: &str) -> String {
-    match label.split_once('_') {
-        None => escaped(label),
-        Some((base, index)) => {
-            let (base, index) = (escaped(base), escaped(index));
-            format!("{base}<tspan dy=\"0.25em\" font-size=\"{}\">{index}</tspan>", px(0.75 * TYPE))
-        }
-    }
 }
 
 pub(in crate::report) fn text(size: f64, colour: RGBColor) -> TextStyle<'static> {

@@ -2,10 +2,13 @@
 //! amplitude is logarithmic.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use super::axes::{Space, axes, svg_file, title};
-use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, stroke};
-use super::log_panel::decades;
+use super::curves::{ChartCurve, CurveAxis, CurveChart};
+use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves};
+use super::legend::{Entry, Sample, colour, cross_at, cross_stroke, stroke};
+use super::log_panel::{Scale, decades};
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
 
@@ -13,8 +16,9 @@ use crate::report::error::DrawError;
 const HEIGHT: f64 = 1.4;
 /// Decades below the largest amplitude that are shown.
 const DECADES_MAX: f64 = 5.0;
-/// Half the width of a mark, tenths of a unit.
-const MARK: i32 = 16;
+
+/// Label of the horizontal axis.
+const SPEED: &str = "Speed (rpm)";
 
 /// Lines of one group.
 #[derive(Clone, Debug)]
@@ -52,22 +56,53 @@ impl FittedLines {
     }
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
-        let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
-        document(&self.description, style, &names, [WIDTH, HEIGHT * PANEL], |panel| {
+        let each = self.lines.iter().enumerate();
+        let entries: Vec<_> = each
+            .map(|(index, line)| Entry { name: &line.name, sample: Sample::Measured(index) })
+            .collect();
+        document(&self.description, style, &entries, [WIDTH, HEIGHT * PANEL], |panel| {
             self.draw(panel)
         })
     }
 
-    fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
-        title(area, &self.title)?;
-        let positive = |value: &f64| value.is_finite() && *value > 0.0;
+    /// The same for the script of a page.
+    pub(in crate::report) fn chart(&self) -> CurveChart {
+        let (x, y) = (self.speeds(), self.scale().range);
+        let curves = self.lines.iter().map(|line| {
+            let mut measured: Vec<_> =
+                line.measured.iter().copied().filter(|point| positive(&point[1])).collect();
+            measured.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let fitted = line.fitted.iter().map(|p| [p[0], p[1]]).collect();
+            let interval = line.fitted.iter().map(|p| [p[2], p[3]]).collect();
+            ChartCurve { interval, measured, ..ChartCurve::line(&line.name, fitted) }
+        });
+        CurveChart {
+            title: self.title.clone(),
+            axes: [
+                CurveAxis::labelled(SPEED, false, Some([x.start, x.end])),
+                CurveAxis::labelled(&self.axis, true, Some([y.start, y.end])),
+            ],
+            curves: curves.collect(),
+        }
+    }
+
+    fn speeds(&self) -> Range<f64> {
+        range_of(self.lines.iter().flat_map(|line| line.fitted.iter().map(|p| p[0])))
+    }
+
+    /// The vertical axis.
+    fn scale(&self) -> Scale {
         let values = self.lines.iter().flat_map(|line| {
             line.measured.iter().map(|p| p[1]).chain(line.fitted.iter().map(|p| p[1]))
         });
-        let axis = decades(values, DECADES_MAX);
+        decades(values, DECADES_MAX)
+    }
+
+    fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
+        title(area, &self.title)?;
+        let (x, axis) = (self.speeds(), self.scale());
         let y = axis.range.clone();
-        let x = range_of(self.lines.iter().flat_map(|line| line.fitted.iter().map(|p| p[0])));
-        let labels = ["Speed (rpm)", self.axis.as_str()];
+        let labels = [SPEED, self.axis.as_str()];
         let chart = axes(area, &Space { above: ABOVE, below: BELOW }, Axis(x), axis, labels)?;
         let place = |speed: f64, value: f64| {
             let (x, y) = chart.backend_coord(&(speed, value.clamp(y.start, y.end)));
@@ -80,21 +115,24 @@ impl FittedLines {
             let above = shown.iter().map(|p| place(p[0], p[3]));
             let below = shown.iter().rev().map(|p| place(p[0], p[2]));
             let band: Vec<_> = above.chain(below).collect();
-            let colour = stroke(index, 4).replace("fill=\"none\" stroke=", "fill=");
-            let fill = colour.split(' ').next().unwrap_or_default();
-            let _ = writeln!(out, "<path d=\"{}z\" {fill} fill-opacity=\"0.3\"/>", moves(&band));
+            let fill = colour(index);
+            let _ = writeln!(
+                out,
+                "<path d=\"{}z\" fill=\"{fill}\" fill-opacity=\"0.3\"/>",
+                moves(&band)
+            );
             let curve: Vec<_> = shown.iter().map(|p| place(p[0], p[1])).collect();
             let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&curve), stroke(index, 11));
             let mut marks = String::new();
             for [speed, value] in line.measured.iter().filter(|p| positive(&p[1])) {
-                let [x, y] = place(*speed, *value);
-                let size = 2 * MARK;
-                let _ = write!(marks, "M{} {y}h{size}M{x} {}v{size}", x - MARK, y - MARK);
+                marks.push_str(&cross_at(place(*speed, *value)));
             }
-            let plain = stroke(index, 8);
-            let plain = plain.split(" stroke-dasharray").next().unwrap_or_default();
-            let _ = writeln!(out, "<path d=\"{marks}\" {plain}/>");
+            let _ = writeln!(out, "<path d=\"{marks}\" {}/>", cross_stroke(index));
         }
         Ok(out)
     }
+}
+
+fn positive(value: &f64) -> bool {
+    value.is_finite() && *value > 0.0
 }

@@ -6,7 +6,8 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 use super::axes::{Space, axes};
-use super::figure::{Area, BELOW, moves, stroke};
+use super::figure::{Area, BELOW, moves};
+use super::legend::stroke_of;
 use crate::report::error::DrawError;
 use crate::report::number::{power_of_ten, short};
 
@@ -66,27 +67,36 @@ impl Panel<'_> {
         }
     }
 
-    /// Draws the axes and returns the curves, each with a value at every frequency; beyond the axis they follow its
+    /// The axis of the frequency.
+    pub(in crate::report) fn x_axis(&self) -> Scale {
+        Scale { range: self.span(), kind: Kind::Plain }
+    }
+
+    /// Draws the axes and returns the curves, each with its name and a value at every frequency; beyond the axis they follow its
     /// ends.
-    pub(in crate::report) fn draw<C: IntoIterator<Item = f64>>(
+    pub(in crate::report) fn draw<'n, C: IntoIterator<Item = f64>>(
         self,
         area: &Area<'_>,
-        curves: impl Iterator<Item = C>,
+        curves: impl Iterator<Item = (&'n str, C)>,
     ) -> Result<String, DrawError> {
-        let x = self.span();
         let y = self.y.range.clone();
         let phase = self.y.kind == Kind::Phase;
         let below = if self.x_label.is_empty() { 0.45 * BELOW } else { BELOW };
         let space = Space { above: self.above, below };
-        let x_axis = Scale { range: x, kind: Kind::Plain };
+        let x_axis = self.x_axis();
         let chart = axes(area, &space, x_axis, self.y, [self.x_label, self.y_label])?;
         let mut out = String::new();
-        for (index, values) in curves.enumerate() {
+        for (index, (name, values)) in curves.enumerate() {
             let mut run: Vec<[i32; 2]> = Vec::new();
             let mut last = None;
             let mut end = |run: &mut Vec<[i32; 2]>| {
                 if !run.is_empty() {
-                    let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(run), stroke(index, 13));
+                    let _ = writeln!(
+                        out,
+                        "<path d=\"{}\" {}/>",
+                        moves(run),
+                        stroke_of(name, index, 13)
+                    );
                 }
                 run.clear();
             };

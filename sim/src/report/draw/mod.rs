@@ -4,10 +4,13 @@
 
 pub(super) mod axes;
 pub mod cells;
+pub(super) mod curves;
 pub(super) mod figure;
 pub(super) mod fitted_lines;
+mod legend;
 pub(super) mod log_panel;
 pub(crate) mod mode_shapes;
+mod phases;
 pub(crate) mod picture;
 pub(crate) mod plane;
 pub(crate) mod response;

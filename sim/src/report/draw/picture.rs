@@ -1,6 +1,7 @@
 //! [`Picture`]: any of the figures that are not of a run, as a file of its own and as a part of a page.
 
 use super::cells::CellMap;
+use super::curves::CurveChart;
 use super::fitted_lines::FittedLines;
 use super::plane::Plane;
 use super::spectrum::SpectrumFigure;
@@ -25,6 +26,16 @@ impl Picture {
             Self::Plane(figure) => figure.file(),
             Self::Spectrum(figure) => figure.file(),
             Self::Cells(figure) => figure.file(),
+        }
+    }
+
+    /// What the script of a page draws in its place; nothing of a map or a waterfall.
+    pub(in crate::report) fn charts(&self) -> Vec<CurveChart> {
+        match self {
+            Self::Waterfall(_) | Self::Cells(_) => Vec::new(),
+            Self::Lines(figure) => vec![figure.chart()],
+            Self::Plane(figure) => figure.chart().into_iter().collect(),
+            Self::Spectrum(figure) => figure.charts(),
         }
     }
 

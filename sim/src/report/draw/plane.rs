@@ -5,9 +5,11 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use super::axes::{Space, axes, svg_file, title};
+use super::curves::{ChartCurve, CurveAxis, CurveChart};
 use super::figure::{
-    ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, moves, px, stroke,
+    ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, moves, px,
 };
+use super::legend::{Entry, stroke, stroke_of};
 use super::log_panel::{Scale, decades};
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
@@ -65,9 +67,35 @@ impl Plane {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names = self.curves.iter().map(|(name, _)| name.as_str());
-        let names: Vec<_> = names.filter(|name| !name.is_empty()).collect();
+        let entries = Entry::curves(names.filter(|name| !name.is_empty()));
         let size = if self.large { LARGE } else { [WIDTH, PANEL] };
-        document(&self.description, style, &names, size, |panel| self.draw(panel))
+        document(&self.description, style, &entries, size, |panel| self.draw(panel))
+    }
+
+    /// The same for the script of a page; none of a picture with dots, circles or curves without a name.
+    pub(in crate::report) fn chart(&self) -> Option<CurveChart> {
+        let named = self.curves.iter().all(|(name, _)| !name.is_empty());
+        if !named || !self.dots.is_empty() || !self.marks.is_empty() {
+            return None;
+        }
+        let scale = self.scale();
+        let y = scale.as_ref().map_or_else(|| self.range(1), |scale| scale.range.clone());
+        let [across, up] = self.axes.each_ref().map(String::as_str);
+        let x = self.range(0);
+        let curves =
+            self.curves.iter().map(|(name, points)| ChartCurve::line(name, points.clone()));
+        let straight = self.lines.iter().map(|(label, ends)| ChartCurve {
+            limit: true,
+            ..ChartCurve::line(label, ends.to_vec())
+        });
+        Some(CurveChart {
+            title: self.title.clone(),
+            axes: [
+                CurveAxis::labelled(across, false, Some([x.start, x.end])),
+                CurveAxis::labelled(up, scale.is_some(), Some([y.start, y.end])),
+            ],
+            curves: curves.chain(straight).collect(),
+        })
     }
 
     fn range(&self, axis: usize) -> Range<f64> {
@@ -127,7 +155,7 @@ impl Plane {
         }
         for (index, (name, points)) in self.curves.iter().enumerate() {
             // Curves without a name are of one kind.
-            let line = if name.is_empty() { stroke(0, 9) } else { stroke(index, 13) };
+            let line = if name.is_empty() { stroke(0, 9) } else { stroke_of(name, index, 13) };
             for run in thinned(points).split(|point| !point[1].is_finite()) {
                 let placed: Vec<[i32; 2]> = run
                     .iter()

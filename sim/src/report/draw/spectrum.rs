@@ -7,10 +7,14 @@
 use std::f64::consts::LN_2;
 
 use super::axes::{svg_file, title};
+use super::curves::{ChartCurve, CurveAxis, CurveChart};
 use super::figure::{ABOVE, PANEL, WIDTH, document, px};
-use super::log_panel::{Panel, decades};
+use super::legend::Entry;
+use super::log_panel::{Panel, Scale, decades};
 use crate::report::error::DrawError;
 
+/// Label of the horizontal axis.
+const FREQUENCY: &str = "Frequency f (Hz)";
 /// Height of the panel of the RMS.
 const RMS: f64 = 190.0;
 /// Above the panel of the RMS.
@@ -57,17 +61,74 @@ impl SpectrumFigure {
         self.document("")
     }
 
+    /// The same for the script of a page: densities, and RMS.
+    pub(in crate::report) fn charts(&self) -> Vec<CurveChart> {
+        let Thinned { frequencies, densities, sums } = self.thinned();
+        let scales = scales(&densities, &sums);
+        let ends = frequencies.first().zip(frequencies.last()).map(|(from, to)| [*from, *to]);
+        let all = [(densities, "density"), (sums, "cumulative RMS")];
+        let charts = all.into_iter().zip(scales).zip(self.labels()).map(
+            |(((values, what), scale), label)| CurveChart {
+                title: format!("{}: {what}", self.title),
+                axes: [
+                    CurveAxis::labelled(FREQUENCY, true, ends),
+                    CurveAxis::labelled(&label, true, Some([scale.range.start, scale.range.end])),
+                ],
+                curves: self
+                    .curves
+                    .iter()
+                    .zip(values)
+                    .map(|(curve, values)| {
+                        let points = frequencies.iter().zip(values).map(|(f, value)| [*f, value]);
+                        ChartCurve::line(&curve.name, points.collect())
+                    })
+                    .filter(|curve| curve.points.iter().any(|point| point[1] > 0.0))
+                    .collect(),
+            },
+        );
+        charts.collect()
+    }
+
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.curves.iter().map(|curve| curve.name.as_str()).collect();
-        let points = self.points();
-        let at = |values: &[f64]| greatest(&points, values);
-        let frequencies = points.iter().filter_map(|point| self.frequencies.get(point.start));
-        let frequencies: Vec<f64> = frequencies.copied().collect();
-        let densities: Vec<_> =
-            self.curves.iter().map(|curve| levels(&points, &curve.density)).collect();
-        let sums: Vec<_> = self.curves.iter().map(|curve| at(&curve.rms)).collect();
-        let [of_density, of_rms] = DECADES_MAX;
-        let [density_label, rms_label] = match self.unit.as_str() {
+        let Thinned { frequencies, densities, sums } = self.thinned();
+        let [density_label, rms_label] = self.labels();
+        let [of_density, of_rms] = scales(&densities, &sums);
+        document(
+            &self.description,
+            style,
+            &Entry::curves(names.iter().copied()),
+            [WIDTH, PANEL + RMS],
+            |panel| {
+                let (above, below) = panel.split_vertically(px(PANEL));
+                title(&above, &self.title)?;
+                let density = Panel {
+                    above: ABOVE,
+                    frequencies: &frequencies,
+                    y: of_density,
+                    x_label: "",
+                    y_label: &density_label,
+                };
+                let rms = Panel {
+                    above: ABOVE_RMS,
+                    frequencies: &frequencies,
+                    y: of_rms,
+                    x_label: FREQUENCY,
+                    y_label: &rms_label,
+                };
+                let named = |values: &[Vec<f64>]| {
+                    let each = names.iter().copied().zip(values.to_vec());
+                    each.collect::<Vec<_>>().into_iter()
+                };
+                let above = density.draw(&above, named(&densities))?;
+                Ok(above + &rms.draw(&below, named(&sums))?)
+            },
+        )
+    }
+
+    /// Labels of the vertical axes: of densities, and of the RMS.
+    fn labels(&self) -> [String; 2] {
+        match self.unit.as_str() {
             "" => ["Density (1/Hz)".to_owned(), "Cumulative RMS".to_owned()],
             unit => {
                 let square = if unit.contains([' ', '/']) {
@@ -77,27 +138,18 @@ impl SpectrumFigure {
                 };
                 [format!("Density ({square}/Hz)"), format!("Cumulative RMS ({unit})")]
             }
-        };
-        document(&self.description, style, &names, [WIDTH, PANEL + RMS], |panel| {
-            let (above, below) = panel.split_vertically(px(PANEL));
-            title(&above, &self.title)?;
-            let density = Panel {
-                above: ABOVE,
-                frequencies: &frequencies,
-                y: decades(densities.iter().flatten().copied(), of_density),
-                x_label: "",
-                y_label: &density_label,
-            };
-            let rms = Panel {
-                above: ABOVE_RMS,
-                frequencies: &frequencies,
-                y: decades(sums.iter().flatten().copied(), of_rms),
-                x_label: "Frequency f (Hz)",
-                y_label: &rms_label,
-            };
-            let above = density.draw(&above, densities.iter().map(|c| c.iter().copied()))?;
-            Ok(above + &rms.draw(&below, sums.iter().map(|c| c.iter().copied()))?)
-        })
+        }
+    }
+
+    /// The points that are drawn.
+    fn thinned(&self) -> Thinned {
+        let points = self.points();
+        let frequencies = points.iter().filter_map(|point| self.frequencies.get(point.start));
+        Thinned {
+            frequencies: frequencies.copied().collect(),
+            densities: self.curves.iter().map(|curve| levels(&points, &curve.density)).collect(),
+            sums: self.curves.iter().map(|curve| greatest(&points, &curve.rms)).collect(),
+        }
     }
 
     /// The bins of each point of the picture.
@@ -121,6 +173,22 @@ impl SpectrumFigure {
         points.push(start..self.frequencies.len());
         points
     }
+}
+
+/// The points of a picture: of each curve a density and an RMS at each frequency.
+struct Thinned {
+    frequencies: Vec<f64>,
+    densities: Vec<Vec<f64>>,
+    sums: Vec<Vec<f64>>,
+}
+
+/// The vertical axes: of densities, and of the RMS.
+fn scales(densities: &[Vec<f64>], sums: &[Vec<f64>]) -> [Scale; 2] {
+    let [of_density, of_rms] = DECADES_MAX;
+    [
+        decades(densities.iter().flatten().copied(), of_density),
+        decades(sums.iter().flatten().copied(), of_rms),
+    ]
 }
 
 /// The density of each point: the greatest bin where it is a line, else the mean.

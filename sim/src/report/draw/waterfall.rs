@@ -4,7 +4,8 @@
 use std::fmt::Write as _;
 
 use super::axes::{Space, axes, svg_file, title};
-use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, px, stroke};
+use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, px};
+use super::legend::{Entry, stroke};
 use super::scale_bar::{SCALE_WIDTH, ScaleBar};
 use super::ticks::Axis;
 use crate::report::error::DrawError;
@@ -47,8 +48,8 @@ impl Waterfall {
     }
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
-        let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
-        document(&self.description, style, &names, [WIDTH, HEIGHT * PANEL], |panel| {
+        let entries = Entry::curves(self.curves.iter().map(|(name, _)| name.as_str()));
+        document(&self.description, style, &entries, [WIDTH, HEIGHT * PANEL], |panel| {
             self.draw(panel)
         })
     }

@@ -6,7 +6,7 @@ mod figures;
 use std::f64::consts::TAU;
 
 use super::blocks::{Block, Fact, Section, Summary, Verdict, table};
-use super::data::without_charts;
+use super::data::of_curves;
 use super::error::{DrawError, ReportError};
 use super::number::short;
 use super::page::{Page, lines};
@@ -50,6 +50,7 @@ impl FitReport<'_> {
                         number: format!("{}{number}", kind[..1].to_uppercase()),
                         caption: drawing.caption.clone(),
                         svg: drawing.figure.inline()?,
+                        charts: drawing.figure.charts(),
                     })
                 })
                 .collect()
@@ -66,14 +67,15 @@ impl FitReport<'_> {
         sections.retain(|(_, _, blocks)| !blocks.is_empty());
         let sections =
             sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
+        let sections: Vec<_> = sections.collect();
         let page = Page {
             subject: "fit of a wheel",
             title: self.title,
             name: self.name,
-            data: without_charts(self.name, self.title)?,
+            data: of_curves(self.name, self.title, &sections)?,
             verdict: self.verdict(),
             summary: self.summary(),
-            sections: sections.collect(),
+            sections,
         };
         page.html()
     }

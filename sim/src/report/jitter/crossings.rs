@@ -19,6 +19,8 @@ const TOP: f64 = 1.25;
 const ABOVE: f64 = 1.06;
 /// A crossing has a circle from this share of the largest amplitude on.
 const CIRCLE_MIN: f64 = 0.1;
+/// Natural frequencies that stay below this share of the lowest order at every speed are not drawn.
+const FAR_BELOW: f64 = 0.1;
 /// A crossing this near to a worst speed is listed first.
 const NEAR_WORST: f64 = 0.02;
 /// Crossings that the table lists.
@@ -62,7 +64,41 @@ impl JitterReport<'_> {
         shares
     }
 
-    pub(super) fn campbell_diagram(&self) -> Plane {
+    /// Why no Campbell diagram is drawn: no natural frequency is near an order. None where one is.
+    fn far_below(&self) -> Option<String> {
+        let lowest = self.orders().first().copied()?;
+        let mut highest = 0.0_f64;
+        let mut share = 0.0_f64;
+        for branch in self.branches {
+            for (speed, of) in self.campbell_speeds.iter().zip(&branch.points) {
+                let frequency = of.map_or(0.0, |of| of.frequency);
+                highest = highest.max(frequency);
+                share = share.max(frequency / (lowest * speed));
+            }
+        }
+        if share >= FAR_BELOW {
+            return None;
+        }
+        let none = "No Campbell diagram is drawn, since no order can meet a natural frequency: "
+            .to_owned();
+        let reason = if highest > 0.0 {
+            format!(
+                "the highest, {} Hz, is a slow motion of the whole spacecraft and stays below {} % of the lowest order at \
+                 every speed.",
+                short(highest / TAU, 3),
+                short(100.0 * FAR_BELOW, 2)
+            )
+        } else {
+            "hub and devices are rigid, and have none.".to_owned()
+        };
+        Some(none + &reason)
+    }
+
+    /// The Campbell diagram; none where no natural frequency is near an order.
+    pub(super) fn campbell_diagram(&self) -> Option<Plane> {
+        if self.far_below().is_some() {
+            return None;
+        }
         let curve = |branch: &Branch| {
             let points = self.campbell_speeds.iter().zip(&branch.points);
             let point = |(speed, of): (&f64, &Option<Oscillation>)| {
@@ -81,7 +117,7 @@ impl JitterReport<'_> {
         let mut circled: Vec<(&f64, &Crossing)> = shares.iter().zip(self.crossings).collect();
         circled.retain(|(share, _)| **share >= CIRCLE_MIN);
         circled.sort_by(|a, b| b.0.total_cmp(a.0));
-        Plane {
+        Some(Plane {
             description:
                 "Campbell diagram: natural frequencies in Hz over the speed in rpm, with orders."
                     .to_owned(),
@@ -98,13 +134,14 @@ impl JitterReport<'_> {
             large: true,
             logarithmic: false,
             ranges: [Some(self.budget.speeds.map(|speed| speed * RPM)), Some([0.0, top])],
-        }
+        })
     }
 
     pub(super) fn campbell(&self) -> Result<Vec<Block>, DrawError> {
-        if self.branches.is_empty() {
-            return Ok(Vec::new());
+        if let Some(text) = self.far_below() {
+            return Ok(vec![Block::Text { text }]);
         }
+        let Some(diagram) = self.campbell_diagram() else { return Ok(Vec::new()) };
         let shares = self.shares();
         let circled = shares.iter().filter(|share| **share >= CIRCLE_MIN).count();
         let circles = format!(
@@ -120,7 +157,8 @@ impl JitterReport<'_> {
                 "Natural frequencies of structure and devices over the speed (curves), with orders (straight lines, labelled).{}",
                 if shares.is_empty() { "" } else { &circles }
             ),
-            svg: self.campbell_diagram().inline()?,
+            svg: diagram.inline()?,
+            charts: Vec::new(),
         }];
         if self.crossings.is_empty() {
             let text = "No order crosses a natural frequency within the speeds.".to_owned();

@@ -4,6 +4,7 @@
 mod crossings;
 mod figures;
 mod inputs;
+mod peaks;
 mod tables;
 mod verdict;
 
@@ -100,14 +101,15 @@ impl JitterReport<'_> {
         sections.retain(|(_, _, blocks)| !blocks.is_empty());
         let sections =
             sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
+        let sections: Vec<_> = sections.collect();
         let page = Page {
             subject: "jitter budget",
             title: &self.budget.title,
             name: &self.scenario.name,
-            data: super::data::without_charts(&self.scenario.name, &self.budget.title)?,
+            data: super::data::of_curves(&self.scenario.name, &self.budget.title, &sections)?,
             verdict: self.verdict(),
             summary: self.summary(),
-            sections: sections.collect(),
+            sections,
         };
         page.html()
     }
@@ -130,7 +132,9 @@ impl JitterReport<'_> {
                 files.push((format!("density-{}", index + 1), figure.file()?));
             }
         }
-        files.push(("campbell".to_owned(), self.campbell_diagram().file()?));
+        if let Some(diagram) = self.campbell_diagram() {
+            files.push(("campbell".to_owned(), diagram.file()?));
+        }
         Ok(files)
     }
 
@@ -197,12 +201,15 @@ impl JitterReport<'_> {
         let mut blocks =
             vec![table("Requirements, and the worst speed of each", &columns, 2..5, rows)];
         blocks.push(self.by_phases());
+        blocks.extend(self.peaks());
         for (index, of) in self.assessed.iter().enumerate() {
+            let figure = self.over_speed(of);
             blocks.push(Block::Figure {
                 id: format!("figure-requirement-{}", index + 1),
                 number: format!("{}", index + 1),
                 caption: format!("{} over the speed, with its limit.", of.limit.name),
-                svg: self.over_speed(of).inline()?,
+                svg: figure.inline()?,
+                charts: figure.chart().into_iter().collect(),
             });
         }
         Ok(blocks)
@@ -245,7 +252,8 @@ impl JitterReport<'_> {
             blocks.push(Block::Note { text: text.to_owned() });
         }
         for (index, of) in self.assessed.iter().enumerate() {
-            if let Ok(svg) = self.cumulative(of).inline() {
+            let figure = self.cumulative(of);
+            if let Ok(svg) = figure.inline() {
                 blocks.push(Block::Figure {
                     id: format!("figure-cumulative-{}", index + 1),
                     number: format!("C{}", index + 1),
@@ -254,9 +262,16 @@ impl JitterReport<'_> {
                         of.limit.name
                     ),
                     svg,
+                    charts: figure.chart().into_iter().collect(),
                 });
             }
-            if let Some(Ok(svg)) = self.density(of).map(|figure| figure.inline()) {
+        }
+        for (index, of) in self.assessed.iter().enumerate() {
+            let figure = self.density(of);
+            if let Some((figure, Ok(svg))) = figure.map(|figure| {
+                let svg = figure.inline();
+                (figure, svg)
+            }) {
                 blocks.push(Block::Figure {
                     id: format!("figure-density-{}", index + 1),
                     number: format!("D{}", index + 1),
@@ -265,6 +280,7 @@ impl JitterReport<'_> {
                         of.limit.name
                     ),
                     svg,
+                    charts: figure.charts(),
                 });
             }
         }
@@ -279,6 +295,7 @@ impl JitterReport<'_> {
                 number: format!("W{}", sight + 1),
                 caption: format!("{}: {}", of.name, Self::drawn_lines()),
                 svg: self.waterfall(sight).inline()?,
+                charts: Vec::new(),
             });
         }
         Ok(blocks)

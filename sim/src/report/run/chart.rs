@@ -1,7 +1,8 @@
 //! [`Chart`]: the columns of one picture; [`ScaledChart`]: their values in the unit of the picture.
 
+use super::limits::DrawnLimit;
 use crate::record::Bucket;
-use crate::report::draw::figure::{Band, Figure, Line};
+use crate::report::draw::figure::{Band, Figure, LimitLine, Line};
 use crate::report::unit::{Family, Unit, for_peak};
 
 /// Curves that are apart by no more than this share of the range of a figure, a fifth of a line's width, are seen as one.
@@ -69,6 +70,8 @@ pub(in crate::report) struct ScaledChart {
     pub(in crate::report) end: f64,
     /// The curves.
     pub(in crate::report) curves: Vec<DrawnCurve>,
+    /// Limits of requirements on them.
+    pub(in crate::report) limits: Vec<DrawnLimit>,
 }
 
 /// The values of a curve.
@@ -80,6 +83,8 @@ pub(in crate::report) struct DrawnCurve {
     pub(in crate::report) min: Vec<f64>,
     /// Greatest value of each bucket.
     pub(in crate::report) max: Vec<f64>,
+    /// The first sample of each bucket.
+    pub(in crate::report) first: Vec<f64>,
     /// The last value.
     pub(in crate::report) last: f64,
 }
@@ -107,6 +112,7 @@ pub(in crate::report) fn drawn(
         DrawnCurve {
             min: buckets.iter().map(|bucket| read(of(&bucket.min, curve.column))).collect(),
             max: buckets.iter().map(|bucket| read(of(&bucket.max, curve.column))).collect(),
+            first: buckets.iter().map(|bucket| read(of(&bucket.first, curve.column))).collect(),
             last: read(of(last, curve.column)),
             curve: curve.clone(),
         }
@@ -120,6 +126,7 @@ pub(in crate::report) fn drawn(
         time: buckets.iter().map(|bucket| bucket.start).collect(),
         end: buckets.last().map_or(0.0, |bucket| bucket.end),
         curves: curves.collect(),
+        limits: Vec::new(),
     }
 }
 
@@ -127,6 +134,17 @@ impl ScaledChart {
     /// Whether every value is zero.
     pub(in crate::report) fn is_zero(&self) -> bool {
         self.curves.iter().all(|curve| curve.min.iter().chain(&curve.max).all(|v| *v == 0.0))
+    }
+
+    /// Start of the first bucket, s.
+    pub(in crate::report) fn start(&self) -> f64 {
+        self.time.first().copied().unwrap_or(0.0)
+    }
+
+    /// The largest magnitude.
+    pub(in crate::report) fn peak(&self) -> f64 {
+        let all = self.curves.iter().flat_map(|curve| curve.min.iter().chain(&curve.max));
+        all.map(|value| value.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
     }
 
     /// Labels of the curves that lie on one another in its figure, in groups of two or more.
@@ -165,6 +183,12 @@ impl ScaledChart {
             let bands = values.map(|(time, (min, max))| Band { time: *time, min: *min, max: *max });
             Line { name: curve.curve.label.clone(), bands: bands.collect() }
         });
+        let peak = self.peak();
+        let limits = self.limits.iter().map(|limit| LimitLine {
+            name: limit.label.clone(),
+            values: limit.near(peak),
+            window: limit.window,
+        });
         let mut described = self.title.clone();
         if !self.unit.name.is_empty() {
             described = format!("{described}, in {}", self.unit.name);
@@ -174,8 +198,9 @@ impl ScaledChart {
             title: self.title.clone(),
             axis: self.axis,
             unit: self.unit.name,
-            span: [starts.first().copied().unwrap_or(0.0), self.end],
+            span: [self.start(), self.end],
             lines: lines.collect(),
+            limits: limits.collect(),
         }
     }
 }

@@ -3,6 +3,7 @@
 pub(super) mod chart;
 pub(super) mod extremes;
 pub(super) mod grouping;
+pub(super) mod limits;
 pub(super) mod load_tables;
 pub(super) mod mass;
 pub(super) mod replay;

@@ -14,6 +14,7 @@ use self::colours::colour;
 use self::contour::segments;
 use super::axes::{Space, axes, svg_file, title};
 use super::figure::{ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, px};
+use super::legend::{Entry, Sample};
 use super::log_panel::{Kind, Scale};
 use super::scale_bar::{SCALE_WIDTH, ScaleBar};
 use super::ticks::{Axis, ticks};
@@ -152,7 +153,10 @@ impl CellMap {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let size = [WIDTH, HEIGHT * PANEL];
-        document(&self.description, style, &[], size, |panel| self.draw(panel))
+        let failed = self.numbers.iter().any(|number| !number.is_finite());
+        let entry = Entry { name: "failed", sample: Sample::Failed };
+        let entries = if failed { &[entry][..] } else { &[] };
+        document(&self.description, style, entries, size, |panel| self.draw(panel))
     }
 
     /// Numbers that the scale of colours shows.
