@@ -1,5 +1,5 @@
 //! `reports`: builds the script and the style of the report from their sources, compares every file with the committed
-//! one, and checks two pages in a browser: the sample, and a run of Table 1. Of the figures
+//! one, and checks three pages in a browser: the sample, a run of Table 1, and a fit. Of the figures
 //! that each command draws, in files and on pages, it measures the texts.
 
 use std::collections::BTreeSet;
@@ -98,7 +98,7 @@ fn check_run(folder: &Path) -> Result<usize, String> {
 }
 
 /// Commands that write figures, and one of the files of each.
-const PAGES: [(&[&str], &str); 6] = [
+const PAGES: [(&[&str], &str); 7] = [
     (&["plot", "scenarios/every-kind.toml"], "every-kind-angular-velocity.svg"),
     (
         &["jitter", "scenarios/budgets/imaging-satellite-jitter.toml"],
@@ -125,8 +125,15 @@ const PAGES: [(&[&str], &str); 6] = [
         ],
         "wheel-data-sheet-montecarlo.html",
     ),
-    (&["fit"], "rw-fit.html"),
+    (&["accelerance", "scenarios/imaging-satellite-modes.npz", "--at", "camera"], PHASES),
+    (&["fit"], FIT),
 ];
+
+/// Figures with a panel for each phase.
+const PHASES: &str = "imaging-satellite-modes-accelerance-camera-translation-by-force.svg";
+
+/// The page whose charts over speed and frequency are checked.
+const FIT: &str = "rw-fit.html";
 
 /// Exit codes of a command that has done its work: complete, a requirement is violated or a model does not hold, a
 /// requirement could not be evaluated.
@@ -165,7 +172,10 @@ fn check_figures(folder: &Path) -> Result<usize, String> {
     command.args(files.iter().map(|name| results.join(name)));
     let printed = output(&mut command)?;
     eprint!("{printed}");
-    passed(&printed).ok_or_else(|| format!("check-figures.mjs printed no number: {printed}"))
+    let texts = passed(&printed);
+    let texts = texts.ok_or_else(|| format!("check-figures.mjs printed no number: {printed}"))?;
+    let page = results.join(FIT);
+    Ok(texts + check(&["--page", &page.to_string_lossy()], &folder.join("fit-page"))?)
 }
 
 /// Checks a page and writes pictures into a folder; returns how many checks passed.

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use super::partial::{Partial, partial_name};
 use super::{
-    Csv, Decimate, End, Header, Npz, Outcome, Recorder, RecorderGroup, Samples, Statistics, Steps,
+    Bucket, Csv, Decimate, End, Header, Npz, Outcome, Recorder, RecorderGroup, Samples, Statistics,
+    Steps,
 };
 use crate::engine::run;
 use crate::engine::tests::turning_panel;
@@ -220,6 +221,10 @@ fn buckets_keep_a_spike_and_stay_within_their_number() {
     assert!(buckets.iter().all(|bucket| bucket.min[1] == 0.0));
     assert!(buckets.windows(2).all(|pair| pair[0].end < pair[1].start));
     assert_eq!(buckets[buckets.len() - 1].end, 123.456);
+    // The first sample of a bucket is the one at its start.
+    let at_start =
+        |bucket: &Bucket| bucket.first == [bucket.start, (bucket.start * 1e3).round() % 7.0];
+    assert!(buckets.iter().all(at_start));
 }
 
 #[test]

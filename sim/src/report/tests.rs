@@ -193,6 +193,56 @@ fn a_verdict_names_value_and_limit() {
     assert!(summary.lines().count() <= 10 && summary.ends_with("files: table1.csv\n"), "{summary}");
 }
 
+/// Limits on a peak are lines on both sides of zero in figure and chart over the window of the requirement; one far away is
+/// named in the caption, and one on an RMS is not drawn.
+#[test]
+fn a_limit_is_drawn_in_the_chart_of_its_column() {
+    let mut scenario = table1();
+    let of = |name: &str, limit, statistic| Requirement {
+        name: name.to_owned(),
+        statistic,
+        window: [0.25, 9.0],
+        ..requirement(limit)
+    };
+    let far = of("far", 1000.0, Statistic::Peak);
+    scenario.requirements =
+        vec![of("near", 0.5, Statistic::Peak), far, of("mean", 0.5, Statistic::Rms)];
+    let (report, outcome) = sampled(&scenario, 20.0, None);
+    let page = report.html(&outcome).expect("a page");
+    let data = data(&page);
+    let charts = data["charts"].as_array().expect("charts");
+    let limits = charts[0]["limits"].as_array().expect("limits");
+    assert_eq!(limits.len(), 2, "{limits:?}");
+    // The unit of the chart is deg/s, and the run ends at 1 s.
+    let [high, low] = [0, 1].map(|k| limits[0]["values"][k].as_f64().expect("a number"));
+    assert!((high - 0.5_f64.to_degrees()).abs() < 1e-9 && high == -low, "{high}");
+    assert_eq!((&limits[0]["from"], &limits[0]["to"]), (&0.25.into(), &1.0.into()));
+    assert!(charts[1..].iter().all(|chart| chart["limits"].is_null()));
+    assert!(page.contains("Beyond the axis: limit of far, 1000 rad/s."));
+    let (_, svg) = report.figures().expect("figures").swap_remove(0);
+    // A piece in the legend and two lines.
+    assert_eq!(svg.matches("stroke-dasharray=\"60 30 10 30\"").count(), 3);
+    assert!(svg.contains(">limit of near</text>") && !svg.contains("limit of far"));
+}
+
+/// Of a bucket with several samples the legend shows the first one, which is between its ends; of one sample there is no other.
+#[test]
+fn a_value_at_the_cursor_is_that_of_a_sample() {
+    let mut scenario = table1();
+    for (duration, banded) in [(1.0, false), (600.0, true)] {
+        scenario.settings.duration = duration;
+        let (report, outcome) = sampled(&scenario, 50.0, None);
+        let data = data(&report.html(&outcome).expect("a page"));
+        let column = &data["columns"][0];
+        assert_eq!((column["first"].is_string(), column["max"].is_string()), (banded, banded));
+        let drawn = report.drawn();
+        let curve = &drawn[0].curves[0];
+        let values = curve.first.iter().zip(curve.min.iter().zip(&curve.max));
+        assert!(values.clone().all(|(first, (min, max))| (min..=max).contains(&first)));
+        assert_eq!(values.clone().any(|(first, (min, max))| min < first && first < max), banded);
+    }
+}
+
 #[test]
 fn a_run_that_failed_says_so() {
     let (report, mut outcome) = sampled(&table1(), 20.0, None);

@@ -49,6 +49,12 @@ fn the_example_is_fitted_and_its_device_is_read() {
             let name = at(&format!("out/rw-{picture}-{group}.svg"));
             let svg = fs::read_to_string(&name).expect("a picture");
             assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
+            // The legend of measured lines has a cross at each.
+            let (_, legend) = svg.split_once("<g font-family").expect("a legend");
+            let (legend, _) = legend.split_once("</g>").expect("its end");
+            let (crosses, names) =
+                (legend.matches("v48\"").count(), legend.matches("</text>").count());
+            assert_eq!(crosses, if picture == "lines" { names } else { 0 }, "{legend}");
         }
     }
     let page = fs::read_to_string(at("out/rw-fit.html")).expect("a page");

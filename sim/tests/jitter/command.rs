@@ -193,6 +193,24 @@ fn keys_of_the_budget_are_replaced_by_their_prefix() {
     assert!(shown.contains("1 mrad"), "{shown}{error}");
     let page = std::fs::read_to_string(out.join("wheel-data-sheet-jitter.html")).expect("a page");
     assert!(page.contains("# --set budget.speed.count=11"));
+    // Its figures are charts: each is in the place of a figure that is there.
+    let (_, data) = page.split_once("id=\"precess-report\">").expect("a data block");
+    let data: serde_json::Value =
+        serde_json::from_str(data.split_once("</script>").expect("its end").0).expect("JSON");
+    let planes = data["planes"].as_array().expect("charts");
+    // Two requirements: each over the speed and cumulative, and of its noise density and RMS.
+    assert_eq!(planes.len(), 8);
+    for plane in planes {
+        assert!(page.contains(&format!("<figure id={}>", plane["static"])), "{plane}");
+    }
+    let axes = data["axes"].as_array().expect("axes");
+    let names: Vec<_> =
+        axes.iter().map(|axis| (axis["name"].as_str(), axis["log"].as_bool())).collect();
+    let [speed, frequency] = ["Speed", "Frequency"].map(Some);
+    assert_eq!(names, [(speed, Some(false)), (frequency, Some(false)), (frequency, Some(true))]);
+    // A rigid hub with a rigid wheel: its slow motion is far below the orders.
+    assert!(page.contains("No Campbell diagram is drawn") && !page.contains("figure-campbell"));
+    assert!(!out.join("wheel-data-sheet-jitter-campbell.svg").exists());
     let (code, _, error) = run(&["speed.count=11"]);
     assert!(code == Some(1) && error.contains("write budget.speed.count=11"), "{error}");
     let (code, _, error) = run(&["budget.speed.cuont=11"]);

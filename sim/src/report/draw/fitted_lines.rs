@@ -70,7 +70,7 @@ impl FittedLines {
         let (x, y) = (self.speeds(), self.scale().range);
         let curves = self.lines.iter().map(|line| {
             let mut measured: Vec<_> =
-                line.measured.iter().copied().filter(|point| positive(&point[1])).collect();
+                line.measured.iter().copied().filter(|point| positive(point[1])).collect();
             measured.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let fitted = line.fitted.iter().map(|p| [p[0], p[1]]).collect();
             let interval = line.fitted.iter().map(|p| [p[2], p[3]]).collect();
@@ -124,7 +124,7 @@ impl FittedLines {
             let curve: Vec<_> = shown.iter().map(|p| place(p[0], p[1])).collect();
             let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&curve), stroke(index, 11));
             let mut marks = String::new();
-            for [speed, value] in line.measured.iter().filter(|p| positive(&p[1])) {
+            for [speed, value] in line.measured.iter().filter(|p| positive(p[1])) {
                 marks.push_str(&cross_at(place(*speed, *value)));
             }
             let _ = writeln!(out, "<path d=\"{marks}\" {}/>", cross_stroke(index));
@@ -133,6 +133,6 @@ impl FittedLines {
     }
 }
 
-fn positive(value: &f64) -> bool {
-    value.is_finite() && *value > 0.0
+fn positive(value: f64) -> bool {
+    value.is_finite() && value > 0.0
 }

@@ -17,7 +17,7 @@ const LIMIT_DASH: &str = "60 30 10 30";
 /// Length of a piece of a line.
 const SAMPLE: f64 = 22.0;
 /// Half the width of a cross, tenths of a unit.
-const CROSS: i32 = 16;
+const CROSS: i32 = 24;
 
 /// What a legend says of a curve.
 #[derive(Clone, Copy, Debug)]
