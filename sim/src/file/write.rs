@@ -19,8 +19,8 @@ use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
-    Action, AppliedWrench, BodyPoint, Drive, Format, IntegratorChoice, Member, Profile, Scenario,
-    Statistic, StopAction, Target, WrenchAxes, body_key, joint_key,
+    Action, AppliedWrench, BodyPoint, Drive, Format, IntegratorChoice, Member, MotorLimits,
+    Profile, Scenario, Statistic, StopAction, Target, WrenchAxes, body_key, joint_key,
 };
 
 /// The text.
@@ -205,15 +205,22 @@ fn joint_name(s: &Scenario, joint: usize) -> String {
 
 fn drive(out: &mut String, drive: &Drive, info: Option<&JointInfo>) -> Written {
     let slides = info.is_some_and(|info| info.slides);
-    let [.., acceleration, torque_unit] = info.map_or(["rad", "rad/s", "rad/s^2", "N m"], units);
-    let torque = if slides { "force" } else { "torque" };
+    let [_, rate_unit, acceleration, torque_unit] =
+        info.map_or(["rad", "rad/s", "rad/s^2", "N m"], units);
+    let [torque, rate] = if slides { ["force", "speed"] } else { ["torque", "rate"] };
     match drive {
         Drive::Torque { profile, limit } => {
             writeln!(out, "{torque} = {}", of_profile(profile, torque_unit))?;
-            match limit {
-                Some(limit) => writeln!(out, "{torque}_limit = \"{limit:?} {torque_unit}\""),
+            let MotorLimits { torque: of_torque, power, rate: of_rate } = limit.unwrap_or_default();
+            let limits = [
+                (torque, of_torque, torque_unit),
+                ("power", power, "W"),
+                (rate, of_rate, rate_unit),
+            ];
+            limits.iter().try_for_each(|(key, limit, unit)| match limit {
+                Some(limit) => writeln!(out, "{key}_limit = \"{limit:?} {unit}\""),
                 None => Ok(()),
-            }
+            })
         }
         Drive::Acceleration(profile) => {
             writeln!(out, "acceleration = {}", of_profile(profile, acceleration))

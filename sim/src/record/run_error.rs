@@ -49,6 +49,19 @@ pub enum RunError {
         /// The rate's unit: rad/s or m/s.
         unit: &'static str,
     },
+    /// A joint is beyond the largest rate of its motor, which has no largest torque to slow it with.
+    BeyondLargestRate {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate: `wheel1.theta`.
+        joint: String,
+        /// Its rate.
+        rate: f64,
+        /// The largest rate of its motor.
+        limit: f64,
+        /// The unit of both: rad/s or m/s.
+        unit: &'static str,
+    },
     /// A joint that its kind keeps at its rate is to be driven, locked or stopped.
     NotDriven {
         /// Simulated time, s.
@@ -160,6 +173,7 @@ impl RunError {
             Self::Solve { time, .. }
             | Self::TurnAtRightAngle { time, .. }
             | Self::LockedJointMoves { time, .. }
+            | Self::BeyondLargestRate { time, .. }
             | Self::NotDriven { time, .. }
             | Self::TooManySteps { time, .. }
             | Self::StepTooSmall { time, .. }
@@ -217,6 +231,15 @@ impl fmt::Display for RunError {
                  it with a brake instead",
                 time = Plain(*time),
                 rate = Plain(*rate)
+            ),
+            Self::BeyondLargestRate { time, joint, rate, limit, unit } => write!(
+                f,
+                "at t = {time} s: {joint} has the rate {rate} {unit}, beyond the largest one of its motor, \
+                 {limit} {unit}; raise that, start slower, or during a run give the motor a largest torque, \
+                 with which it brakes",
+                time = Plain(*time),
+                rate = Plain(*rate),
+                limit = Plain(*limit)
             ),
             Self::NotDriven { time, joint } => write!(
                 f,

@@ -346,14 +346,3 @@ fn named_once<'a>(
     };
     names.filter_map(wrong).collect()
 }
-
-impl Drive {
-    /// Its profile; none of a locked joint.
-    #[must_use]
-    pub fn profile(&self) -> Option<&Profile> {
-        match self {
-            Self::Torque { profile, .. } | Self::Acceleration(profile) => Some(profile),
-            Self::Locked => None,
-        }
-    }
-}

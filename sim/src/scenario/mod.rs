@@ -13,6 +13,7 @@ mod description;
 mod disturbances;
 pub mod mass;
 mod member;
+mod motor;
 mod orbital_frame;
 pub mod profile;
 mod projection;
@@ -34,6 +35,7 @@ pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members, set_of};
 pub(crate) use member::{body_key, joint_key, with_device};
+pub use motor::MotorLimits;
 pub use orbital_frame::{OrbitalFrame, roll_pitch_yaw};
 pub use profile::{Interpolation, NoDerivative, Profile, Table};
 pub use projection::Projection;
@@ -105,12 +107,12 @@ pub struct Scenario {
 /// What determines the motion of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drive {
-    /// A motor torque (force) as a function of time, clipped to `-limit..=limit`, N m or N.
+    /// A motor torque (force) as a function of time, within the limits of the motor, N m or N.
     Torque {
         /// Before clipping.
         profile: Profile,
-        /// Largest magnitude; none where there is no limit.
-        limit: Option<f64>,
+        /// What the motor cannot exceed; none where there is no limit.
+        limit: Option<MotorLimits>,
     },
     /// A prescribed acceleration as a function of time, rad/s² or m/s².
     Acceleration(Profile),

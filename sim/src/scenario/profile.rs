@@ -188,6 +188,16 @@ impl Profile {
         })
     }
 
+    /// A bound of its magnitude at any time.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        match self {
+            Self::Sine { mean, amplitude, .. } => mean.abs() + amplitude.abs(),
+            Self::During { profile, .. } => profile.bound(),
+            other => other.size(),
+        }
+    }
+
     /// The largest magnitude of its numbers: a jump is judged by it.
     fn size(&self) -> f64 {
         let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 41] = [
+const OTHERS: [&str; 43] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -61,7 +61,11 @@ const OTHERS: [&str; 41] = [
     "[device.wheel.torque]\ntimes = \"0, 1 s\"\nvalues = \"0, 1 mN m\"\ninterpolation = \"hold\"",
     "[device.wheel.torque]\ntable = \"no.csv\"\ncolumn = \"u\"\nunit = \"N m\"\ninterpolation = \"hold\"",
     "[[device]]\nname = \"other\"\ncopy_of = \"rw\"\nturned_180_about = \"x\"",
+    "power_limit = \"30 W\"\nrate_limit = \"6000 rpm\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
+    "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
+     power_limit = \"30 W\"\nspeed_limit = \"1 m/s\"\n\
+     [[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\" }",
     "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
      [[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\" }",
     "[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\"\n\

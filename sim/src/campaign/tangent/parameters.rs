@@ -40,6 +40,10 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
         (!scenario.stops.is_empty(), "end stops"),
         (!scenario.crossings.is_empty(), "crossings"),
         (!scenario.drives.iter().all(constant), "drives that vary over time"),
+        (
+            scenario.drives.iter().any(|drive| drive.limits().depend_on_rate()),
+            "motors with a largest power or rate",
+        ),
         (matches!(scenario.hub_mode, HubMode::Prescribed { .. }), "a prescribed hub"),
     ];
     match has.into_iter().find(|(has, _)| *has) {
@@ -79,11 +83,10 @@ pub(super) fn parts<T: Scalar>(
     let (mut motors, mut modes) = (Vec::new(), Vec::new());
     for drive in &scenario.drives {
         let (motor, mode) = match drive {
-            Drive::Torque { profile, limit } => {
-                let torque = profile.at(0.0, false);
-                let limit = limit.map_or(f64::INFINITY, f64::abs);
+            Drive::Torque { profile, .. } => {
                 // Beyond its limit a motor has its limit, whatever the key.
-                (number(torque.clamp(-limit, limit)), Mode::Driven)
+                let torque = drive.limits().clipped(profile.at(0.0, false));
+                (number(torque), Mode::Driven)
             }
             Drive::Acceleration(profile) => {
                 (number(0.0), Mode::Prescribed(number(profile.at(0.0, false))))

@@ -9,6 +9,7 @@ use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wre
 
 use super::disturbances::Disturbances;
 use super::kinematics::{Chain, axes};
+use super::motors::MotorState;
 use super::packing::JointPlace;
 use crate::disturbance::Six;
 use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Target, WrenchAxes};
@@ -24,6 +25,8 @@ pub(crate) struct SegmentInputs<'a> {
     drives: Vec<&'a Drive>,
     /// Whether each joint has a motor as an input; otherwise its kind keeps its rate.
     driven: Vec<bool>,
+    /// Which limit each motor is at.
+    motors: Vec<MotorState>,
     wrenches: Vec<WrenchOnBody<'a>>,
     disturbances: Disturbances<'a>,
     chains: Vec<Chain>,
@@ -73,6 +76,7 @@ impl<'a> SegmentInputs<'a> {
         Self {
             drives: scenario.drives.iter().collect(),
             driven: joints.iter().map(|place| place.info.driven).collect(),
+            motors: vec![MotorState::default(); joints.len()],
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
             chains: Chain::all(&scenario.devices),
@@ -107,6 +111,37 @@ impl<'a> SegmentInputs<'a> {
         if let Some(present) = self.drives.get_mut(joint) {
             *present = drive;
         }
+        self.set_motor(joint, MotorState::Commanded);
+    }
+
+    /// Which limit each motor is at.
+    pub(crate) fn motors(&self) -> &[MotorState] {
+        &self.motors
+    }
+
+    /// Sets which limit a motor is at.
+    pub(crate) fn set_motor(&mut self, joint: usize, state: MotorState) {
+        if let Some(present) = self.motors.get_mut(joint) {
+            *present = state;
+        }
+    }
+
+    /// The torque of a joint's profile within the largest one, N m or N; zero of another drive.
+    pub(crate) fn commanded(&self, joint: usize, time: f64) -> f64 {
+        let time = time.clamp(self.start, self.end);
+        match self.drive(joint) {
+            drive @ Drive::Torque { profile, .. } => {
+                drive.limits().clipped(profile.at(time, time > self.start))
+            }
+            Drive::Acceleration(_) | Drive::Locked => 0.0,
+        }
+    }
+
+    /// The largest magnitude of that torque at any time, or a bound of it, N m or N.
+    pub(crate) fn largest_torque(&self, joint: usize) -> f64 {
+        let drive = self.drive(joint);
+        let of_profile = drive.profile().map_or(0.0, Profile::bound);
+        drive.limits().torque.map_or(of_profile, |limit| limit.abs().min(of_profile))
     }
 
     /// The bodies of each device and platform.
@@ -143,17 +178,21 @@ impl<'a> SegmentInputs<'a> {
 
     /// Whether the motor torque of every moving joint is an input.
     pub(crate) fn all_driven(&self) -> bool {
+        let held = |motor: &MotorState| matches!(motor, MotorState::LargestRate(_));
         let joints = self.drives.iter().zip(&self.driven);
-        joints
-            .into_iter()
-            .all(|(drive, driven)| *driven && matches!(drive, Drive::Torque { .. } | Drive::Locked))
+        !self.motors.iter().any(held)
+            && joints.into_iter().all(|(drive, driven)| {
+                *driven && matches!(drive, Drive::Torque { .. } | Drive::Locked)
+            })
     }
 
     /// Whether nothing that acts depends on time or state, until a drive is replaced.
     #[cfg(feature = "lanes")]
     pub(crate) fn is_constant(&self) -> bool {
         let constant = |drive: &&Drive| match drive {
-            Drive::Torque { profile, .. } | Drive::Acceleration(profile) => profile.is_constant(),
+            Drive::Torque { profile, .. } | Drive::Acceleration(profile) => {
+                profile.is_constant() && !drive.limits().depend_on_rate()
+            }
             Drive::Locked => true,
         };
         !self.has_wrenches() && self.drives.iter().all(constant)
@@ -165,12 +204,19 @@ impl<'a> SegmentInputs<'a> {
         let from_below = time > self.start;
         let at = |profile: &Profile| profile.at(time, from_below);
         let joints = inputs.motors.values_mut().zip(inputs.modes.values_mut());
-        for ((motor, mode), (drive, driven)) in joints.zip(self.drives.iter().zip(&self.driven)) {
+        let drives = self.drives.iter().zip(&self.driven).zip(&self.motors);
+        let of_states = state.devices.states();
+        for (((motor, mode), ((drive, driven), at_limit)), [_, rate]) in
+            joints.zip(drives).zip(of_states)
+        {
             if !driven {
                 continue;
             }
             (*motor, *mode) = match drive {
-                Drive::Torque { profile, limit } => (clipped(at(profile), *limit), Mode::Driven),
+                Drive::Torque { profile, limit: None } => (at(profile), Mode::Driven),
+                Drive::Torque { profile, limit: Some(limits) } => {
+                    at_limit.acting(at(profile), limits, rate)
+                }
                 Drive::Acceleration(profile) => (0.0, Mode::Prescribed(at(profile))),
                 Drive::Locked => (0.0, Mode::Locked),
             };
@@ -218,9 +264,4 @@ impl<'a> SegmentInputs<'a> {
             }
         }
     }
-}
-
-/// A torque within its limit.
-fn clipped(torque: f64, limit: Option<f64>) -> f64 {
-    limit.map_or(torque, |limit| torque.clamp(-limit.abs(), limit.abs()))
 }

@@ -4,6 +4,7 @@
 mod disturbances;
 pub(super) mod inputs;
 pub(super) mod kinematics;
+pub(super) mod motors;
 pub(super) mod packing;
 pub(crate) mod points;
 pub(super) mod run_quantities;

@@ -1,4 +1,4 @@
-//! [`Monitors`]: end stops and crossings, found within the step that passes them.
+//! [`Monitors`]: end stops, crossings and limits of motors, found within the step that passes them.
 //!
 //! A step is searched at its ends and, where a state within it costs next to nothing, at three times
 //! in between; and at the extremum of a joint that approaches its stop at the start of an interval
@@ -6,19 +6,20 @@
 //! step, so its time is that of the numerical solution, to 1e-12 s or four roundings of the time.
 
 mod clipping;
+pub(super) mod motors;
 mod roots;
 pub(super) mod segments;
 
 use precess_dynamics::Attitude;
 
-use crate::engine::equations::inputs::SegmentInputs;
 use crate::engine::equations::packing::Layout;
 use crate::engine::equations::system::System;
 use crate::engine::integration::{Moment, Stepper};
 use crate::nearest::nearest;
 use crate::record::RunError;
 use crate::record::columns::Quantity;
-use crate::scenario::{Drive, EndStop, Scenario, StopAction};
+use crate::scenario::{Action, Drive, EndStop, Scenario, StopAction};
+use motors::MotorChange;
 use roots::bracket;
 
 /// Width of the bracket of a passage, s.
@@ -32,6 +33,8 @@ const INTERVALS: u32 = 4;
 pub(crate) struct Monitors<'a> {
     stops: Vec<&'a EndStop>,
     crossings: Vec<MonitoredCrossing>,
+    /// Whether a motor has a largest power or rate.
+    motors: bool,
     /// States at the ends of an interval and within it.
     moment: Option<Moment>,
 }
@@ -59,6 +62,8 @@ pub(crate) enum EventKind {
     Stop { joint: usize, bound: f64, action: StopAction },
     /// The index of the crossing.
     Crossing { index: usize, ends: bool },
+    /// A motor comes to one of its limits, or leaves it.
+    Motor(MotorChange),
 }
 
 impl StepEvent {
@@ -68,7 +73,7 @@ impl StepEvent {
     }
 }
 
-/// A function whose sign changes at a passage: above zero within a stop.
+/// A function whose sign changes at a passage: above zero within a stop, and before a motor's change.
 #[derive(Clone, Copy)]
 struct Function {
     quantity: Quantity,
@@ -111,13 +116,19 @@ impl<'a> Monitors<'a> {
             }
         }
         let stops: Vec<_> = scenario.stops.iter().collect();
-        Ok(Self { stops, crossings, moment: Some(start.clone()) })
+        let changed = scenario.changes.iter().filter_map(|change| match &change.action {
+            Action::Drive(drive) => Some(drive),
+            Action::Brake => None,
+        });
+        let mut drives = scenario.drives.iter().chain(changed);
+        let motors = drives.any(|drive| drive.limits().depend_on_rate());
+        Ok(Self { stops, crossings, motors, moment: Some(start.clone()) })
     }
 
     /// Whether there are none.
     #[cfg(feature = "lanes")]
     pub(crate) fn is_empty(&self) -> bool {
-        self.stops.is_empty() && self.crossings.is_empty()
+        self.stops.is_empty() && self.crossings.is_empty() && !self.motors
     }
 
     /// What the last step passed, in the order of time, up to the first passage that cuts it.
@@ -126,11 +137,12 @@ impl<'a> Monitors<'a> {
         system: &System<'_>,
         stepper: &mut Stepper,
     ) -> Result<Vec<StepEvent>, RunError> {
-        let functions = self.functions(&system.acting);
+        let functions = self.functions(system);
         let mut found = Vec::new();
-        let Some(mut moment) = self.moment.take().filter(|_| !functions.is_empty()) else {
+        if functions.is_empty() {
             return Ok(found);
-        };
+        }
+        let Some(mut moment) = self.moment.take() else { return Ok(found) };
         let searched = search(system, stepper, &functions, &mut moment, &mut found);
         self.moment = Some(moment);
         searched?;
@@ -142,10 +154,10 @@ impl<'a> Monitors<'a> {
     }
 
     /// The functions that are searched: not those of locked joints.
-    fn functions(&self, acting: &SegmentInputs<'_>) -> Vec<Function> {
+    fn functions(&self, system: &System<'_>) -> Vec<Function> {
         let mut functions = Vec::new();
         for stop in &self.stops {
-            if matches!(acting.drive(stop.joint), Drive::Locked) {
+            if matches!(system.acting.drive(stop.joint), Drive::Locked) {
                 continue;
             }
             for (bound, sign) in [(stop.lower, 1.0), (stop.upper, -1.0)] {
@@ -162,20 +174,37 @@ impl<'a> Monitors<'a> {
             sign: 1.0,
             what: EventKind::Crossing { index: watched.index, ends: watched.ends },
         }));
+        if self.motors {
+            functions.extend(motors::possible(system).into_iter().map(|change| Function {
+                quantity: Quantity::Rate(change.joint),
+                value: 0.0,
+                sign: 1.0,
+                what: EventKind::Motor(change),
+            }));
+        }
         functions
     }
 }
 
 impl Function {
-    fn at(&self, stepper: &Stepper, moment: &Moment) -> f64 {
+    fn at(
+        &self,
+        system: &System<'_>,
+        stepper: &Stepper,
+        time: f64,
+        moment: &Moment,
+    ) -> Result<f64, RunError> {
+        if let EventKind::Motor(change) = &self.what {
+            return change.distance(system, time, &moment.state);
+        }
         let value = state_value(stepper, moment, self.quantity);
-        self.sign * (value - self.value)
+        Ok(self.sign * (value - self.value))
     }
 
     /// Whether a passage lies between two values: out of a stop, or through a value either way.
     fn passes(&self, [from, to]: [f64; 2]) -> bool {
         match self.what {
-            EventKind::Stop { .. } => to < 0.0 && to < from,
+            EventKind::Stop { .. } | EventKind::Motor(_) => to < 0.0 && to < from,
             EventKind::Crossing { .. } => (from < 0.0 && to >= 0.0) || (from > 0.0 && to <= 0.0),
         }
     }
@@ -192,8 +221,11 @@ fn search(
     let (start, end) = (stepper.time_before(), stepper.time());
     let intervals = if stepper.is_dense() { INTERVALS } else { 1 };
     stepper.at(system, start, moment)?;
-    let mut from: Vec<f64> =
-        functions.iter().map(|function| function.at(stepper, moment)).collect();
+    let values = |stepper: &Stepper, time: f64, moment: &Moment| {
+        let value = |function: &Function| function.at(system, stepper, time, moment);
+        functions.iter().map(value).collect::<Result<Vec<f64>, RunError>>()
+    };
+    let mut from = values(stepper, start, moment)?;
     let mut rates_from = rates(stepper, functions, moment);
     let mut earlier = start;
     for interval in 1..=intervals {
@@ -203,7 +235,7 @@ fn search(
             start + (end - start) * f64::from(interval) / f64::from(intervals)
         };
         stepper.at(system, later, moment)?;
-        let to: Vec<f64> = functions.iter().map(|function| function.at(stepper, moment)).collect();
+        let to = values(stepper, later, moment)?;
         let rates_to = rates(stepper, functions, moment);
         for (i, function) in functions.iter().enumerate() {
             let mut span = [earlier, later];
@@ -221,7 +253,7 @@ fn search(
                 })?;
                 stepper.at(system, extremum, moment)?;
                 span[1] = extremum;
-                values[1] = function.at(stepper, moment);
+                values[1] = function.at(system, stepper, extremum, moment)?;
                 if !function.passes(values) {
                     continue;
                 }
@@ -229,10 +261,11 @@ fn search(
             let width = WIDTH.max(ROUNDINGS * f64::EPSILON * later);
             let [time, after] = bracket(span, values, width, |time| {
                 stepper.restep(system, time, moment)?;
-                Ok::<_, RunError>(function.at(stepper, moment))
+                function.at(system, stepper, time, moment)
             })?;
             // Before a stop, so that the joint is within it; after a crossing.
-            let time = if matches!(function.what, EventKind::Stop { .. }) { time } else { after };
+            let is_crossing = matches!(function.what, EventKind::Crossing { .. });
+            let time = if is_crossing { after } else { time };
             found.push(StepEvent { time, what: function.what });
         }
         (from, rates_from, earlier) = (to, rates_to, later);
@@ -244,13 +277,13 @@ fn search(
     Ok(())
 }
 
-/// The rate of each function of a stop; zero of a crossing, which is not searched for extrema.
+/// The rate of each function of a stop; zero of others, which are not searched for extrema.
 fn rates(stepper: &Stepper, functions: &[Function], moment: &Moment) -> Vec<f64> {
     let rate = |function: &Function| match function.what {
         EventKind::Stop { joint, .. } => {
             function.sign * Layout::joint(joint, &moment.state, stepper.turns())[1]
         }
-        EventKind::Crossing { .. } => 0.0,
+        EventKind::Crossing { .. } | EventKind::Motor(_) => 0.0,
     };
     functions.iter().map(rate).collect()
 }

@@ -5,7 +5,7 @@
 
 use super::clipping;
 use crate::disturbance::Model;
-use crate::scenario::{Action, Change, Drive, Profile, Scenario};
+use crate::scenario::{Action, Change, Profile, Scenario};
 
 /// The ends of segments in the order of time.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl<'a> Segments<'a> {
         let mut limited = Vec::new();
         for drive in scenario.drives.iter().chain(changed) {
             ends.extend(drive.profile().map(Profile::breaks).unwrap_or_default());
-            if let Drive::Torque { profile, limit: Some(limit) } = drive {
+            if let (Some(profile), Some(limit)) = (drive.profile(), drive.limits().torque) {
                 clipping::straight(profile, limit.abs(), &mut ends);
                 limited.push((profile, limit.abs()));
             }

@@ -72,7 +72,7 @@ impl Run<'_> {
             let names = names.collect::<Vec<_>>().join(", ");
             self.note(self.time, format!("{names}: braked, {lost} J lost"));
         }
-        Ok(())
+        self.settle_motors()
     }
 
     /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
@@ -102,7 +102,7 @@ impl Run<'_> {
                 self.check_at_rest(joint)?;
             }
         }
-        Ok(())
+        self.check_rates()
     }
 
     fn check_driven(&self, joint: usize, action: &Action) -> Result<(), RunError> {

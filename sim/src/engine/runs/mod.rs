@@ -4,6 +4,7 @@
 mod actions;
 #[cfg(feature = "lanes")]
 mod lanes;
+mod motors;
 mod recorded;
 mod sampling;
 mod side_by_side;
@@ -16,6 +17,7 @@ pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 use crate::engine::craft_of;
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::engine::equations::system::System;
+use crate::engine::events::motors::MotorChange;
 use crate::engine::events::segments::Segments;
 use crate::engine::events::{EventKind, Monitors, StepEvent};
 use crate::engine::integration::{Moment, Stepper};
@@ -45,6 +47,8 @@ pub struct Run<'a> {
     at_boundary: bool,
     /// A joint that has reached a stop which locks it, and the stop.
     stopped: Option<(usize, f64)>,
+    /// A motor that has come to one of its limits or leaves it.
+    motor_change: Option<MotorChange>,
     end: Option<End>,
     /// Whether an error has ended it.
     failed: bool,
@@ -111,6 +115,7 @@ impl<'a> Run<'a> {
             time: 0.0,
             at_boundary: true,
             stopped: None,
+            motor_change: None,
             end: None,
             failed: false,
             scenario,
@@ -150,7 +155,7 @@ impl<'a> Run<'a> {
         if self.at_boundary { self.begin_segment() } else { self.stepper.reduce(&self.system) }
     }
 
-    /// Stops and crossings that the last step passed, and the state that is reached.
+    /// Stops, crossings and limits of motors that the last step passed, and the state that is reached.
     fn finish_step(&mut self) -> Result<(), RunError> {
         let passed = self.monitors.passed(&self.system, &mut self.stepper)?;
         let mut reached = self.stepper.time();
@@ -163,6 +168,10 @@ impl<'a> Run<'a> {
                         reached = time;
                         self.end = Some(End::Crossing { name });
                     }
+                }
+                EventKind::Motor(change) => {
+                    reached = time;
+                    self.motor_change = Some(change);
                 }
                 EventKind::Stop { joint, bound, action } => {
                     reached = time;
@@ -181,7 +190,8 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        if reached < self.stepper.time() || self.stopped.is_some() {
+        let jumps = self.stopped.is_some() || self.motor_change.is_some();
+        if reached < self.stepper.time() || jumps {
             self.stepper.restep(&self.system, reached, &mut self.moment)?;
             self.at_boundary = true;
         } else {

@@ -6,7 +6,9 @@ use precess_dynamics::{About, HubMode};
 use super::{DOP853, column, last, recorded, scenario, set_joint, turning_panel, wheel};
 use crate::engine::{Advance, Run};
 use crate::record::{End, RecordError, RunError};
-use crate::scenario::{Action, Change, Drive, IntegratorChoice, Interpolation, Profile, Table};
+use crate::scenario::{
+    Action, Change, Drive, IntegratorChoice, Interpolation, MotorLimits, Profile, Table,
+};
 
 /// Some roundings of a rate of ten.
 const ROUNDING: f64 = 1e-13;
@@ -14,6 +16,7 @@ const ROUNDING: f64 = 1e-13;
 const RK4: IntegratorChoice = IntegratorChoice::Rk4 { step: 0.03 };
 
 fn torque(profile: Profile, limit: Option<f64>) -> Drive {
+    let limit = limit.map(|torque| MotorLimits { torque: Some(torque), ..MotorLimits::default() });
     Drive::Torque { profile, limit }
 }
 

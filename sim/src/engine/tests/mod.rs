@@ -2,6 +2,7 @@
 
 mod changes;
 mod conservation;
+mod motors;
 mod points;
 mod stops;
 mod table1;

@@ -307,6 +307,7 @@ mod tests {
             "[device.wheel]",
             "[device.wheel]\ntorque = { sine = \"3 mN m\", \
             frequency = \"2 Hz\", from = \"1 s\", to = \"2 s\" }\ntorque_limit = \"2 mN m\"\n\
+            power_limit = \"30 W\"\nrate_limit = \"6000 rpm\"\n\
             stiffness = \"1 mN m/deg\"\nupper_stop = \"300 rev\"",
         );
         let text = text

@@ -7,6 +7,7 @@ use precess_dynamics::kind::{BodyParameters, JointInfo};
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
 use super::motion::{motion, only_motion};
+use super::motor_limits::{motor_limits, starts_within};
 use crate::file::keys::Keys;
 use crate::file::read::values::drive::profile;
 use crate::scenario::{Drive, Profile, StopAction};
@@ -91,6 +92,9 @@ pub(in crate::file::read) fn joint(
         }
         None => drive,
     };
+    if let Some(limit) = drive.as_ref().and_then(|drive| drive.limits().rate) {
+        starts_within(keys, joint, measures, [state[1], limit]);
+    }
     let stop = stop(keys, measures, state[0]);
     Some(Joint { passive, state, drive: drive?, stop })
 }
@@ -133,18 +137,9 @@ pub(in crate::file::read) fn drive(
     folder: &std::path::Path,
 ) -> Option<Drive> {
     let torque = if joint.slides { "force" } else { "torque" };
-    let limit_key = if joint.slides { "force_limit" } else { "torque_limit" };
     let locked = keys.boolean("locked").unwrap_or(false);
     let given = [keys.has(torque), keys.has("acceleration"), locked];
-    let limit = keys.quantity(limit_key, measures.torque);
-    if let Some(value) = limit {
-        if value.is_nan() || value <= 0.0 {
-            keys.error(limit_key, format!("`{limit_key}` is not above zero"), "");
-        }
-        if given[1] || given[2] {
-            keys.error(limit_key, format!("the joint has no `{torque}` to limit"), "remove it");
-        }
-    }
+    let limit = motor_limits(keys, joint, measures, !(given[1] || given[2]));
     if given.iter().filter(|given| **given).count() > 1 {
         let message = format!("a joint has a `{torque}`, or an `acceleration`, or is `locked`");
         keys.error(if given[1] { "acceleration" } else { "locked" }, message, "keep one of them");

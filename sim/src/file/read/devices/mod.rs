@@ -12,6 +12,7 @@ pub(super) mod joints;
 mod layout;
 mod layout_members;
 mod motion;
+mod motor_limits;
 pub(super) mod platform;
 pub(super) mod rows;
 mod suspension;

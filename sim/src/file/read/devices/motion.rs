@@ -16,8 +16,17 @@ use crate::units::{Measure, Plain};
 const RATE_APART: f64 = 1e-9;
 
 /// Drives that a joint whose motion is prescribed does not have.
-const OTHER_DRIVES: [&str; 6] =
-    ["torque", "torque_limit", "force", "force_limit", "acceleration", "locked"];
+const OTHER_DRIVES: [&str; 9] = [
+    "torque",
+    "torque_limit",
+    "force",
+    "force_limit",
+    "power_limit",
+    "rate_limit",
+    "speed_limit",
+    "acceleration",
+    "locked",
+];
 
 /// The key of a profile that prescribes a motion, and the acceleration; none where it is wrong, which has been reported.
 type Motion = (&'static str, Option<Profile>);
