@@ -1,7 +1,7 @@
 //! What a sample says about its distribution: percentiles with distribution-free intervals, probabilities with the interval of
-//! Clopper and Pearson, rank correlation by Spearman.
+//! Clopper and Pearson, rank correlation by Spearman and how probable it is by chance.
 
-use statrs::distribution::{Beta, ContinuousCDF as _};
+use statrs::distribution::{Beta, ContinuousCDF as _, StudentsT};
 
 use crate::spectra::float;
 
@@ -133,6 +133,26 @@ pub fn spearman(x: &[f64], y: &[f64]) -> Option<f64> {
     (size > 0.0).then(|| product(&x, &y) / size)
 }
 
+/// Pairs from which on the distribution by which [`by_chance`] judges is close to that of all permutations.
+const PAIRS_MIN: usize = 10;
+
+/// The probability that a rank correlation of n pairs is at least as far from zero by chance, where one does not depend on the
+/// other: `r sqrt((n - 2) / (1 - r^2))` is nearly of Student's distribution with n - 2 degrees of freedom (Kendall and Gibbons,
+/// Rank Correlation Methods, 5th edition, 4.4). None of fewer than ten pairs.
+#[must_use]
+pub fn by_chance(correlation: f64, pairs: usize) -> Option<f64> {
+    if pairs < PAIRS_MIN || correlation.is_nan() {
+        return None;
+    }
+    let freedom = float(pairs - 2);
+    let left = 1.0 - correlation * correlation;
+    if left <= 0.0 {
+        return Some(0.0);
+    }
+    let of = StudentsT::new(0.0, 1.0, freedom).ok()?;
+    Some(2.0 * of.cdf(-correlation.abs() * (freedom / left).sqrt()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,5 +226,41 @@ mod tests {
         // 1 - 6 sum d^2 / (n (n^2 - 1)) without ties: d = 1, -1, 0, 0.
         let found = spearman(&[1.0, 2.0, 3.0, 4.0], &[2.0, 1.0, 3.0, 4.0]).expect("varies");
         assert!((found - 0.8).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_rank_correlation_by_chance_is_that_of_tables_and_of_permutations() {
+        // The critical values of Student's t at 0.05, two-sided: 2.306 with 8, 1.984 with 98 degrees of freedom.
+        for (pairs, t) in [(10, 2.306_004_135), (100, 1.984_467_454)] {
+            let freedom = float(pairs - 2);
+            let r = t / (freedom + t * t).sqrt();
+            for r in [r, -r] {
+                let found = by_chance(r, pairs).expect("enough pairs");
+                assert!((found - 0.05).abs() < 1e-8, "{found}");
+            }
+        }
+        assert_eq!((by_chance(0.0, 50), by_chance(1.0, 50)), (Some(1.0), Some(0.0)));
+        assert_eq!((by_chance(0.9, 9), by_chance(f64::NAN, 50)), (None, None));
+        // Of random permutations of twelve, the share that is as far from zero.
+        let still: Vec<f64> = (0..12).map(f64::from).collect();
+        let mut seed = 1_u64;
+        let mut drawn = || {
+            let mut moved = still.clone();
+            for last in (1..12_usize).rev() {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                #[expect(clippy::cast_possible_truncation, reason = "31 bits")]
+                let other = (seed >> 33) as usize % (last + 1);
+                moved.swap(last, other);
+            }
+            spearman(&still, &moved).expect("varies").abs()
+        };
+        let (count, at) = (20_000, 0.5);
+        let beyond = (0..count).filter(|_| drawn() >= at).count();
+        let (share, known) = (float(beyond) / float(count), by_chance(at, 12).expect("enough"));
+        // Four deviations of the share, and what the approximation leaves at twelve pairs.
+        assert!(
+            (share - known).abs() < 4.0 * (known / float(count)).sqrt() + 4e-3,
+            "{share} {known}"
+        );
     }
 }

@@ -36,7 +36,7 @@ pub use axis::{Axis, Spacing};
 pub use draw::draw;
 pub use engine::{Execution, Finished, SampleResult, execute, run_reduced};
 pub use error::CampaignError;
-pub use inference::{Estimate, percentile, probability, probability_between, spearman};
+pub use inference::{Estimate, by_chance, percentile, probability, probability_between, spearman};
 pub use journal::Journal;
 pub use keep_out::keep_out;
 pub use plan::{Plan, Sample, digits};

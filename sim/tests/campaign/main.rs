@@ -1,6 +1,7 @@
 //! Campaigns: sweeps against closed forms, over threads, killed and continued, with samples that fail; correlated keys.
 
 mod correlated;
+mod drawn;
 #[cfg(unix)]
 mod killed;
 mod montecarlo;

@@ -15,7 +15,7 @@ const DERIVATIVE: f64 = 1e-3;
 /// Of a regression over deviations of a hundredth: what is not linear, and 200 samples of the other keys.
 const REGRESSION: f64 = 0.05;
 
-const PLAN: &str = r#"format = 1
+pub(super) const PLAN: &str = r#"format = 1
 [[vary]]
 key = "device.rw.imbalance.static"
 distribution = "normal"
@@ -33,13 +33,13 @@ mean = "96 kg"
 deviation = "0.2 kg"
 "#;
 
-fn plan(folder: &Path, text: &str) -> PathBuf {
+pub(super) fn plan(folder: &Path, text: &str) -> PathBuf {
     let file = folder.join("plan.toml");
     fs::write(&file, text).expect("a file");
     file
 }
 
-fn run(file: &Path, plan: &Path, out: &Path, more: &[&str]) -> Output {
+pub(super) fn run(file: &Path, plan: &Path, out: &Path, more: &[&str]) -> Output {
     let mut arguments = vec!["montecarlo", path(file), "--plan", path(plan), "--out", path(out)];
     arguments.extend(["--column", "acceleration", "--set", "run.duration=0.05 s", "--lines", "0"]);
     arguments.extend(more);

@@ -4,7 +4,7 @@ pub(super) mod montecarlo;
 pub(super) mod sweep;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Mutex;
 
 use clap::Args;
@@ -20,7 +20,7 @@ use super::terminal::note;
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, digits, execute, table,
 };
-use crate::file::{Override, Template};
+use crate::file::{Override, PlanPlaces, Template};
 use crate::pointing::RequirementState;
 use crate::record::no_data::no_data;
 use crate::record::{Columns, Header};
@@ -54,6 +54,9 @@ pub(super) struct CampaignOptions {
     /// Replace results that are there, and discard the journal of another campaign.
     #[arg(long)]
     force: bool,
+    /// Write no page.
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     threads: Threads,
 }
@@ -122,19 +125,27 @@ impl CampaignOptions {
         Ok(outputs)
     }
 
-    pub(super) fn out(&self) -> &Path {
-        &self.out
+    /// The files of every campaign's result.
+    fn names(&self, stem: &str) -> Vec<String> {
+        let page = (!self.no_report).then_some("html");
+        ["csv", "npz"].into_iter().chain(page).map(|ending| format!("{stem}.{ending}")).collect()
+    }
+
+    /// Where the result is, with so many texts beside both tables: for the terminal.
+    fn files(&self, stem: &str, texts: usize) -> String {
+        let first = if self.no_report { "csv" } else { "html" };
+        format!("files: {}/{stem}.{first} and {} more\n", self.out.display(), texts + 1)
     }
 
     /// Runs a plan, with its journal `STEM.journal`; none where Ctrl-C ended it.
     pub(super) fn run(
         &self,
         prepared: &Prepared,
-        plan: &Plan,
+        (plan, places): (&Plan, Option<&PlanPlaces>),
         stem: &str,
     ) -> Result<Option<Finished>, CommandError> {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
-        readable(prepared, plan)?;
+        readable(prepared, plan, places)?;
         let path = self.out.join(format!("{stem}.journal"));
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
         let opened =
@@ -200,15 +211,22 @@ impl CampaignOptions {
 }
 
 /// Reads the first samples until one can be: a key that there is not is an error of all of them.
-fn readable(prepared: &Prepared, plan: &Plan) -> Result<(), CommandError> {
+fn readable(
+    prepared: &Prepared,
+    plan: &Plan,
+    places: Option<&PlanPlaces>,
+) -> Result<(), CommandError> {
     let mut first = None;
-    let last = plan.samples.last();
-    for sample in plan.samples.iter().take(TRIED).chain(last) {
+    let last = plan.samples.iter().enumerate().next_back();
+    for (number, sample) in plan.samples.iter().enumerate().take(TRIED).chain(last) {
         let overrides = [&prepared.overrides[..], &sample.overrides].concat();
         match prepared.template.scenario(&overrides) {
             Ok(_) => return Ok(()),
             Err(errors) => {
-                first.get_or_insert(errors);
+                let of_sample = (number, &sample.overrides[..]);
+                first.get_or_insert_with(|| {
+                    prepared.template.sample_errors(errors, of_sample, places)
+                });
             }
         }
     }

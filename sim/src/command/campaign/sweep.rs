@@ -60,7 +60,7 @@ impl Sweep {
         let prepared = self.options.prepare()?;
         let stem = format!("{}-sweep", prepared.scenario.name);
         let mut outputs = self.options.reserve(&stem, &self.names(&prepared, &stem))?;
-        let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
+        let Some(finished) = self.options.run(&prepared, (&plan, None), &stem)? else {
             return Ok(Exit::Violated);
         };
         let pictures = self.pictures(&prepared, &finished, &stem);
@@ -70,21 +70,21 @@ impl Sweep {
             texts.push((file.clone(), picture.file().map_err(|error| other(&error))?));
         }
         let pictures: Vec<_> = pictures.into_iter().map(|(_, picture)| picture).collect();
-        let page = self.page(&prepared, &plan, &finished, &found, &pictures);
-        texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
-        let count = texts.len() + 1;
+        if !self.options.no_report {
+            let page = self.page(&prepared, &plan, &finished, &found, &pictures);
+            texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
+        }
+        let files = self.options.files(&stem, texts.len());
         self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
         let (text, exit) = self.summary(&prepared, &plan, &finished, &found);
         print(&text)?;
-        let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.html and {count} more\n"))?;
+        print(&files)?;
         Ok(exit)
     }
 
     /// The files of the result.
     fn names(&self, prepared: &Prepared, stem: &str) -> Vec<String> {
-        let mut names: Vec<_> =
-            ["csv", "npz", "html"].map(|ending| format!("{stem}.{ending}")).into();
+        let mut names = self.options.names(stem);
         names.extend(self.picture_names(prepared, stem));
         names
     }

@@ -41,11 +41,13 @@ pub(super) fn percentiles_csv(prepared: &Prepared, finished: &Finished) -> Strin
 }
 
 pub(super) fn correlations_csv(of: &Correlations) -> String {
-    let mut text = String::from("number,key,rank_correlation\n");
+    let mut text = String::from("number,key,rank_correlation,samples,p_value\n");
     for (name, by) in of {
-        for (key, value) in by {
-            let value = value.map_or_else(String::new, cell);
-            let _ = writeln!(text, "{},{},{value}", quoted(name), quoted(key));
+        for (key, found) in by {
+            let value = found.map_or_else(String::new, |of| cell(of.value));
+            let pairs = found.map_or_else(String::new, |of| of.pairs.to_string());
+            let chance = found.and_then(|of| of.by_chance).map_or_else(String::new, cell);
+            let _ = writeln!(text, "{},{},{value},{pairs},{chance}", quoted(name), quoted(key));
         }
     }
     text

@@ -16,18 +16,19 @@ use super::{
     without_number,
 };
 use crate::campaign::{
-    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, draw,
-    exact_derivatives, probability_between, regression, spearman, tangents,
+    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, by_chance, central_differences, derivatives,
+    draw, exact_derivatives, probability_between, regression, spearman, tangents,
 };
 use crate::command::error::CommandError;
 use crate::command::exit::Exit;
 use crate::command::progress::progress_bar;
 use crate::command::table::{aligned, six};
 use crate::command::terminal::print;
-use crate::file::variations_from_toml;
+use crate::file::{PlanPlaces, variations_from_toml};
 use crate::names::file_names;
 use crate::report::campaign::CampaignPage;
 use crate::report::montecarlo::distribution;
+use crate::spectra::float;
 use crate::variation::Variation;
 
 pub(in crate::command) const HELP: &str = "\
@@ -44,6 +45,8 @@ ones are run. A sample that failed violates every requirement.";
 const PERCENTILES: [f64; 4] = [0.05, 0.5, 0.95, 0.99];
 /// Probability with which intervals contain the true value.
 const LEVEL: f64 = 0.95;
+/// A probability below this is shown as being below.
+const CHANCE_MIN: f64 = 1e-4;
 
 /// The options of `montecarlo`.
 #[derive(Debug, Args)]
@@ -83,10 +86,10 @@ impl MonteCarlo {
         let plan = draw(&variations, self.samples, self.seed, self.latin_hypercube)
             .map_err(|error| other(&error))?;
         let prepared = self.options.prepare()?;
+        let places = PlanPlaces::from_toml(&self.plan);
         let stem = format!("{}-montecarlo", prepared.scenario.name);
         let beside = format!("{stem}-sensitivities");
-        let mut names: Vec<_> =
-            ["csv", "npz", "html"].map(|ending| format!("{stem}.{ending}")).into();
+        let mut names = self.options.names(&stem);
         for part in ["percentiles", "correlations"] {
             names.push(format!("{stem}-{part}.csv"));
         }
@@ -97,7 +100,7 @@ impl MonteCarlo {
             names.push(format!("{beside}.csv"));
         }
         let mut outputs = self.options.reserve(&stem, &names)?;
-        let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
+        let Some(finished) = self.options.run(&prepared, (&plan, places.as_ref()), &stem)? else {
             return Ok(Exit::Violated);
         };
         let mut texts = Vec::new();
@@ -136,13 +139,14 @@ impl MonteCarlo {
             warnings: warnings(&prepared, &plan, &finished),
             plan: Some(text),
         };
-        texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
-        let count = texts.len() + 1;
+        if !self.options.no_report {
+            texts.push((format!("{stem}.html"), page.html().map_err(|error| other(&error))?));
+        }
+        let files = self.options.files(&stem, texts.len());
         self.options.write(&prepared, &plan, &finished, (&stem, texts), &mut outputs)?;
         let (text, exit) = summary((&prepared, &plan, &finished), &results, &correlations, &found);
         print(&text)?;
-        let folder = self.options.out().display();
-        print(&format!("files: {folder}/{stem}.html and {count} more\n"))?;
+        print(&files)?;
         Ok(exit)
     }
 }
@@ -191,7 +195,9 @@ impl MonteCarlo {
         let names: Vec<ResultColumn> = shown(prepared).collect();
         let mut differences = None;
         if (0..names.len()).any(|number| slope(number).is_none()) {
-            let Some(finished) = self.options.run(prepared, &steps, beside)? else {
+            let places = PlanPlaces::from_toml(&self.plan);
+            let Some(finished) = self.options.run(prepared, (&steps, places.as_ref()), beside)?
+            else {
                 return Ok(None);
             };
             differences = Some(finished);
@@ -257,8 +263,30 @@ fn meets(finished: &Finished, field: usize, limit: f64) -> Option<ComplianceCoun
     Some(ComplianceCount { met, not_evaluated, probability })
 }
 
+/// A rank correlation and what it is of.
+#[derive(Clone, Copy)]
+struct RankCorrelation {
+    value: f64,
+    /// Samples that have both numbers.
+    pairs: usize,
+    /// The probability of one as far from zero by chance; none of few samples.
+    by_chance: Option<f64>,
+}
+
+impl RankCorrelation {
+    fn of(x: &[f64], y: &[f64]) -> Option<Self> {
+        let (value, pairs) = (spearman(x, y)?, x.len());
+        Some(Self { value, pairs, by_chance: by_chance(value, pairs) })
+    }
+
+    /// Whether it differs from zero, one of so many that are looked at together (Bonferroni).
+    fn is_significant(&self, of: usize) -> bool {
+        self.by_chance.is_some_and(|chance| chance * float(of) < 1.0 - LEVEL)
+    }
+}
+
 /// Rank correlations of each number with each key.
-type Correlations = Vec<(String, Vec<(String, Option<f64>)>)>;
+type Correlations = Vec<(String, Vec<(String, Option<RankCorrelation>)>)>;
 
 fn correlations(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Correlations {
     let of = |(name, field, ..): ResultColumn| {
@@ -268,11 +296,38 @@ fn correlations(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Correl
             let pairs =
                 pairs.filter_map(|(sample, number)| Some((*sample.values.get(key)?, (*number)?)));
             let (x, y): (Vec<f64>, Vec<f64>) = pairs.unzip();
-            (label.clone(), spearman(&x, &y))
+            (label.clone(), RankCorrelation::of(&x, &y))
         });
         (name, by.collect())
     };
     shown(prepared).map(of).collect()
+}
+
+/// The largest rank correlation of a number, or that none differs from zero: for the terminal.
+fn largest_correlation(name: &str, by: &[(String, Option<RankCorrelation>)]) -> String {
+    let known = by.iter().filter_map(|(key, found)| Some((key, (*found)?)));
+    let largest = known.max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs()));
+    let Some((key, found)) = largest else { return String::new() };
+    let RankCorrelation { value, pairs, by_chance } = found;
+    let chance = by_chance.map_or_else(
+        || "too few to judge".to_owned(),
+        |chance| {
+            if chance < CHANCE_MIN {
+                format!("p < {CHANCE_MIN}")
+            } else {
+                format!("p = {chance:.4}")
+            }
+        },
+    );
+    if found.is_significant(by.len()) {
+        format!(
+            "{name}: largest rank correlation {value:.3}, with {key} ({pairs} samples, {chance})\n"
+        )
+    } else {
+        format!(
+            "{name}: no rank correlation that differs from zero; largest {value:.3}, with {key} ({pairs} samples, {chance})\n"
+        )
+    }
 }
 
 /// For the terminal; and what became of the requirements.
@@ -286,11 +341,7 @@ fn summary(
     text.push_str(&aligned(&results.table.text()));
     let _ = writeln!(text, "intervals contain the true value with at least {LEVEL}");
     for (name, by) in correlations {
-        let mut by: Vec<_> = by.iter().filter_map(|(key, value)| Some((key, (*value)?))).collect();
-        by.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        if let Some((key, value)) = by.first() {
-            let _ = writeln!(text, "{name}: largest rank correlation {value:.3}, with {key}");
-        }
+        text.push_str(&largest_correlation(name, by));
     }
     for (name, by) in found {
         if let Some(one) = by.first() {

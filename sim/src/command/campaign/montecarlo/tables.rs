@@ -1,6 +1,6 @@
 //! The tables of a Monte Carlo campaign on a terminal and a page.
 
-use super::{Correlations, LEVEL, PERCENTILES, meets, sorted};
+use super::{Correlations, LEVEL, PERCENTILES, RankCorrelation, meets, sorted};
 use crate::campaign::{Derivative, Estimate, Finished, Plan, percentile};
 use crate::command::campaign::{Prepared, ResultColumn, Results, shown, values_of};
 use crate::command::table::six;
@@ -75,15 +75,18 @@ pub(super) fn percentile_table(prepared: &Prepared, finished: &Finished) -> Camp
 /// Rank correlations: a row for each number, a column for each key.
 pub(super) fn correlation_table(of: &Correlations) -> CampaignTable {
     let keys = of.first().map_or(&[][..], |(_, by)| by);
-    let row = |(name, by): &(String, Vec<(String, Option<f64>)>)| {
-        let cell = |(_, value): &(String, Option<f64>)| {
-            value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
+    let row = |(name, by): &(String, Vec<(String, Option<RankCorrelation>)>)| {
+        let cell = |(_, found): &(String, Option<RankCorrelation>)| match found {
+            None => "–".to_owned(),
+            Some(of) if of.is_significant(by.len()) => format!("{:.3}", of.value),
+            Some(of) => format!("({:.3})", of.value),
         };
         ("", std::iter::once(name.clone()).chain(by.iter().map(cell)).collect())
     };
     let heads = keys.iter().map(|(key, _)| key.clone());
     CampaignTable {
-        caption: "Rank correlations (Spearman) of each number with each key",
+        caption: "Rank correlations (Spearman) of each number with each key; in parentheses those that do not differ from \
+                  zero (p times the number of keys is 0.05 or more)",
         heads: std::iter::once("Number".to_owned()).chain(heads).collect(),
         rows: of.iter().map(row).collect(),
         numbers: 1..keys.len() + 1,
