@@ -83,6 +83,14 @@ fn properties(scenario: &Scenario) -> String {
         rows.push(row("centre of mass from B, B axes", centre_of_mass.as_slice(), "m"));
         rows.push(row("moments of inertia about B", i.diagonal().as_slice(), "kg m^2"));
         rows.push(row("elements 12, 13, 23 of it", &[i.m12, i.m13, i.m23], "kg m^2"));
+        let of = properties.inertia_c();
+        let moments_c = of.diagonal();
+        rows.push(row(
+            "moments of inertia about the centre of mass",
+            moments_c.as_slice(),
+            "kg m^2",
+        ));
+        rows.push(row("elements 12, 13, 23 of it", &[of.m12, of.m13, of.m23], "kg m^2"));
         rows.push(row("principal moments about the centre of mass", moments.as_slice(), "kg m^2"));
         for (number, axis) in ["first", "second", "third"].into_iter().zip(axes.column_iter()) {
             rows.push(row(&format!("axis of the {number}, B axes"), axis.as_slice(), ""));

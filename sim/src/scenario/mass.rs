@@ -79,12 +79,18 @@ impl MassProperties {
 }
 
 impl MassProperties {
+    /// Inertia about the centre of mass, B axes, joints locked, kg m²: `I_B + m tilde(c) tilde(c)`.
+    #[must_use]
+    pub fn inertia_c(&self) -> Matrix3<f64> {
+        let c = self.centre_of_mass.cross_matrix();
+        let about_centre = self.inertia_b + self.mass * c * c;
+        0.5 * (about_centre + about_centre.transpose())
+    }
+
     /// Principal moments of inertia about the centre of mass, kg m², the least first; and their axes, columns in B axes, right-handed.
     #[must_use]
     pub fn principal(&self) -> (Vector3<f64>, Matrix3<f64>) {
-        let c = self.centre_of_mass.cross_matrix();
-        let about_centre = self.inertia_b + self.mass * c * c;
-        let eigen = (0.5 * (about_centre + about_centre.transpose())).symmetric_eigen();
+        let eigen = self.inertia_c().symmetric_eigen();
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
         let axis = |k: usize| {
@@ -287,6 +293,20 @@ mod tests {
         let c = (0.2_f64 / 30.2).sqrt();
         let condition = (1.0 + c) / (1.0 - c);
         assert!(matrix.condition.is_some_and(|found| (found / condition - 1.0).abs() < 1e-13));
+    }
+
+    /// Hub of 100 kg and wheel of 4 kg, centres 0.26 m apart along b_x: 100 x 4 / 104 x 0.26^2 kg m^2 more across it.
+    #[test]
+    fn the_inertia_about_the_centre_of_mass_is_by_the_reduced_mass() {
+        let mut scenario = scenario(&["a"], vec![wheel().into()], 1.0);
+        scenario.hub.r_bc_b = Vector3::new(0.26, 0.0, 0.0);
+        let spacecraft = scenario.spacecraft().expect("accepted");
+        let found = MassProperties::from_spacecraft(&scenario, &spacecraft).expect("finite");
+        assert!((found.centre_of_mass - Vector3::new(0.25, 0.0, 0.0)).norm() < 1e-15);
+        let across = 100.0 * 4.0 / 104.0 * 0.26 * 0.26;
+        let diagonal = Vector3::new(30.2, 40.1 + across, 50.1 + across);
+        assert!((found.inertia_c() - Matrix3::from_diagonal(&diagonal)).amax() < 1e-13);
+        assert!((found.principal().0 - diagonal).norm() < 1e-13);
     }
 
     #[test]

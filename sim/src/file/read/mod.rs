@@ -5,6 +5,7 @@ mod check;
 pub(super) mod devices;
 mod hub;
 mod output;
+mod override_errors;
 mod settings;
 mod sources;
 mod structure;
@@ -46,7 +47,21 @@ fn file(path: &Path, overrides: (&[Override], Numbers)) -> Read {
     let stem =
         path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    scenario(node, &path.display().to_string(), &stem, &folder, overrides, reports)
+    let path = path.display().to_string();
+    with_overrides(&node, (path.as_str(), stem.as_str(), folder.as_path()), overrides, &reports)
+}
+
+/// Reads a tree after overrides; errors that these cause name them.
+fn with_overrides(
+    node: &Node,
+    (path, stem, folder): (&str, &str, &Path),
+    overrides: (&[Override], Numbers),
+    reports: &Diagnostics,
+) -> Read {
+    let read = |overrides: (&[Override], Numbers)| {
+        scenario(node.clone(), path, stem, folder, overrides, reports.clone())
+    };
+    read(overrides).map_err(|errors| override_errors::name_overrides(errors, overrides, read))
 }
 
 /// Reads the text of a scenario; files that it names are beside `folder`.
@@ -61,7 +76,7 @@ fn text(name: &str, text: (&str, Numbers), folder: &Path, overrides: &[Override]
     let mut reports = Diagnostics::default();
     let node = load_text(name, text, folder, &mut reports);
     let stem: String = name.chars().take(NAME_MAX).collect();
-    scenario(node, name, &stem, folder, (overrides, Numbers::Si), reports)
+    with_overrides(&node, (name, stem.as_str(), folder), (overrides, Numbers::Si), &reports)
 }
 
 /// The tables of a scenario, for [`from_program`].
