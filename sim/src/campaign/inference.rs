@@ -248,7 +248,6 @@ mod tests {
             let mut moved = still.clone();
             for last in (1..12_usize).rev() {
                 seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                #[expect(clippy::cast_possible_truncation, reason = "31 bits")]
                 let other = (seed >> 33) as usize % (last + 1);
                 moved.swap(last, other);
             }

@@ -295,7 +295,7 @@ mod tests {
         assert!(matrix.condition.is_some_and(|found| (found / condition - 1.0).abs() < 1e-13));
     }
 
-    /// Hub of 100 kg and wheel of 4 kg, centres 0.26 m apart along b_x: 100 x 4 / 104 x 0.26^2 kg m^2 more across it.
+    /// Hub of 100 kg and wheel of 4 kg, centres 0.26 m apart along the first axis: 100 x 4 / 104 x 0.26^2 kg m^2 more across it.
     #[test]
     fn the_inertia_about_the_centre_of_mass_is_by_the_reduced_mass() {
         let mut scenario = scenario(&["a"], vec![wheel().into()], 1.0);

@@ -127,3 +127,36 @@ fn euler_angles_are_columns() {
         assert!((found.columns[index][0].to_degrees() - wanted).abs() < 1e-12, "{name}");
     }
 }
+
+/// Hub and wheel of equal moments in sum, so that no torque of gravity acts: the motor leaves the momentum about the centre.
+#[test]
+fn the_momentum_about_the_centre_of_mass_stays_while_a_wheel_is_driven() {
+    let text = SPHERE
+        .replace("[hub]", "title = \"wheel\"\n[hub]")
+        .replace("100, 100, 100", "99.8, 99.9, 99.9")
+        .replace(
+            "[gravity]",
+            "[[device]]\nname = \"rw\"\nkind = \"balanced_reaction_wheel\"\n[device.wheel]\nmass = \"4 kg\"\n\
+             inertia = \"0.2, 0.1, 0.1 kg m^2\"\nrate = \"50 rad/s\"\ntorque = \"10 mN m\"\n[gravity]",
+        )
+        .replace("relative_to = \"orbit\"\nattitude = { euler = \"20, -10, 5 deg\", sequence = \"ZYX\", direction = \"N to B\" }\n", "")
+        .replace("OMEGA", "angular_velocity = \"1, 2, -3 mrad/s\"");
+    let (scenario, _) = from_toml("wheel", &text, Path::new("")).unwrap_or_else(|e| panic!("{e}"));
+    let mut found = Histories::default();
+    engine::run(&scenario, &mut found, &mut |_| ControlFlow::Continue(())).expect("it runs");
+    let column = |name: &str| {
+        let header = found.header.as_ref().expect("a run");
+        let index = header.columns.iter().position(|column| column.name == name);
+        &found.columns[index.unwrap_or_else(|| panic!("no {name}"))]
+    };
+    // N and B have the same axes at first: I omega and the wheel's 0.2 kg m^2 x 50 rad/s.
+    for (axis, first) in [("x", 0.1 + 10.0), ("y", 0.2), ("z", -0.3)] {
+        let momentum = column(&format!("orbit.momentum_about_centre_{axis}"));
+        assert!((momentum[0] - first).abs() < 1e-14, "{axis}: {}", momentum[0]);
+        let drift = momentum.iter().fold(0.0_f64, |most, value| most.max((value - first).abs()));
+        assert!(drift < DRIFT, "{axis}: {drift:e}");
+    }
+}
+
+/// Of a momentum of 10 N m s by the tolerance of the run, over 900 s.
+const DRIFT: f64 = 1e-7;

@@ -33,6 +33,7 @@ pub(crate) struct SampleValues {
     loads: bool,
     energy: bool,
     momentum: bool,
+    centre_momentum: bool,
     disturbances: bool,
     orbit: bool,
     inputs: Option<CraftInputs>,
@@ -66,6 +67,8 @@ struct Computed<'a> {
     /// Roll, pitch and yaw, and angular velocity, from the orbital frame.
     orbit: Option<([f64; 3], Vector3<f64>)>,
     momentum: Option<Momentum>,
+    /// Angular momentum about the centre of mass, N axes.
+    centre_momentum: Option<Vector3<f64>>,
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
     accelerations: Option<Accelerations>,
@@ -109,6 +112,7 @@ impl SampleValues {
             loads: any(Source::Loads),
             energy: any(Source::Energy),
             momentum: any(Source::Momentum),
+            centre_momentum: any(Source::CentreMomentum),
             disturbances: any(Source::Disturbances),
             orbit: quantities
                 .iter()
@@ -161,6 +165,14 @@ impl SampleValues {
             None if self.momentum => Some(system.craft.momentum(state, About::InertialOrigin)?),
             known => known,
         };
+        let centre_momentum = if self.centre_momentum {
+            // The same with B at rest: no difference of momenta of the orbit.
+            let mut still = state.clone();
+            still.r_b_n_dot = Vector3::zeros();
+            Some(system.craft.momentum(&still, About::CentreOfMass)?.angular)
+        } else {
+            None
+        };
         let craft = system.craft.structure();
         for point in &mut self.points {
             if point.moves {
@@ -191,6 +203,7 @@ impl SampleValues {
             orbit: self.orbit.then(|| in_orbit(state)).flatten(),
             rotation: to_vector(product(inverse(self.reference), numbers(&state.attitude))),
             momentum,
+            centre_momentum,
             joints,
             accelerations,
             motors: inputs.map(|of| of.motors.values().zip(of.modes.values()).collect()),
@@ -241,6 +254,7 @@ impl Computed<'_> {
             Quantity::Lost => Some(self.lost),
             Quantity::Linear(axis) => self.momentum.map(|momentum| momentum.linear[axis]),
             Quantity::Angular(axis) => self.momentum.map(|momentum| momentum.angular[axis]),
+            Quantity::CentreMomentum(axis) => self.centre_momentum.map(|angular| angular[axis]),
             Quantity::HubAcceleration(axis) => self
                 .accelerations
                 .as_ref()

@@ -1,11 +1,13 @@
-//! Columns of the attitude in the orbital frame, of a scenario with a central body.
+//! Columns of the attitude in the orbital frame, and of what the motion about the centre of mass has, of a scenario with a
+//! central body.
 
 use precess_dynamics::Gravity;
 
 use super::{Column, Quantity, ROLL_PITCH_YAW, scalar, vector};
 use crate::scenario::Scenario;
 
-/// Roll, pitch and yaw, and the angular velocity with respect to the orbital frame.
+/// Roll, pitch and yaw, and the angular velocity with respect to the orbital frame; the angular momentum about the centre of
+/// mass.
 pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
     if !matches!(scenario.gravity, Gravity::Central { .. }) {
         return;
@@ -17,4 +19,7 @@ pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
     }
     let meaning = "angular velocity of the hub with respect to the orbital frame";
     vector(columns, "orbit.omega", "orbit", "rad/s", "B", meaning, Quantity::OrbitOmega);
+    let (name, unit) = ("orbit.momentum_about_centre", "kg m²/s");
+    let meaning = "angular momentum about the centre of mass";
+    vector(columns, name, "orbit", unit, "N", meaning, Quantity::CentreMomentum);
 }

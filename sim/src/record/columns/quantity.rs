@@ -27,6 +27,8 @@ pub(crate) enum Quantity {
     Lost,
     Linear(usize),
     Angular(usize),
+    /// Angular momentum about the centre of mass.
+    CentreMomentum(usize),
     MountForce(usize, usize),
     MountMoment(usize, usize),
     CarriedForce(usize, usize),
@@ -58,6 +60,7 @@ pub(crate) enum Source {
     Loads,
     Energy,
     Momentum,
+    CentreMomentum,
     /// Place and velocity of a point of the structure.
     PointMotion(usize),
     PointAcceleration(usize),
@@ -93,6 +96,7 @@ impl Quantity {
             Self::Torque(_) => Source::Motors,
             Self::Energy => Source::Energy,
             Self::Linear(_) | Self::Angular(_) => Source::Momentum,
+            Self::CentreMomentum(_) => Source::CentreMomentum,
             Self::MountForce(..)
             | Self::MountMoment(..)
             | Self::CarriedForce(..)
@@ -116,7 +120,11 @@ impl Quantity {
     pub(super) fn is_default(&self) -> bool {
         let selected = matches!(
             self,
-            Self::HubRotation(_) | Self::EulerAngle(_) | Self::OrbitAngle(_) | Self::OrbitOmega(_)
+            Self::HubRotation(_)
+                | Self::EulerAngle(_)
+                | Self::OrbitAngle(_)
+                | Self::OrbitOmega(_)
+                | Self::CentreMomentum(_)
         );
         !self.is_load() && !selected
     }

@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
+use super::chart_texts::{
+    ACCELERATION, COORDINATE, FORCE, JointTexts, LoadTexts, MOMENT, MOTOR, RATE, WORK,
+};
 use crate::names::file_names;
 use crate::record::columns::Quantity;
 use crate::record::{Column, Header};
@@ -187,6 +190,11 @@ fn found(
             let texts = ["angular-momentum", title, "Departure"];
             of_hub((23, 0), texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
         }
+        Quantity::CentreMomentum(axis) => {
+            let title = "Angular momentum about the centre of mass, departure from the start";
+            let texts = ["momentum-about-centre", title, "Departure"];
+            of_hub((23, 1), texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
+        }
         Quantity::MountForce(_, axis)
         | Quantity::CarriedForce(_, axis)
         | Quantity::LoadForce(_, axis) => of_load(FORCE, axis, index, column),
@@ -195,37 +203,6 @@ fn found(
         | Quantity::LoadMoment(_, axis) => of_load(MOMENT, axis, index, column),
     })
 }
-
-/// Slug, title and axis of the chart that begins with the work.
-const WORK: [&str; 3] = ["energy", "Work and losses since the start", "Energy"];
-
-/// Axis, unit and symbol of forces and of moments.
-type LoadTexts = (&'static str, &'static Family, &'static str);
-const FORCE: LoadTexts = ("Force", unit::FORCE, "F");
-const MOMENT: LoadTexts = ("Moment", unit::MOMENT, "M");
-
-/// What is shown of a joint, the axis and the unit: of a wheel, of a sliding joint, of any other.
-type JointTexts = [(&'static str, &'static str, &'static Family); 3];
-const RATE: JointTexts = [
-    ("rates", "Rate", unit::WHEEL_RATE),
-    ("speeds", "Speed", unit::VELOCITY),
-    ("rates", "Rate", unit::ANGULAR_RATE),
-];
-const COORDINATE: JointTexts = [
-    ("angles", "Angle", unit::REVOLUTIONS),
-    ("displacements", "Displacement", unit::LENGTH),
-    ("angles", "Angle", unit::ANGLE),
-];
-const MOTOR: JointTexts = [
-    ("motor torques", "Torque", unit::MOTOR_TORQUE),
-    ("motor forces", "Force", unit::FORCE),
-    ("motor torques", "Torque", unit::MOTOR_TORQUE),
-];
-const ACCELERATION: JointTexts = [
-    ("accelerations", "Acceleration", unit::WHEEL_ACCELERATION),
-    ("accelerations", "Acceleration", unit::ACCELERATION),
-    ("accelerations", "Acceleration", unit::ANGULAR_ACCELERATION),
-];
 
 /// Of the hub or of the whole spacecraft.
 fn of_hub(

@@ -1,6 +1,7 @@
 //! What the page of one run shows: charts, tables, replay, verdicts.
 
 pub(super) mod chart;
+mod chart_texts;
 pub(super) mod extremes;
 pub(super) mod grouping;
 pub(super) mod limits;
