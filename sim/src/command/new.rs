@@ -15,8 +15,8 @@ use crate::scenario::body_key;
 /// The options of `new`.
 #[derive(Debug, Args)]
 pub(super) struct New {
-    /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, `wheels` for three
-    /// reaction wheels, `platform` for a wheel on an isolator; `budget` for a jitter budget of `wheels`.
+    /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, `gyros` for four SGCMGs, `wheels` for three
+    /// reaction wheels, `orbit` for a wheel in an orbit, `platform` for a wheel on an isolator; `budget` for a jitter budget of `wheels`.
     #[arg(default_value = "reaction_wheel")]
     what: String,
 }
@@ -26,7 +26,7 @@ impl New {
         let Some(text) = example(&self.what) else {
             let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
             let message = format!(
-                "there is no example of `{}`; there are budget, platform, pyramid, wheels, {}",
+                "there is no example of `{}`; there are budget, gyros, orbit, platform, pyramid, wheels, {}",
                 self.what,
                 known.join(", ")
             );
@@ -47,6 +47,18 @@ fn example(what: &str) -> Option<String> {
         "pyramid" => {
             text.push_str(PYRAMID);
             bodies(&mut text, BuiltInKind::Dgvscmg);
+        }
+        "gyros" => {
+            let single = [("DGVSCMGs", "SGCMGs"), ("outer gimbal", "gimbal"), ("dgvscmg", "sgcmg")];
+            text.push_str(
+                &single.iter().fold(PYRAMID.to_owned(), |text, (a, b)| text.replace(a, b)),
+            );
+            bodies(&mut text, BuiltInKind::Sgcmg);
+        }
+        "orbit" => {
+            text = text.replace("[initial]\n", ORBIT);
+            text.push_str(WHEEL);
+            bodies(&mut text, BuiltInKind::ReactionWheel);
         }
         "wheels" => {
             let wheels = [
@@ -90,13 +102,18 @@ fn example(what: &str) -> Option<String> {
     let kind = BuiltInKind::of_name(what);
     let joint = match (what, kind) {
         ("pyramid", _) => "cmg1.wheel".to_owned(),
+        ("gyros", _) => "cmg1.gimbal".to_owned(),
         (_, Some(kind)) => {
             let body = kind.joints().last().map_or("", |joint| joint.body);
             format!("{}.{}", short(kind), body.replace(' ', "_"))
         }
         _ => "wheel1.wheel".to_owned(),
     };
-    text.push_str(&TAIL.replace("JOINT", &joint));
+    let mut tail = TAIL.replace("JOINT", &joint);
+    if what == "orbit" {
+        tail = tail.replace("# columns = [\"omega\", \"attitude\", \"loads\"]", ORBIT_COLUMNS);
+    }
+    text.push_str(&tail);
     Some(text)
 }
 
@@ -245,31 +262,32 @@ layout.pyramid = { count = 4, half_angle = "54.74 deg", first_azimuth = "0 deg",
 imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
 "#;
 
-const PLATFORM: &str = r#"
-# An isolator: a body on three slides and three turns, each with a spring and a damper, by its corner frequency with
-# the wheel on it; or by stiffness and damping.
-[[platform]]
-name = "isolator"
-mass = "2 kg"
-inertia = "200, 200, 300 kg cm^2"
-# Of its origin P from B, in the hub's axes.
-position = "0, 0, 50 cm"
-x_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
-y_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
-z_slide = { corner_frequency = "20 Hz", damping_ratio = 0.1 }
-x_turn = { corner_frequency = "25 Hz", damping_ratio = 0.1 }
-y_turn = { corner_frequency = "25 Hz", damping_ratio = 0.1 }
-z_turn = { locked = true }
+/// The head of the initial state, with the field of the Earth.
+const ORBIT: &str = r#"# The field of the Earth as that of a point: a circular orbit at 500 km.
+[gravity]
+central = "3.986004418e14 m^3/s^2"
 
+[initial]
+position = "6878.137, 0, 0 km"
+velocity = "0, 5.38293, 5.38293 km/s"
+# Attitude and rate below are from the orbital frame: z down, y against the orbit's normal.
+relative_to = "orbit"
+"#;
+
+const ORBIT_COLUMNS: &str = "# Roll, pitch, yaw and rate from the orbital frame, momentum about the centre of mass.\n\
+                             columns = [\"omega\", \"orbit\", \"wheel1\"]";
+
+const WHEEL: &str = r#"
 [[device]]
 name = "wheel1"
 kind = "reaction_wheel"
-# Position and mount are from P, in the platform's axes.
-on = "isolator"
-position = "0, 0, 5 cm"
-mount = { spin_axis = [0, 0, 1] }
+position = "30, 0, 0 cm"
+# Along the orbit's normal.
+mount = { spin_axis = [0, -1, 0] }
 imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
 "#;
+
+const PLATFORM: &str = include_str!("new/platform.toml");
 
 const TAIL: &str = r#"
 # What happens over time, for example:
@@ -345,7 +363,7 @@ mod tests {
     #[test]
     fn the_commented_change_is_one() {
         let kinds = BuiltInKind::ALL.iter().map(|kind| kind.name());
-        for what in kinds.chain(["platform", "pyramid", "wheels"]) {
+        for what in kinds.chain(["gyros", "orbit", "platform", "pyramid", "wheels"]) {
             let text = example(what).expect("an example");
             let change = text.lines().skip_while(|line| *line != "# [[at]]").take(4);
             let change: Vec<_> = change.map(|line| line.trim_start_matches("# ")).collect();
@@ -361,7 +379,7 @@ mod tests {
     #[test]
     fn every_example_is_a_scenario_without_warning() {
         let kinds = BuiltInKind::ALL.iter().map(|kind| kind.name());
-        for what in kinds.chain(["platform", "pyramid", "wheels"]) {
+        for what in kinds.chain(["gyros", "orbit", "platform", "pyramid", "wheels"]) {
             let text = example(what).expect("an example");
             let read = from_toml(what, &text, Path::new(""));
             let (_, warnings) = read.unwrap_or_else(|errors| panic!("{what}:\n{errors}\n{text}"));

@@ -32,3 +32,23 @@ pub(super) const ACCELERATION: JointTexts = [
     ("accelerations", "Acceleration", unit::ACCELERATION),
     ("accelerations", "Acceleration", unit::ANGULAR_ACCELERATION),
 ];
+
+/// Order, slug, title, symbol and unit of a momentum.
+pub(super) type MomentumTexts =
+    ((usize, usize), &'static str, &'static str, &'static str, &'static Family);
+pub(super) const LINEAR: MomentumTexts =
+    ((22, 0), "linear-momentum", "Linear momentum", "Δp", unit::LINEAR_MOMENTUM);
+pub(super) const ANGULAR: MomentumTexts = (
+    (23, 0),
+    "angular-momentum",
+    "Angular momentum about the inertial origin",
+    "ΔH",
+    unit::ANGULAR_MOMENTUM,
+);
+pub(super) const ABOUT_CENTRE: MomentumTexts = (
+    (23, 1),
+    "momentum-about-centre",
+    "Angular momentum about the centre of mass",
+    "ΔH",
+    unit::ANGULAR_MOMENTUM,
+);

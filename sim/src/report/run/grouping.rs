@@ -9,7 +9,8 @@ use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
 use super::chart_texts::{
-    ACCELERATION, COORDINATE, FORCE, JointTexts, LoadTexts, MOMENT, MOTOR, RATE, WORK,
+    ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, FORCE, JointTexts, LINEAR, LoadTexts, MOMENT,
+    MOTOR, MomentumTexts, RATE, WORK,
 };
 use crate::names::file_names;
 use crate::record::columns::Quantity;
@@ -180,21 +181,9 @@ fn found(
         }
         Quantity::Work => of_hub((20, 0), WORK, unit::ENERGY, ["W", ""]),
         Quantity::Lost => of_hub((20, 0), WORK, unit::ENERGY, ["losses", ""]),
-        Quantity::Linear(axis) => {
-            let title = "Linear momentum, departure from the start";
-            let texts = ["linear-momentum", title, "Departure"];
-            of_hub((22, 0), texts, unit::LINEAR_MOMENTUM, ["Δp", AXES[axis]])
-        }
-        Quantity::Angular(axis) => {
-            let title = "Angular momentum about the inertial origin, departure from the start";
-            let texts = ["angular-momentum", title, "Departure"];
-            of_hub((23, 0), texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
-        }
-        Quantity::CentreMomentum(axis) => {
-            let title = "Angular momentum about the centre of mass, departure from the start";
-            let texts = ["momentum-about-centre", title, "Departure"];
-            of_hub((23, 1), texts, unit::ANGULAR_MOMENTUM, ["ΔH", AXES[axis]])
-        }
+        Quantity::Linear(axis) => of_momentum(LINEAR, axis),
+        Quantity::Angular(axis) => of_momentum(ANGULAR, axis),
+        Quantity::CentreMomentum(axis) => of_momentum(ABOUT_CENTRE, axis),
         Quantity::MountForce(_, axis)
         | Quantity::CarriedForce(_, axis)
         | Quantity::LoadForce(_, axis) => of_load(FORCE, axis, index, column),
@@ -221,6 +210,12 @@ fn of_hub(
         label: if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") },
         departure: key.0 >= 20,
     }
+}
+
+/// Of a momentum.
+fn of_momentum((key, slug, title, symbol, family): MomentumTexts, axis: usize) -> ChartColumn {
+    let column = of_hub(key, [slug, "", "Departure"], family, [symbol, AXES[axis]]);
+    ChartColumn { title: format!("{title}, departure from the start"), ..column }
 }
 
 /// Roll, pitch and yaw from some axes.
