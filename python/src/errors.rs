@@ -61,7 +61,9 @@ pub(crate) fn evaluation(error: &EvaluationError) -> PyErr {
             class::ParameterError::new_err(message)
         }
         EvaluationError::Derivative(_) => class::DerivativeError::new_err(message),
-        EvaluationError::Flexible => class::UnsupportedError::new_err(message),
+        EvaluationError::Flexible
+        | EvaluationError::Sticks { .. }
+        | EvaluationError::Friction { .. } => class::UnsupportedError::new_err(message),
         EvaluationError::UnknownParameter { .. } => PyKeyError::new_err(message),
     }
 }

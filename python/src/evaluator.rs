@@ -117,7 +117,9 @@ impl NativeEvaluator {
     /// What acts by the scenario at a time, s, and state.
     fn inputs(&self, time: f64, y: PyReadonlyArray1<'_, f64>) -> PyResult<NativeInputs> {
         let state = self.state(&y)?;
-        Ok(NativeInputs::new(self.evaluator.inputs(time, &state), self.evaluator.clone()))
+        let inputs = self.evaluator.inputs(time, &state);
+        let inputs = inputs.map_err(|error| errors::evaluation(&error))?;
+        Ok(NativeInputs::new(inputs, self.evaluator.clone()))
     }
 
     /// All accelerations.
@@ -145,7 +147,9 @@ impl NativeEvaluator {
         let found = if let Some(inputs) = inputs {
             self.evaluator.accelerations(&state, &*inputs.get()?)
         } else {
-            self.evaluator.accelerations(&state, &self.evaluator.inputs(time, &state))
+            let inputs = self.evaluator.inputs(time, &state);
+            let inputs = inputs.map_err(|error| errors::evaluation(&error))?;
+            self.evaluator.accelerations(&state, &inputs)
         };
         let found = found.map_err(|error| errors::solve(&error))?;
         Ok(self.evaluator.derivative(&flat, &state, &found).into_pyarray(py))

@@ -22,6 +22,7 @@ SCENARIOS = {
     "beam-tip-wheel": "0.1 s",
     "wheels-on-isolator": "0.1 s",
     "panel-deployment": "3 s",
+    "sticking-wheel": None,
     "orbit-gravity-gradient": "5 min",
     "table1-catalogue-250": "0.1 s",
 }

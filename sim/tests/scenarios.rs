@@ -167,6 +167,20 @@ fn brake_and_latch_take_the_energy_that_they_should() {
 }
 
 #[test]
+fn a_wheel_breaks_away_and_sticks_again() {
+    let (outcome, _) = run_of(&read(&folder().join("sticking-wheel.toml")));
+    let found: Vec<_> = outcome.events.iter().map(|event| event.text.as_str()).collect();
+    let words = ["wheel.theta: slides", "wheel.theta: driven by a torque", "wheel.theta: sticks"];
+    assert_eq!(found, words);
+    // 0.8 mN m of a ramp of 1 mN m/s.
+    assert!((outcome.events[0].time - 0.8).abs() < 1e-9, "{:?}", outcome.events);
+    let drift = &outcome.drift;
+    for part in [drift.energy, drift.linear, drift.angular] {
+        assert!(part.is_some_and(|part| part < 1e-12), "{drift:?}");
+    }
+}
+
+#[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn examples_with_requirements_meet_them() {
     for path in files() {

@@ -11,7 +11,8 @@ use crate::numbers::real::{Scalar, half, reciprocal_in_two, zero};
 ///
 /// acts in addition to the motor, on the child body and reversed on the parent body. The last term
 /// is smoothed Coulomb friction: `u_c` well above the rate `q_c'`, a stiff damper `u_c / q_c'`
-/// below. It never sticks: a joint that must not move is [locked](crate::Mode::Locked).
+/// below. It never sticks: a joint that must not move is [locked](crate::Mode::Locked). In runs of the desktop
+/// tool a joint sticks by the key `static_friction` of a scenario.
 ///
 /// A step of Runge-Kutta's method must resolve what is stiff. With `J` the inertia that the joint
 /// moves, on the whole spacecraft and with the springs of other joints, `dt` is at most

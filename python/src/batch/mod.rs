@@ -97,6 +97,14 @@ impl NativeBatch {
                 }
             }
         }
+        let own = elements.iter().map(|of| &**of).chain([evaluator.scenario()]);
+        if let Some(joint) = own.into_iter().find_map(Scenario::first_friction) {
+            let message = format!(
+                "batches have no friction that sticks and no quadratic drag, as {joint} has; run the scenarios one by \
+                 one, or give it `coulomb` with `coulomb_rate` instead"
+            );
+            return Err(errors::class::UnsupportedError::new_err(message));
+        }
         let count = each.then_some(elements.len());
         let engine = py.detach(|| {
             if each { Engine::each(&elements, lanes) } else { Engine::same(&evaluator, lanes) }

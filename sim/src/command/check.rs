@@ -13,7 +13,7 @@ use super::options::{Files, Form};
 use super::table::{aligned, six};
 use super::terminal::{note, print};
 use super::{advice, sources};
-use crate::engine::device_of;
+use crate::engine::{Run, device_of};
 use crate::evaluation::Evaluator;
 use crate::file::{Diagnostic, Severity, from_file};
 use crate::scenario::mass::{JointInertia, MassMatrix, MassProperties, imbalance};
@@ -140,7 +140,11 @@ fn unsolvable(scenario: &Scenario) -> Option<String> {
         Err(error) => return Some(error.to_string()),
     };
     let state = evaluator.initial();
-    let error = evaluator.accelerations(&state, &evaluator.inputs(0.0, &state)).err()?;
+    let Ok(inputs) = evaluator.inputs(0.0, &state) else {
+        // A joint that may stick: a run decides it.
+        return Run::new(scenario).err().map(|error| error.to_string());
+    };
+    let error = evaluator.accelerations(&state, &inputs).err()?;
     let name = device_of(&error).and_then(|device| scenario.names.get(device));
     Some(name.map_or_else(|| error.to_string(), |name| format!("`{name}`: {error}")))
 }

@@ -89,6 +89,13 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
         let message = "the flight library's table is of a rigid hub; remove `[structure]`";
         return Err(CommandError::Other(message.to_owned()));
     }
+    if let Some(joint) = scenario.first_friction() {
+        let message = format!(
+            "the flight library has no friction that sticks and no quadratic drag, as {joint} has; remove \
+             `static_friction`, `stribeck_rate` and `quadratic_drag`, and give `coulomb` with `coulomb_rate`"
+        );
+        return Err(CommandError::Other(message));
+    }
     let members = members(&scenario.devices);
     let count = members.len();
     if count > DEVICES_MAX {

@@ -14,6 +14,16 @@ pub enum EvaluationError {
     Derivative(DerivativeError),
     /// Derivatives by parameters of a flexible structure, which the library does not have.
     Flexible,
+    /// Whether a joint at rest sticks, which only a run decides.
+    Sticks {
+        /// Its coordinate.
+        joint: String,
+    },
+    /// Derivatives with friction that sticks or quadratic drag, which only runs have.
+    Friction {
+        /// The coordinate of the first joint with it.
+        joint: String,
+    },
     /// A name is that of no parameter.
     UnknownParameter {
         /// The name.
@@ -31,6 +41,16 @@ impl fmt::Display for EvaluationError {
             Self::Flexible => f.write_str(
                 "derivatives by parameters are not available for a flexible structure; use a rigid hub",
             ),
+            Self::Sticks { joint } => write!(
+                f,
+                "whether static friction holds {joint}, which is at rest, only a run decides; give it a rate, lock \
+                 it, or give it smoothed friction: `coulomb` with `coulomb_rate`"
+            ),
+            Self::Friction { joint } => write!(
+                f,
+                "the friction of {joint} has no derivatives: static friction and quadratic drag are of runs only; \
+                 remove them, or give it `damping`, and `coulomb` with `coulomb_rate`"
+            ),
             Self::UnknownParameter { name, nearest } => {
                 write!(f, "`{name}` is no parameter of the spacecraft")?;
                 nearest.iter().enumerate().try_for_each(|(index, near)| {
@@ -47,7 +67,10 @@ impl Error for EvaluationError {
         match self {
             Self::Solve(source) => Some(source),
             Self::Derivative(source) => Some(source),
-            Self::Flexible | Self::UnknownParameter { .. } => None,
+            Self::Flexible
+            | Self::Sticks { .. }
+            | Self::Friction { .. }
+            | Self::UnknownParameter { .. } => None,
         }
     }
 }

@@ -43,7 +43,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for parameters of a flexible structure,
+    /// [`EvaluationError::Friction`]; [`EvaluationError::Flexible`] for parameters of a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize`] and
     /// [`precess_dynamics::Spacecraft::parameter_derivatives`].
     pub fn linearize<N: AsRef<str>>(
@@ -53,6 +53,7 @@ impl Evaluator {
         outputs: &Outputs,
         parameters: &[N],
     ) -> Result<Linearized, EvaluationError> {
+        self.check_smooth()?;
         let parameters = self.parameters_named(parameters)?;
         let found = precess_craft::linearize(&self.craft, state, inputs, outputs)?;
         let (rows, count) = (found.states.len(), parameters.len());

@@ -127,14 +127,30 @@ impl Evaluator {
     }
 
     /// What acts at a time, s, and state: the scenario's gravity, mode of the hub, initial drives,
-    /// wrenches and disturbances.
-    #[must_use]
-    pub fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
+    /// wrenches and disturbances; friction that sticks, and quadratic drag, of joints that slide as part of the motors'
+    /// torques.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::Sticks`] of a joint with static friction that is at rest.
+    pub fn inputs(&self, time: f64, state: &CraftState) -> Result<CraftInputs, EvaluationError> {
         let mut acting = SegmentInputs::new(&self.scenario, &self.layout.joints);
         acting.begin(0.0, f64::INFINITY);
+        if let Some(joint) = acting.sliding_at(time, state) {
+            let joint = self.layout.joints.get(joint).map_or("", |place| &place.name).to_owned();
+            return Err(EvaluationError::Sticks { joint });
+        }
         let mut inputs = acting.inputs(&self.scenario, &self.craft);
         acting.fill(time, state, &mut inputs);
-        inputs
+        Ok(inputs)
+    }
+
+    /// Rejects derivatives with friction that only runs have.
+    fn check_smooth(&self) -> Result<(), EvaluationError> {
+        match self.scenario.first_friction() {
+            Some(joint) => Err(EvaluationError::Friction { joint }),
+            None => Ok(()),
+        }
     }
 
     /// How many numbers a flat state has.

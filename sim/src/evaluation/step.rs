@@ -36,7 +36,7 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Flexible`] for parameters of a flexible structure,
+    /// [`EvaluationError::Friction`]; [`EvaluationError::Flexible`] for parameters of a flexible structure,
     /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize_step`]
     /// and [`precess_dynamics::Spacecraft::step_parameter_derivatives`].
     pub fn linearize_steps<N: AsRef<str>>(
@@ -46,6 +46,7 @@ impl Evaluator {
         (length, steps): (f64, usize),
         parameters: &[N],
     ) -> Result<LinearizedStep, EvaluationError> {
+        self.check_smooth()?;
         let parameters = self.parameters_named(parameters)?;
         let by: Vec<_> = parameters.iter().map(Parameter::variable).collect();
         let hub = if by.is_empty() { None } else { Some(self.scenario.bare_hub()?) };

@@ -75,7 +75,7 @@ fn steps_are_bit_identical_to_a_run() {
     let mut state = evaluator.initial();
     for step in 0..50 {
         let time = f64::from(step) * 1e-3;
-        let inputs = evaluator.inputs(time, &state);
+        let inputs = evaluator.inputs(time, &state).expect("nothing sticks");
         state = evaluator.step(&state, &inputs, 1e-3).expect("a step");
     }
     let last = samples.rows.last().expect("samples");
@@ -89,7 +89,7 @@ fn mass_matrix_and_bias_return_the_inputs_of_the_accelerations() {
     let scenario = scenario();
     let evaluator = Evaluator::new(&scenario).expect("a spacecraft");
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let found = evaluator.accelerations(&state, &inputs).expect("accelerations");
     let MassMatrix { matrix, bias, coordinates } =
         evaluator.mass_matrix(&state, &inputs).expect("a mass matrix");
@@ -123,7 +123,7 @@ fn columns_by_parameters_are_those_of_differences() {
     if let Some([phi, _]) = state.devices.states_mut().nth(1) {
         *phi = 0.2;
     }
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     // Each with a step of differences that is small beside what it is added to.
     let steps = [
         ("hub.m_b", 1e-2),
@@ -165,7 +165,7 @@ fn loads_and_ledger_are_those_of_a_run() {
     let mut samples = Samples::default();
     run(&scenario, &mut samples, &mut |_| ControlFlow::Break(())).expect("it runs");
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let found = evaluator.accelerations(&state, &inputs).expect("accelerations");
     let loads = evaluator.loads(&state, &inputs, &found).expect("loads");
     let header = samples.header.as_ref().expect("a header");
@@ -248,7 +248,7 @@ const DIFFERENCES: f64 = 1e-7;
 fn linearised_structure_is_that_of_differences() {
     let evaluator = Evaluator::new(&structure()).expect("a spacecraft");
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let (outputs, none) = (Outputs::accelerations(), &[] as &[&str]);
     let found = evaluator.linearize(&state, &inputs, &outputs, none).expect("derivatives");
     let columns = evaluator.state_columns();
@@ -303,7 +303,7 @@ fn linearised_structure_is_that_of_differences() {
 fn linearised_steps_of_a_structure_are_those_of_steps() {
     let evaluator = Evaluator::new(&structure()).expect("a spacecraft");
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let none: &[&str] = &[];
     let found = evaluator.linearize_steps(&state, &inputs, (1e-3, 2), none).expect("derivatives");
     let stepped = |state: &CraftState| {
@@ -333,7 +333,7 @@ fn linearised_steps_of_a_structure_are_those_of_steps() {
 fn mass_matrix_of_a_structure_returns_the_inputs_of_the_accelerations() {
     let evaluator = Evaluator::new(&structure()).expect("a spacecraft");
     let state = evaluator.initial();
-    let mut inputs = evaluator.inputs(0.0, &state);
+    let mut inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     inputs.modal.forces[1] = 0.7;
     let found = evaluator.accelerations(&state, &inputs).expect("accelerations");
     let MassMatrix { matrix, bias, coordinates } =

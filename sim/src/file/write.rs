@@ -19,8 +19,9 @@ use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
-    Action, AppliedWrench, BodyPoint, Drive, Format, IntegratorChoice, Member, MotorLimits,
-    Profile, Scenario, Statistic, StopAction, Target, WrenchAxes, body_key, joint_key,
+    Action, AppliedWrench, BodyPoint, Drive, DryFriction, Format, IntegratorChoice, JointFriction,
+    Member, MotorLimits, Profile, Scenario, Statistic, StopAction, Target, WrenchAxes, body_key,
+    joint_key,
 };
 
 /// The text.
@@ -162,7 +163,7 @@ pub(super) fn of_joint(
     let [coordinate, rate] =
         if info.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
     writeln!(out, "{coordinate} = \"{q:?} {unit}\"\n{rate} = \"{q_dot:?} {rate_unit}\"")?;
-    passive_of(out, passive, info)?;
+    passive_of(out, passive, (info, s.friction_of(joint)))?;
     if let Some(of) = s.drives.get(joint) {
         drive(out, of, Some(info))?;
     }
@@ -178,11 +179,24 @@ pub(super) fn of_joint(
     Ok(())
 }
 
-fn passive_of(out: &mut String, passive: &Passive, info: &JointInfo) -> Written {
+fn passive_of(
+    out: &mut String,
+    passive: &Passive,
+    (info, friction): (&JointInfo, Option<&JointFriction>),
+) -> Written {
     let [unit, rate_unit, _, torque] = units(info);
     let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = passive;
     writeln!(out, "stiffness = \"{stiffness:?} {torque}/{unit}\"\nrest = \"{rest:?} {unit}\"")?;
     writeln!(out, "damping = \"{viscous:?} {torque} s/{unit}\"")?;
+    if let Some(JointFriction { drag, .. }) = friction {
+        writeln!(out, "quadratic_drag = \"{drag:?} {torque} s^2/{unit}^2\"")?;
+    }
+    if let Some(dry) = friction.and_then(|of| of.dry) {
+        let DryFriction { static_friction, coulomb, stribeck_rate } = dry;
+        writeln!(out, "coulomb = \"{coulomb:?} {torque}\"")?;
+        writeln!(out, "static_friction = \"{static_friction:?} {torque}\"")?;
+        return writeln!(out, "stribeck_rate = \"{stribeck_rate:?} {rate_unit}\"");
+    }
     writeln!(
         out,
         "coulomb = \"{coulomb:?} {torque}\"\ncoulomb_rate = \"{coulomb_rate:?} {rate_unit}\""

@@ -7,6 +7,7 @@
 //! whatever the order of the selection.
 
 mod disturbances;
+mod friction;
 mod orbit;
 mod points;
 mod quantity;
@@ -57,6 +58,7 @@ impl Columns {
         orbit::columns(&mut columns, scenario);
         for (joint, (_, name, info)) in scenario.joints().enumerate() {
             of_joint(&mut columns, name, joint, info);
+            friction::column(&mut columns, scenario, name, (joint, info));
         }
         structure::columns(&mut columns, scenario);
         points::columns(&mut columns, scenario);

@@ -89,6 +89,15 @@ pub enum RunError {
         /// The nearest names of columns of the state.
         nearest: Vec<String>,
     },
+    /// Friction of a joint changes between sticking and sliding again and again at one time.
+    FrictionUndecided {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate.
+        joint: String,
+        /// How often it has changed there.
+        changes: usize,
+    },
     /// More steps than a run of this length should need.
     TooManySteps {
         /// Simulated time reached, s.
@@ -175,6 +184,7 @@ impl RunError {
             | Self::LockedJointMoves { time, .. }
             | Self::BeyondLargestRate { time, .. }
             | Self::NotDriven { time, .. }
+            | Self::FrictionUndecided { time, .. }
             | Self::TooManySteps { time, .. }
             | Self::StepTooSmall { time, .. }
             | Self::Stiff { time, .. }
@@ -262,6 +272,13 @@ impl fmt::Display for RunError {
                     write!(f, "{lead}`{near}`")
                 })
             }
+            Self::FrictionUndecided { time, joint, changes } => write!(
+                f,
+                "at t = {time} s the friction of {joint} has changed {changes} times between sticking and \
+                 sliding, and the run does not go on; lock the joint, or give it smoothed friction: `coulomb` \
+                 with `coulomb_rate`",
+                time = Plain(*time)
+            ),
             Self::TooManySteps { time, fastest } => write!(
                 f,
                 "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \

@@ -114,6 +114,7 @@ impl Scenario {
         errors.extend(self.check_names());
         errors.extend(self.check_joints());
         errors.extend(self.check_points());
+        errors.extend(self.check_friction());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {
@@ -317,7 +318,7 @@ impl Scenario {
     }
 
     /// All profiles.
-    fn profiles(&self) -> impl Iterator<Item = &Profile> {
+    pub(crate) fn profiles(&self) -> impl Iterator<Item = &Profile> {
         let changed = self.changes.iter().filter_map(|change| match &change.action {
             Action::Drive(drive) => Some(drive),
             Action::Brake => None,

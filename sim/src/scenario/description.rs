@@ -115,6 +115,11 @@ impl Scenario {
         let passive = self.members().filter(|(_, member)| acts(member));
         let mut list: Vec<_> =
             passive.map(|(name, _)| format!("spring, damper or friction of {name}")).collect();
+        for of in &self.friction {
+            let found = self.joints().nth(of.joint);
+            let what = "friction that sticks or quadratic drag of";
+            list.extend(found.map(|(_, name, info)| format!("{what} {name}.{}", info.coordinate)));
+        }
         if self.gravity != Gravity::None {
             list.push("gravity".to_owned());
         }

@@ -11,6 +11,7 @@ mod body_point;
 mod check;
 mod description;
 mod disturbances;
+mod friction;
 pub mod mass;
 mod member;
 mod motor;
@@ -32,6 +33,7 @@ use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Quaternion, Spacec
 pub use body_point::BodyPoint;
 pub use check::ScenarioError;
 pub use description::UndescribedError;
+pub use friction::{DryFriction, JointFriction};
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members, set_of};
 pub(crate) use member::{body_key, joint_key, with_device};
@@ -84,6 +86,8 @@ pub struct Scenario {
     pub drives: Vec<Drive>,
     /// End stops of joints.
     pub stops: Vec<EndStop>,
+    /// Friction of joints that sticks, and quadratic drag; a joint at most once.
+    pub friction: Vec<JointFriction>,
     /// Wrenches from outside.
     pub wrenches: Vec<AppliedWrench>,
     /// Points of the hub and of the devices' bodies whose motion is recorded.

@@ -152,6 +152,16 @@ impl Profile {
         }
     }
 
+    /// The highest frequency with which it oscillates, Hz; zero of one that does not.
+    pub(crate) fn highest_frequency(&self) -> f64 {
+        match self {
+            Self::Sine { frequency, .. } => frequency.abs(),
+            Self::Chirp { frequencies: [first, last], .. } => first.abs().max(last.abs()),
+            Self::During { profile, .. } => profile.highest_frequency(),
+            Self::Constant(_) | Self::Step { .. } | Self::Ramp { .. } | Self::Table(_) => 0.0,
+        }
+    }
+
     /// Its derivative by time from the start of the run on.
     ///
     /// # Errors

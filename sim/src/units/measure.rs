@@ -102,6 +102,10 @@ measures! {
     ANGULAR_DAMPING = "a viscous friction of a turning joint", "N m s/rad", "mN m s/rad", [2 1 -1 -1];
     /// Viscous friction of a sliding joint.
     DAMPING = "a viscous friction of a sliding joint", "N s/m", "N s/m", [0 1 -1 0];
+    /// Quadratic drag of a turning joint.
+    ANGULAR_DRAG = "a quadratic drag of a turning joint", "N m s^2/rad^2", "mN m s^2/rad^2", [2 1 0 -2];
+    /// Quadratic drag of a sliding joint.
+    DRAG = "a quadratic drag of a sliding joint", "N s^2/m^2", "N s^2/m^2", [-1 1 0 0];
     /// Stiffness between slides and turns of a platform.
     COUPLING_STIFFNESS = "a stiffness between slides and turns", "N/rad", "N/mrad", [1 1 -2 -1];
     /// Viscous friction between slides and turns of a platform.

@@ -31,8 +31,12 @@ fn rk4_is_the_library_to_the_bit() {
         angular: vec![Vector3::new(0.0, -1.1, 0.0), Vector3::new(0.1, 0.0, 0.2)],
         mounts: vec![ModalMount { point: of.nodes[0].point(), contained: None }],
     };
-    let craft =
-        Spacecraft::flexible(&scenario.hub, &modes, &scenario.devices, &(vec![0], Vec::new(), Vec::new()));
+    let craft = Spacecraft::flexible(
+        &scenario.hub,
+        &modes,
+        &scenario.devices,
+        &(vec![0], Vec::new(), Vec::new()),
+    );
     let craft = craft.expect("valid");
     let mut state = State::at_rest_for(&craft);
     state = scenario.initial.clone().with_modal(state.modal);

@@ -72,6 +72,33 @@ fn what_is_no_spacecraft_is_said_with_its_place() {
     assert!(shown.contains("exceeds the sum of the other two by 7.0 kg m^2; no mass"), "{shown}");
 }
 
+/// Friction that sticks: its keys together, and their bounds.
+#[test]
+fn friction_that_cannot_be_is_said_with_its_place() {
+    for (keys, parts) in [
+        ("static_friction = \"9 mN m\"\n", ["`device.p.panel.coulomb` is missing", "add `coulomb"]),
+        ("stribeck_rate = \"1 deg/s\"\n", ["about a `stribeck_rate`", "add `static_friction"]),
+        (
+            "static_friction = \"9 mN m\"\ncoulomb = \"8 mN m\"\ncoulomb_rate = \"1 deg/s\"\n",
+            ["does not fall to zero at a `coulomb_rate`", "remove one of them"],
+        ),
+        (
+            "static_friction = \"7 mN m\"\ncoulomb = \"8 mN m\"\n",
+            ["0.007 N m is below the Coulomb friction of 0.008 N m", "^^^"],
+        ),
+        (
+            "quadratic_drag = \"-1 N m s^2/rad^2\"\n",
+            ["-1 N m s^2/rad^2; it is not negative", "^^^"],
+        ),
+        ("quadratic_drag = \"1 N m s/rad\"\n", ["where a quadratic drag", "^^^"]),
+    ] {
+        let shown = refused(&format!("{HEAD}{PANEL}{keys}"));
+        for part in parts {
+            assert!(shown.contains(part), "{part} in\n{shown}");
+        }
+    }
+}
+
 /// A spin axis of a measurement that is none.
 #[test]
 fn a_zero_axis_has_no_direction() {

@@ -114,7 +114,7 @@ fn platform(node: &str) -> String {
 fn at_mount(text: &str, name: &str) -> ([Vector3<f64>; 2], String) {
     let evaluator = Evaluator::new(&read(text)).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let found = evaluator.accelerations(&state, &inputs).expect("a pose");
     let loads = evaluator.loads(&state, &inputs, &found).expect("loads");
     let columns = evaluator.load_columns();
@@ -216,7 +216,7 @@ fn loads_of_a_balanced_rotor_are_labelled_with_the_mount() {
     assert_eq!(frame("gyro.wheel.load_force_x"), "parent body of gyro.wheel");
     assert_eq!(frame("gyro.gimbal.load_force_x"), "gyro.gimbal");
     let state = evaluator.initial();
-    let inputs = evaluator.inputs(0.0, &state);
+    let inputs = evaluator.inputs(0.0, &state).expect("nothing sticks");
     let found = evaluator.accelerations(&state, &inputs).expect("a pose");
     let loads = evaluator.loads(&state, &inputs, &found).expect("loads");
     let along = |axis: &str| {
@@ -293,7 +293,9 @@ fn a_point_mass_that_the_model_contains_is_accepted_anywhere() {
         );
         let evaluator = Evaluator::new(&read(&text)).unwrap_or_else(|error| panic!("{error}"));
         let state = evaluator.initial();
-        evaluator.accelerations(&state, &evaluator.inputs(0.0, &state)).expect("solved");
+        evaluator
+            .accelerations(&state, &evaluator.inputs(0.0, &state).expect("nothing sticks"))
+            .expect("solved");
     }
 }
 

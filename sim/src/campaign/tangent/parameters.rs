@@ -38,6 +38,7 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
         (!scenario.wrenches.is_empty(), "wrenches"),
         (!scenario.changes.is_empty(), "changes at times"),
         (!scenario.stops.is_empty(), "end stops"),
+        (!scenario.friction.is_empty(), "friction that sticks or quadratic drag"),
         (!scenario.crossings.is_empty(), "crossings"),
         (!scenario.drives.iter().all(constant), "drives that vary over time"),
         (

@@ -8,6 +8,7 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
 use super::disturbances::Disturbances;
+use super::friction::{Contact, Frictions};
 use super::kinematics::{Chain, axes};
 use super::motors::MotorState;
 use super::packing::JointPlace;
@@ -29,6 +30,7 @@ pub(crate) struct SegmentInputs<'a> {
     motors: Vec<MotorState>,
     wrenches: Vec<WrenchOnBody<'a>>,
     disturbances: Disturbances<'a>,
+    pub(crate) friction: Frictions<'a>,
     chains: Vec<Chain>,
     start: f64,
     end: f64,
@@ -79,6 +81,7 @@ impl<'a> SegmentInputs<'a> {
             motors: vec![MotorState::default(); joints.len()],
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
+            friction: Frictions::new(scenario),
             chains: Chain::all(&scenario.devices),
             start: 0.0,
             end: 0.0,
@@ -144,6 +147,18 @@ impl<'a> SegmentInputs<'a> {
         drive.limits().torque.map_or(of_profile, |limit| limit.abs().min(of_profile))
     }
 
+    /// Lets joints with dry friction slide with the rates of a state; returns the first that is at rest by itself.
+    pub(crate) fn sliding_at(&mut self, time: f64, state: &CraftState) -> Option<usize> {
+        let rates: Vec<_> = state.devices.states().map(|[_, rate]| rate).collect();
+        let dry: Vec<_> = self.friction.dry().map(|(of, _)| of.joint).collect();
+        for joint in &dry {
+            let rate = rates.get(*joint).copied().unwrap_or_default();
+            self.friction.set(*joint, Contact::Slides(rate.signum()));
+        }
+        let at_rest = |joint: &usize| rates.get(*joint) == Some(&0.0);
+        dry.into_iter().find(|joint| at_rest(joint) && self.motor(*joint, time).is_some())
+    }
+
     /// The bodies of each device and platform.
     pub(crate) fn chains(&self) -> &[Chain] {
         &self.chains
@@ -171,9 +186,22 @@ impl<'a> SegmentInputs<'a> {
         self.disturbances.wrenches(time, time > self.start, state)
     }
 
-    /// The longest step that resolves the disturbances at these rates of the joints, s.
+    /// The longest step that resolves the disturbances at these rates of the joints, and holding torques, s.
     pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
-        self.disturbances.longest_step(rate)
+        self.disturbances.longest_step(rate).min(self.friction.longest_step())
+    }
+
+    /// The torque or force of a joint's motor at a time, of a joint at rest, N m or N; none where its motion is
+    /// prescribed.
+    pub(crate) fn motor(&self, joint: usize, time: f64) -> Option<f64> {
+        let is_driven = self.driven.get(joint) == Some(&true);
+        let drive = Some(self.drive(joint))
+            .filter(|drive| is_driven && matches!(drive, Drive::Torque { .. }))?;
+        match self.motors.get(joint) {
+            Some(MotorState::LargestRate(_)) => None,
+            Some(MotorState::Beyond(sign)) => Some(-sign * drive.limits().torque?.abs()),
+            _ => Some(self.commanded(joint, time)),
+        }
     }
 
     /// Whether the motor torque of every moving joint is an input.
@@ -200,6 +228,17 @@ impl<'a> SegmentInputs<'a> {
 
     /// Writes what depends on time, and on the attitude of the bodies.
     pub(crate) fn fill(&self, time: f64, state: &CraftState, inputs: &mut CraftInputs) {
+        self.fill_without_friction(time, state, inputs);
+        self.friction.add(state, inputs);
+    }
+
+    /// As [`Self::fill`], but for friction that sticks and drag.
+    pub(crate) fn fill_without_friction(
+        &self,
+        time: f64,
+        state: &CraftState,
+        inputs: &mut CraftInputs,
+    ) {
         let time = time.clamp(self.start, self.end);
         let from_below = time > self.start;
         let at = |profile: &Profile| profile.at(time, from_below);

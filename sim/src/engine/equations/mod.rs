@@ -2,6 +2,7 @@
 //! the spacecraft at a time, and the poses of its bodies.
 
 mod disturbances;
+pub(super) mod friction;
 pub(super) mod inputs;
 pub(super) mod kinematics;
 pub(super) mod motors;

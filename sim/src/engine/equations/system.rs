@@ -123,12 +123,43 @@ impl<'a> System<'a> {
         inputs
     }
 
+    /// Inputs at a time and state but for friction that sticks and drag.
+    pub(crate) fn inputs_without_friction(&self, time: f64, state: &CraftState) -> CraftInputs {
+        let mut inputs = self.scratch.borrow().inputs.clone();
+        self.acting.fill_without_friction(time, state, &mut inputs);
+        inputs
+    }
+
     /// Time derivatives of a flat state.
     pub(crate) fn rates(&self, time: f64, y: &[f64], dydt: &mut [f64]) -> Result<(), SolveError> {
         self.count(1);
         let Scratch { state, inputs } = &mut *self.scratch.borrow_mut();
         self.layout.unpack(y, state);
         self.acting.fill(time, state, inputs);
+        self.rates_of(y, (state, inputs), dydt)
+    }
+
+    /// The same with inputs held but for friction, which follows the rates.
+    pub(crate) fn held_rates(
+        &self,
+        held: &CraftInputs,
+        y: &[f64],
+        dydt: &mut [f64],
+    ) -> Result<(), SolveError> {
+        self.count(1);
+        let Scratch { state, .. } = &mut *self.scratch.borrow_mut();
+        self.layout.unpack(y, state);
+        let mut inputs = held.clone();
+        self.acting.friction.add(state, &mut inputs);
+        self.rates_of(y, (state, &inputs), dydt)
+    }
+
+    fn rates_of(
+        &self,
+        y: &[f64],
+        (state, inputs): (&CraftState, &CraftInputs),
+        dydt: &mut [f64],
+    ) -> Result<(), SolveError> {
         let found = self.craft.accelerations(state, inputs)?;
         self.layout.pack_rates(y, state, &found, dydt);
         self.layout.pack_powers(self.powers(state, inputs, &found)?, dydt);

@@ -1,17 +1,19 @@
-//! [`Monitors`]: end stops, crossings and limits of motors, found within the step that passes them.
+//! [`Monitors`]: end stops, friction that comes to hold a joint or no longer does, crossings and limits of motors, found
+//! within the step that passes them.
 //!
 //! A step is searched at its ends and, where a state within it costs next to nothing, at three times
 //! in between; and at the extremum of a joint that approaches its stop at the start of an interval
-//! and leaves it at the end. The passage is bracketed by steps of their own from the start of the
+//! and leaves it at the end. The rate of a joint that slides and what is left of the static friction of one that sticks
+//! are searched likewise. The passage is bracketed by steps of their own from the start of the
 //! step, so its time is that of the numerical solution, to 1e-12 s or four roundings of the time.
 
 mod clipping;
+mod function;
 pub(super) mod motors;
 mod roots;
 pub(super) mod segments;
 
-use precess_dynamics::Attitude;
-
+use crate::engine::equations::friction::Contact;
 use crate::engine::equations::packing::Layout;
 use crate::engine::equations::system::System;
 use crate::engine::integration::{Moment, Stepper};
@@ -19,15 +21,8 @@ use crate::nearest::nearest;
 use crate::record::RunError;
 use crate::record::columns::Quantity;
 use crate::scenario::{Action, Drive, EndStop, Scenario, StopAction};
+use function::{Function, FunctionOf, search};
 use motors::MotorChange;
-use roots::bracket;
-
-/// Width of the bracket of a passage, s.
-const WIDTH: f64 = 1e-12;
-/// The same in roundings of the time.
-const ROUNDINGS: f64 = 4.0;
-/// Intervals of a step that are searched.
-const INTERVALS: u32 = 4;
 
 /// The end stops and crossings of a scenario.
 pub(crate) struct Monitors<'a> {
@@ -60,6 +55,10 @@ pub(crate) struct StepEvent {
 pub(crate) enum EventKind {
     /// The joint and the bound reached, rad or m.
     Stop { joint: usize, bound: f64, action: StopAction },
+    /// The rate of a joint that slides is zero.
+    Rest { joint: usize },
+    /// Static friction no longer holds a joint that sticks.
+    Release { joint: usize },
     /// The index of the crossing.
     Crossing { index: usize, ends: bool },
     /// A motor comes to one of its limits, or leaves it.
@@ -71,16 +70,6 @@ impl StepEvent {
     fn cuts(&self) -> bool {
         !matches!(self.what, EventKind::Crossing { ends: false, .. })
     }
-}
-
-/// A function whose sign changes at a passage: above zero within a stop, and before a motor's change.
-#[derive(Clone, Copy)]
-struct Function {
-    quantity: Quantity,
-    value: f64,
-    /// One, or minus one of an upper stop.
-    sign: f64,
-    what: EventKind,
 }
 
 impl<'a> Monitors<'a> {
@@ -164,146 +153,40 @@ impl<'a> Monitors<'a> {
                 if bound.is_finite() {
                     let what = EventKind::Stop { joint: stop.joint, bound, action: stop.action };
                     let quantity = Quantity::Coordinate(stop.joint);
-                    functions.push(Function { quantity, value: bound, sign, what });
+                    let of = FunctionOf::State { quantity, value: bound, sign };
+                    functions.push(Function { of, what });
                 }
             }
         }
+        let acting = &system.acting;
+        for (of, contact) in acting.friction.dry() {
+            let joint = of.joint;
+            if acting.motor(joint, 0.0).is_none() {
+                continue;
+            }
+            let (of, what) = match (contact, of.dry) {
+                (Contact::Slides(sign), _) => {
+                    let quantity = Quantity::Rate(joint);
+                    (FunctionOf::State { quantity, value: 0.0, sign }, EventKind::Rest { joint })
+                }
+                (Contact::Sticks, Some(dry)) => {
+                    let static_friction = dry.static_friction;
+                    (FunctionOf::Slack { joint, static_friction }, EventKind::Release { joint })
+                }
+                (Contact::Sticks, None) => continue,
+            };
+            functions.push(Function { of, what });
+        }
         functions.extend(self.crossings.iter().map(|watched| Function {
-            quantity: watched.quantity,
-            value: watched.value,
-            sign: 1.0,
+            of: FunctionOf::State { quantity: watched.quantity, value: watched.value, sign: 1.0 },
             what: EventKind::Crossing { index: watched.index, ends: watched.ends },
         }));
         if self.motors {
             functions.extend(motors::possible(system).into_iter().map(|change| Function {
-                quantity: Quantity::Rate(change.joint),
-                value: 0.0,
-                sign: 1.0,
+                of: FunctionOf::Motor(change),
                 what: EventKind::Motor(change),
             }));
         }
         functions
-    }
-}
-
-impl Function {
-    fn at(
-        &self,
-        system: &System<'_>,
-        stepper: &Stepper,
-        time: f64,
-        moment: &Moment,
-    ) -> Result<f64, RunError> {
-        if let EventKind::Motor(change) = &self.what {
-            return change.distance(system, time, &moment.state);
-        }
-        let value = state_value(stepper, moment, self.quantity);
-        Ok(self.sign * (value - self.value))
-    }
-
-    /// Whether a passage lies between two values: out of a stop, or through a value either way.
-    fn passes(&self, [from, to]: [f64; 2]) -> bool {
-        match self.what {
-            EventKind::Stop { .. } | EventKind::Motor(_) => to < 0.0 && to < from,
-            EventKind::Crossing { .. } => (from < 0.0 && to >= 0.0) || (from > 0.0 && to <= 0.0),
-        }
-    }
-}
-
-/// Searches the last step.
-fn search(
-    system: &System<'_>,
-    stepper: &mut Stepper,
-    functions: &[Function],
-    moment: &mut Moment,
-    found: &mut Vec<StepEvent>,
-) -> Result<(), RunError> {
-    let (start, end) = (stepper.time_before(), stepper.time());
-    let intervals = if stepper.is_dense() { INTERVALS } else { 1 };
-    stepper.at(system, start, moment)?;
-    let values = |stepper: &Stepper, time: f64, moment: &Moment| {
-        let value = |function: &Function| function.at(system, stepper, time, moment);
-        functions.iter().map(value).collect::<Result<Vec<f64>, RunError>>()
-    };
-    let mut from = values(stepper, start, moment)?;
-    let mut rates_from = rates(stepper, functions, moment);
-    let mut earlier = start;
-    for interval in 1..=intervals {
-        let later = if interval == intervals {
-            end
-        } else {
-            start + (end - start) * f64::from(interval) / f64::from(intervals)
-        };
-        stepper.at(system, later, moment)?;
-        let to = values(stepper, later, moment)?;
-        let rates_to = rates(stepper, functions, moment);
-        for (i, function) in functions.iter().enumerate() {
-            let mut span = [earlier, later];
-            let mut values = [from[i], to[i]];
-            if !function.passes(values) {
-                // Towards the stop at first, away from it at the end.
-                if !(rates_from[i] < 0.0 && rates_to[i] > 0.0) {
-                    continue;
-                }
-                let slope = [rates_from[i], rates_to[i]];
-                let [_, extremum] = bracket(span, slope, (later - earlier) * 1e-3, |time| {
-                    stepper.at(system, time, moment)?;
-                    let rate = rates(stepper, std::slice::from_ref(function), moment);
-                    Ok::<_, RunError>(rate[0])
-                })?;
-                stepper.at(system, extremum, moment)?;
-                span[1] = extremum;
-                values[1] = function.at(system, stepper, extremum, moment)?;
-                if !function.passes(values) {
-                    continue;
-                }
-            }
-            let width = WIDTH.max(ROUNDINGS * f64::EPSILON * later);
-            let [time, after] = bracket(span, values, width, |time| {
-                stepper.restep(system, time, moment)?;
-                function.at(system, stepper, time, moment)
-            })?;
-            // Before a stop, so that the joint is within it; after a crossing.
-            let is_crossing = matches!(function.what, EventKind::Crossing { .. });
-            let time = if is_crossing { after } else { time };
-            found.push(StepEvent { time, what: function.what });
-        }
-        (from, rates_from, earlier) = (to, rates_to, later);
-        // Whatever comes later lies beyond a cut.
-        if found.iter().any(StepEvent::cuts) {
-            break;
-        }
-    }
-    Ok(())
-}
-
-/// The rate of each function of a stop; zero of others, which are not searched for extrema.
-fn rates(stepper: &Stepper, functions: &[Function], moment: &Moment) -> Vec<f64> {
-    let rate = |function: &Function| match function.what {
-        EventKind::Stop { joint, .. } => {
-            function.sign * Layout::joint(joint, &moment.state, stepper.turns())[1]
-        }
-        EventKind::Crossing { .. } | EventKind::Motor(_) => 0.0,
-    };
-    functions.iter().map(rate).collect()
-}
-
-/// A quantity of the state.
-fn state_value(stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
-    let joint = |joint| Layout::joint(joint, &moment.state, stepper.turns());
-    let state = &moment.state;
-    match quantity {
-        Quantity::Position(axis) => state.r_b_n[axis],
-        Quantity::Velocity(axis) => state.r_b_n_dot[axis],
-        Quantity::Omega(axis) => state.omega[axis],
-        Quantity::Quaternion(index) => {
-            let q = state.attitude.normalised();
-            [q.q0, q.q1, q.q2, q.q3][index]
-        }
-        Quantity::Coordinate(index) => joint(index)[0],
-        Quantity::Rate(index) => joint(index)[1],
-        Quantity::ModalCoordinate(mode) => moment.state.modal.eta[mode],
-        Quantity::ModalRate(mode) => moment.state.modal.eta_dot[mode],
-        _ => f64::NAN,
     }
 }

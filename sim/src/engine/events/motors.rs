@@ -8,7 +8,7 @@
 use crate::engine::equations::motors::{MotorState, POWER};
 use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
-use crate::engine::quantities::member_loads::MemberLoads;
+use crate::engine::quantities::joint_torques::joint_torques;
 use crate::record::RunError;
 use crate::scenario::Drive;
 use precess_craft::CraftState;
@@ -164,11 +164,7 @@ fn holding(
     time: f64,
     state: &CraftState,
 ) -> Result<f64, RunError> {
-    let inputs = system.inputs(time, state);
-    system.count(1);
-    let found = system.craft.accelerations(state, &inputs);
-    let loads = found.and_then(|found| system.craft.loads(state, &inputs, &found));
-    let loads = loads.map_err(|source| RunError::solve(system, time, source))?;
-    let of = MemberLoads::new(&loads, system.acting.chains());
-    Ok(of.motors.get(joint).copied().unwrap_or(f64::NAN))
+    let torques = joint_torques(system, time, state);
+    let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
+    Ok(torques.get(joint).map_or(f64::NAN, |[motor, _]| *motor))
 }

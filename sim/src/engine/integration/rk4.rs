@@ -124,6 +124,9 @@ fn stepped(
 ) -> Result<Moment, SolveError> {
     system.count(4);
     let Moment { state, integrals: [work, throughput] } = moment;
+    if system.acting.friction.vary() {
+        return stepped_with_friction(system, time, moment, length);
+    }
     let inputs = system.inputs(time, state);
     if system.quantities == RunQuantities::Motion {
         let next = system.craft.step(state, &inputs, length)?;
@@ -151,4 +154,33 @@ fn stepped(
     let others = (power.motors - driven).abs() + power.friction.abs() + power.hub.abs();
     let integrals = [work + work_of(&power), throughput + magnitudes + others];
     Ok(Moment { state: next, integrals })
+}
+
+/// The same with friction that follows the rates of joints within the step; other inputs are held.
+fn stepped_with_friction(
+    system: &System<'_>,
+    time: f64,
+    moment: &Moment,
+    length: f64,
+) -> Result<Moment, SolveError> {
+    let held = system.inputs_without_friction(time, &moment.state);
+    // Rejects a step that is too long for springs and dampers.
+    system.craft.step(&moment.state, &held, length)?;
+    let start = system.layout.pack(&moment.state, moment.integrals);
+    let ahead = |rates: &[f64], by: f64| -> Vec<f64> {
+        start.iter().zip(rates).map(|(y, rate)| y + by * rate).collect()
+    };
+    let mut sum = vec![0.0; start.len()];
+    let mut rates = vec![0.0; start.len()];
+    let mut y = start.clone();
+    for (weight, next) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
+        system.held_rates(&held, &y, &mut rates)?;
+        sum.iter_mut().zip(&rates).for_each(|(sum, rate)| *sum += weight * rate);
+        y = ahead(&rates, next * length);
+    }
+    let reached = ahead(&sum, length / 6.0);
+    let mut next = moment.clone();
+    system.layout.unpack(&reached, &mut next.state);
+    next.integrals = system.layout.integrals(&reached);
+    Ok(next)
 }

@@ -72,8 +72,8 @@ struct Computed<'a> {
     /// Coordinate and rate of each joint, whole turns taken off.
     joints: Vec<[f64; 2]>,
     accelerations: Option<Accelerations>,
-    /// Motor and mode of each joint.
-    motors: Option<Vec<(f64, Mode)>>,
+    /// Torques of motor and friction of each joint.
+    torques: Option<Vec<[f64; 2]>>,
     loads: Option<MemberLoads>,
     points: &'a [Point],
     body_points: Vec<BodyPointMotion>,
@@ -206,7 +206,7 @@ impl SampleValues {
             centre_momentum,
             joints,
             accelerations,
-            motors: inputs.map(|of| of.motors.values().zip(of.modes.values()).collect()),
+            torques: inputs.map(|of| torques(system, held_from, state, (of, loads.as_ref()))),
             loads,
             points: &self.points,
             body_points,
@@ -234,6 +234,7 @@ impl Computed<'_> {
             [coordinate + turns * TAU, rate]
         };
         let of_body = |point: usize| self.body_points.get(point);
+        let torques = |joint: usize| self.torques.as_ref().and_then(|all| all.get(joint)).copied();
         let loads = self.loads.as_ref();
         let q = state.attitude;
         let known = match quantity {
@@ -265,13 +266,8 @@ impl Computed<'_> {
             Quantity::JointAcceleration(joint) => {
                 self.accelerations.as_ref().and_then(|found| found.joints.get(joint).copied())
             }
-            Quantity::Torque(joint) => {
-                let of = self.motors.as_ref().and_then(|motors| motors.get(joint));
-                of.and_then(|(motor, mode)| match loads {
-                    Some(loads) if *mode != Mode::Driven => loads.motors.get(joint).copied(),
-                    _ => Some(*motor),
-                })
-            }
+            Quantity::Torque(joint) => torques(joint).map(|[motor, _]| motor),
+            Quantity::Friction(joint) => torques(joint).map(|[_, friction]| friction),
             Quantity::MountForce(..)
             | Quantity::MountMoment(..)
             | Quantity::CarriedForce(..)
@@ -299,6 +295,22 @@ impl Computed<'_> {
         };
         known.unwrap_or(f64::NAN)
     }
+}
+
+/// Torques of motor and friction of each joint: of the motor what the motion requires where that is prescribed.
+fn torques(
+    system: &System<'_>,
+    time: f64,
+    state: &CraftState,
+    (inputs, loads): (&CraftInputs, Option<&MemberLoads>),
+) -> Vec<[f64; 2]> {
+    let joints = inputs.motors.values().zip(inputs.modes.values()).enumerate();
+    let total = |(joint, (motor, mode)): (usize, (f64, Mode))| {
+        let needed = loads.filter(|_| mode != Mode::Driven);
+        needed.and_then(|loads| loads.motors.get(joint).copied()).unwrap_or(motor)
+    };
+    let totals: Vec<_> = joints.map(total).collect();
+    system.acting.friction.split(&totals, state, |joint| system.acting.motor(joint, time))
 }
 
 /// The attitude of a point's axes with respect to N: that of B, then the rotation vector in B.

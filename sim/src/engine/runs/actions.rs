@@ -9,6 +9,7 @@ use crate::engine::equations::packing::Layout;
 use crate::engine::integration::dop853::same;
 use crate::record::{End, RunError};
 use crate::scenario::{Action, Drive, Profile};
+use precess_craft::CraftInputs;
 
 impl Run<'_> {
     /// Applies what is due at the present time and begins the segment.
@@ -16,7 +17,9 @@ impl Run<'_> {
         loop {
             let end = self.segments.end_after(self.time);
             self.system.acting.begin(self.time, end);
+            let released = self.bring_to_rest()?;
             self.apply_actions()?;
+            self.decide_friction(released)?;
             // Two times that differ by rounding are one.
             if same(self.time, end) {
                 self.time = end;
@@ -77,7 +80,22 @@ impl Run<'_> {
 
     /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
     fn brake(&mut self, joints: &[usize]) -> Result<f64, RunError> {
-        let mut inputs = self.system.inputs(self.time, &self.moment.state);
+        // Friction gives way: it has no impulse.
+        let inputs = self.system.inputs_without_friction(self.time, &self.moment.state);
+        let lost = self.stop(joints, inputs)?;
+        self.lost += lost;
+        for joint in joints {
+            self.system.acting.set_drive(*joint, LOCKED);
+        }
+        Ok(lost)
+    }
+
+    /// Stops joints impulsively; returns the energy lost, J.
+    pub(super) fn stop(
+        &mut self,
+        joints: &[usize],
+        mut inputs: CraftInputs,
+    ) -> Result<f64, RunError> {
         for (joint, mode) in inputs.modes.values_mut().enumerate() {
             if joints.contains(&joint) {
                 *mode = Mode::Locked;
@@ -86,11 +104,7 @@ impl Run<'_> {
         let stopped = self.system.craft.stop(&self.moment.state, &inputs);
         let failed = |source| RunError::solve(&self.system, self.time, source);
         let (state, energy_lost) = stopped.map_err(failed)?;
-        for joint in joints {
-            self.system.acting.set_drive(*joint, LOCKED);
-        }
         self.moment.state = state;
-        self.lost += energy_lost;
         Ok(energy_lost)
     }
 

@@ -25,7 +25,8 @@ pub(crate) struct Lanes {
 
 impl Lanes {
     /// These runs. None where there are fewer than two, one has ended, keeps more than its motion, is not of
-    /// RK4 or has a structure, platforms or panels that carry devices, or where their devices are not of one kind.
+    /// RK4 or has a structure, platforms, panels that carry devices or friction that sticks, or where their devices are not
+    /// of one kind.
     pub(crate) fn from_runs<'a, 's: 'a, 'r: 'a>(
         runs: impl Iterator<Item = Option<&'a Recorded<'s, 'r>>>,
     ) -> Option<Self> {
@@ -39,7 +40,8 @@ impl Lanes {
             }
             let devices = scenario.devices_on_hub()?;
             let fixed = matches!(scenario.settings.integrator, IntegratorChoice::Rk4 { .. });
-            if !(fixed && run.system.quantities == RunQuantities::Motion) {
+            let smooth = scenario.friction.is_empty();
+            if !(fixed && smooth && run.system.quantities == RunQuantities::Motion) {
                 return None;
             }
             crafts.push((scenario.bare_hub().ok()?, devices.to_vec()));

@@ -2,6 +2,7 @@
 //! ([`run_side_by_side`]).
 
 mod actions;
+mod friction;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod motors;
@@ -11,6 +12,7 @@ mod side_by_side;
 
 use precess_dynamics::{About, JointStates, ModalState, State};
 
+use friction::Changed;
 pub use recorded::run;
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
@@ -49,6 +51,10 @@ pub struct Run<'a> {
     stopped: Option<(usize, f64)>,
     /// A motor that has come to one of its limits or leaves it.
     motor_change: Option<MotorChange>,
+    /// A joint whose friction comes to hold it or no longer does.
+    changed: Option<Changed>,
+    /// Changes of friction since the time last changed.
+    changes_at_once: usize,
     end: Option<End>,
     /// Whether an error has ended it.
     failed: bool,
@@ -116,6 +122,8 @@ impl<'a> Run<'a> {
             at_boundary: true,
             stopped: None,
             motor_change: None,
+            changed: None,
+            changes_at_once: 0,
             end: None,
             failed: false,
             scenario,
@@ -173,6 +181,12 @@ impl<'a> Run<'a> {
                     reached = time;
                     self.motor_change = Some(change);
                 }
+                EventKind::Rest { joint } => {
+                    (reached, self.changed) = (time, Some(Changed::AtRest(joint)));
+                }
+                EventKind::Release { joint } => {
+                    (reached, self.changed) = (time, Some(Changed::Released(joint)));
+                }
                 EventKind::Stop { joint, bound, action } => {
                     reached = time;
                     let place = &self.system.layout.joints[joint];
@@ -190,7 +204,8 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        let jumps = self.stopped.is_some() || self.motor_change.is_some();
+        self.count_changes(reached)?;
+        let jumps = self.stopped.is_some() || self.motor_change.is_some() || self.changed.is_some();
         if reached < self.stepper.time() || jumps {
             self.stepper.restep(&self.system, reached, &mut self.moment)?;
             self.at_boundary = true;

@@ -2,6 +2,7 @@
 
 mod changes;
 mod conservation;
+mod friction;
 mod motors;
 mod points;
 mod stops;
@@ -78,6 +79,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
         gravity: Gravity::None,
         drives: vec![free; joints],
         stops: Vec::new(),
+        friction: Vec::new(),
         wrenches: Vec::new(),
         points: Vec::new(),
         disturbances: Vec::new(),

@@ -217,7 +217,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let requirements = output::requirement::requirements(&keys, settings.as_ref());
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
-    let (drives, stops) = joints.drives_and_stops();
+    let (drives, stops, friction) = joints.acting();
     let on_node: Vec<_> = devices.iter().filter_map(|device| device.node).collect();
     let structure = structure.map(|structure| structure.modal(&keys, on_node));
     let text = reports.borrow().sources.iter().fold(String::new(), |text, source| {
@@ -239,6 +239,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         gravity,
         drives,
         stops,
+        friction,
         wrenches,
         points,
         disturbances,

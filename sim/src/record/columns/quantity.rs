@@ -22,6 +22,8 @@ pub(crate) enum Quantity {
     Rate(usize),
     JointAcceleration(usize),
     Torque(usize),
+    /// Friction that sticks, and drag.
+    Friction(usize),
     Energy,
     Work,
     Lost,
@@ -93,7 +95,7 @@ impl Quantity {
             | Self::OmegaDot(_)
             | Self::JointAcceleration(_)
             | Self::BodyPointAcceleration(..) => Source::Accelerations,
-            Self::Torque(_) => Source::Motors,
+            Self::Torque(_) | Self::Friction(_) => Source::Motors,
             Self::Energy => Source::Energy,
             Self::Linear(_) | Self::Angular(_) => Source::Momentum,
             Self::CentreMomentum(_) => Source::CentreMomentum,

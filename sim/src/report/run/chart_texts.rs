@@ -27,6 +27,11 @@ pub(super) const MOTOR: JointTexts = [
     ("motor forces", "Force", unit::FORCE),
     ("motor torques", "Torque", unit::MOTOR_TORQUE),
 ];
+pub(super) const FRICTION: JointTexts = [
+    ("friction torques", "Torque", unit::MOTOR_TORQUE),
+    ("friction forces", "Force", unit::FORCE),
+    ("friction torques", "Torque", unit::MOTOR_TORQUE),
+];
 pub(super) const ACCELERATION: JointTexts = [
     ("accelerations", "Acceleration", unit::WHEEL_ACCELERATION),
     ("accelerations", "Acceleration", unit::ACCELERATION),

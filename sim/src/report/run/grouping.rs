@@ -9,8 +9,8 @@ use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
 use super::chart_texts::{
-    ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, FORCE, JointTexts, LINEAR, LoadTexts, MOMENT,
-    MOTOR, MomentumTexts, RATE, WORK,
+    ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, FORCE, FRICTION, JointTexts, LINEAR,
+    LoadTexts, MOMENT, MOTOR, MomentumTexts, RATE, WORK,
 };
 use crate::names::file_names;
 use crate::record::columns::Quantity;
@@ -128,6 +128,7 @@ fn found(
         Quantity::Rate(joint) => return of_joint(2, &RATE, joint, joints),
         Quantity::Coordinate(joint) => return of_joint(3, &COORDINATE, joint, joints),
         Quantity::Torque(joint) => return of_joint(4, &MOTOR, joint, joints),
+        Quantity::Friction(joint) => return of_friction(joint, joints),
         Quantity::Position(axis) => {
             let texts = ["position", "Inertial position of B", "Position"];
             of_hub((5, 0), texts, unit::LENGTH, ["r", AXES[axis]])
@@ -222,6 +223,13 @@ fn of_momentum((key, slug, title, symbol, family): MomentumTexts, axis: usize) -
 fn of_turns(order: usize, [slug, from]: [&'static str; 2], index: usize) -> ChartColumn {
     let column = of_hub((1, order), [slug, "", "Angle"], unit::ANGLE, [TURNS[index], ""]);
     ChartColumn { title: format!("Roll, pitch and yaw of B from {from}"), ..column }
+}
+
+/// After those of the motors.
+fn of_friction(joint: usize, of: (&Joints<'_>, &[&str])) -> Option<ChartColumn> {
+    let found = of_joint(4, &FRICTION, joint, of)?;
+    let (rank, body) = found.key;
+    Some(ChartColumn { key: (rank, body + of.1.len()), ..found })
 }
 
 /// A chart for the joints of bodies of one name.

@@ -4,13 +4,14 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::Passive;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 
+use super::friction::friction;
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
 use super::motion::{motion, only_motion};
 use super::motor_limits::{motor_limits, starts_within};
 use crate::file::keys::Keys;
 use crate::file::read::values::drive::profile;
-use crate::scenario::{Drive, Profile, StopAction};
+use crate::scenario::{Drive, JointFriction, Profile, StopAction};
 use crate::units::{Measure, Plain};
 
 /// What the table of a body says.
@@ -23,6 +24,8 @@ pub(in crate::file::read) struct Body {
 #[derive(Clone)]
 pub(in crate::file::read) struct Joint {
     pub(in crate::file::read) passive: Passive,
+    /// Friction that only runs have; its joint is not known yet.
+    pub(in crate::file::read) friction: Option<JointFriction>,
     /// Initial coordinate and rate.
     pub(in crate::file::read) state: [f64; 2],
     pub(in crate::file::read) drive: Drive,
@@ -34,7 +37,7 @@ impl Joint {
     /// At rest at zero, without anything that acts on it.
     pub(in crate::file::read) fn free() -> Self {
         let drive = Drive::Torque { profile: Profile::ZERO, limit: None };
-        Self { passive: Passive::none(), state: [0.0; 2], drive, stop: None }
+        Self { passive: Passive::none(), friction: None, state: [0.0; 2], drive, stop: None }
     }
 }
 
@@ -82,6 +85,7 @@ pub(in crate::file::read) fn joint(
     measures: &JointMeasures,
     folder: &std::path::Path,
 ) -> Option<Joint> {
+    let friction = friction(keys, measures);
     let passive = passive(keys, measures);
     let (state, motion) = motion(keys, joint, measures, folder);
     let drive = drive(keys, joint, measures, folder);
@@ -96,7 +100,7 @@ pub(in crate::file::read) fn joint(
         starts_within(keys, joint, measures, [state[1], limit]);
     }
     let stop = stop(keys, measures, state[0]);
-    Some(Joint { passive, state, drive: drive?, stop })
+    Some(Joint { passive, friction, state, drive: drive?, stop })
 }
 
 /// A mass, at least zero.
@@ -115,11 +119,13 @@ pub(in crate::file) fn mass(keys: &Keys<'_>) -> Option<f64> {
 
 fn passive(keys: &Keys<'_>, measures: &JointMeasures) -> Passive {
     let quantity = |key, measure| keys.quantity(key, measure).unwrap_or(0.0);
+    // Of friction that sticks it is in `friction`.
+    let smooth = !keys.has("static_friction");
     let passive = Passive {
         stiffness: quantity("stiffness", measures.stiffness),
         rest: quantity("rest", measures.coordinate),
         viscous: quantity("damping", measures.damping),
-        coulomb: quantity("coulomb", measures.torque),
+        coulomb: if smooth { quantity("coulomb", measures.torque) } else { 0.0 },
         coulomb_rate: quantity("coulomb_rate", measures.rate),
     };
     if passive.coulomb != 0.0 && !keys.has("coulomb_rate") {

@@ -17,7 +17,7 @@ use crate::file::document::Value;
 use crate::file::keys::{Keys, shown_name};
 use crate::file::read::structure::Structure;
 use crate::file::read::values::mount::{DeviceAxes, mount};
-use crate::scenario::{Drive, StopAction};
+use crate::scenario::{Drive, JointFriction, StopAction};
 use crate::units::Measure;
 
 /// A device of a kind, or a platform with its suspension, without what stands on it.
@@ -44,6 +44,7 @@ pub(in crate::file::read) struct Device {
     pub(in crate::file::read) state: Vec<[f64; 2]>,
     pub(in crate::file::read) drives: Vec<Drive>,
     pub(in crate::file::read) stops: Vec<Option<([f64; 2], StopAction)>>,
+    pub(in crate::file::read) friction: Vec<Option<JointFriction>>,
 }
 
 impl Device {
@@ -66,6 +67,7 @@ impl Device {
             state: joints.iter().map(|joint| joint.state).collect(),
             drives: joints.iter().map(|joint| joint.drive.clone()).collect(),
             stops: joints.iter().map(|joint| joint.stop).collect(),
+            friction: joints.iter().map(|joint| joint.friction).collect(),
         }
     }
 

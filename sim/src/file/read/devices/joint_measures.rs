@@ -13,6 +13,7 @@ pub(in crate::file::read) struct JointMeasures {
     pub(in crate::file::read) torque: Measure,
     pub(super) stiffness: Measure,
     pub(super) damping: Measure,
+    pub(super) drag: Measure,
 }
 
 impl JointMeasures {
@@ -25,6 +26,7 @@ impl JointMeasures {
                 torque: Measure::FORCE,
                 stiffness: Measure::STIFFNESS,
                 damping: Measure::DAMPING,
+                drag: Measure::DRAG,
             }
         } else {
             Self {
@@ -34,6 +36,7 @@ impl JointMeasures {
                 torque: Measure::TORQUE,
                 stiffness: Measure::ANGULAR_STIFFNESS,
                 damping: Measure::ANGULAR_DAMPING,
+                drag: Measure::ANGULAR_DRAG,
             }
         }
     }

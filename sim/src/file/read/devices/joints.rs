@@ -5,9 +5,10 @@ use precess_dynamics::kind::JointInfo;
 
 use super::device::Device;
 use crate::file::keys::Keys;
-use crate::scenario::{Drive, EndStop, body_key, joint_key};
+use crate::scenario::{Drive, EndStop, JointFriction, body_key, joint_key};
 
 /// All joints in order, by name.
+#[derive(Default)]
 pub(in crate::file::read) struct Joints {
     /// `cmg1.inner_gimbal`, and the joint.
     names: Vec<(String, &'static JointInfo)>,
@@ -15,17 +16,19 @@ pub(in crate::file::read) struct Joints {
     bodies: Vec<(String, usize)>,
     drives: Vec<Drive>,
     stops: Vec<EndStop>,
+    friction: Vec<JointFriction>,
 }
 
 impl Joints {
     pub(in crate::file::read) fn of_devices(devices: &[Device]) -> Self {
-        let (names, bodies) = (Vec::new(), Vec::new());
-        let mut joints = Self { names, bodies, drives: Vec::new(), stops: Vec::new() };
+        let mut joints = Self::default();
         for device in devices {
             let infos = device.joints();
-            for ((info, drive), stop) in infos.iter().zip(&device.drives).zip(&device.stops) {
+            let own = infos.iter().zip(&device.drives).zip(&device.stops).zip(&device.friction);
+            for (((info, drive), stop), friction) in own {
+                let joint = joints.names.len();
+                joints.friction.extend(friction.map(|of| JointFriction { joint, ..of }));
                 if let Some(([lower, upper], action)) = *stop {
-                    let joint = joints.names.len();
                     joints.stops.push(EndStop { joint, lower, upper, action });
                 }
                 if joint_key(info) != body_key(info) {
@@ -63,7 +66,7 @@ impl Joints {
         self.names.get(joint).map(|(_, info)| *info)
     }
 
-    pub(in crate::file::read) fn drives_and_stops(self) -> (Vec<Drive>, Vec<EndStop>) {
-        (self.drives, self.stops)
+    pub(in crate::file::read) fn acting(self) -> (Vec<Drive>, Vec<EndStop>, Vec<JointFriction>) {
+        (self.drives, self.stops, self.friction)
     }
 }

@@ -5,6 +5,7 @@ pub(in crate::file) mod body;
 mod copies;
 pub(super) mod device;
 pub(super) mod device_bodies;
+mod friction;
 pub(in crate::file) mod inertia;
 pub(super) mod initial;
 pub(super) mod joint_measures;
