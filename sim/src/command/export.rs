@@ -299,4 +299,13 @@ mod tests {
         let error = table(&scenario).expect_err("five wheels on a platform").to_string();
         assert!(error.contains("5 devices on a platform") && error.contains("remove"), "{error}");
     }
+
+    #[test]
+    fn friction_that_sticks_is_refused() {
+        let text = include_str!("../../../scenarios/sticking-wheel.toml");
+        let read = crate::file::from_toml("sticking", text, Path::new(""));
+        let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        let error = table(&scenario).expect_err("it sticks").to_string();
+        assert!(error.contains("as wheel.theta has; remove `static_friction`"), "{error}");
+    }
 }

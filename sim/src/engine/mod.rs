@@ -3,7 +3,7 @@
 //!
 //! A run is a sequence of segments; within one, everything that acts is smooth. At the start of
 //! each the changes due are applied: brakes, locks at end stops, new drives. A step never spans the
-//! end of a segment, and is cut at an end stop.
+//! end of a segment, and is cut at an end stop, and where friction comes to hold a joint or no longer does.
 //!
 //! Memory does not grow with the length of a run: samples go to a recorder as they come, drifts are
 //! running maxima, and events beyond the first ten thousand are only counted.

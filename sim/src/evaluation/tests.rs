@@ -85,6 +85,32 @@ fn steps_are_bit_identical_to_a_run() {
 }
 
 #[test]
+fn sliding_friction_is_evaluated_and_sticking_is_an_error() {
+    let text = include_str!("../../../scenarios/sticking-wheel.toml");
+    let read = from_toml("sticking", text, Path::new(""));
+    let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+    let evaluator = Evaluator::new(&scenario).expect("a spacecraft");
+    let mut state = evaluator.initial();
+    let joint = || "wheel.theta".to_owned();
+    let at_rest = evaluator.inputs(0.0, &state).expect_err("only a run decides it");
+    assert_eq!(at_rest, EvaluationError::Sticks { joint: joint() });
+    if let Some([_, rate]) = state.devices.states_mut().next() {
+        *rate = -50.0;
+    }
+    // Well above the rate of Stribeck, 1 rad/s, and a motor of 1 mN m/s.
+    let inputs = evaluator.inputs(0.5, &state).expect("it slides");
+    let torque = inputs.motors.values().next().expect("a motor");
+    assert!((torque - (0.5e-3 + 0.5e-3 + 2e-8 * 2500.0)).abs() < 1e-18, "{torque}");
+    let none: [&str; 0] = [];
+    let rejected = evaluator.linearize(&state, &inputs, &Outputs::accelerations(), &none);
+    assert_eq!(rejected, Err(EvaluationError::Friction { joint: joint() }));
+    let rejected = evaluator.linearize_steps(&state, &inputs, (1e-3, 1), &none);
+    assert_eq!(rejected, Err(EvaluationError::Friction { joint: joint() }));
+    let left_out = ["friction that sticks or quadratic drag of wheel.theta"];
+    assert_eq!(scenario.not_described(), left_out);
+}
+
+#[test]
 fn mass_matrix_and_bias_return_the_inputs_of_the_accelerations() {
     let scenario = scenario();
     let evaluator = Evaluator::new(&scenario).expect("a spacecraft");

@@ -6,7 +6,7 @@
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode};
 
-use crate::scenario::{JointFriction, Scenario};
+use crate::scenario::{JointFriction, Profile, Scenario};
 use precess_craft::{CraftInputs, CraftState};
 
 /// Steps in a cycle of the fastest profile while a joint sticks: its holding torque is searched at five times in each.
@@ -121,7 +121,7 @@ fn rate(state: &CraftState, joint: usize) -> f64 {
 impl Scenario {
     /// The highest frequency of a drive or a wrench, Hz; zero where none oscillates.
     fn highest_profile_frequency(&self) -> f64 {
-        let frequencies = self.profiles().map(|profile| profile.highest_frequency());
+        let frequencies = self.profiles().map(Profile::highest_frequency);
         frequencies.fold(0.0, f64::max)
     }
 }

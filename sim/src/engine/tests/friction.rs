@@ -43,7 +43,7 @@ fn check_drift(outcome: &Outcome, bound: f64) {
 }
 
 /// A wheel of 0.2 kg m² about the axis x of a hub of 30 kg m², both coaxial: the reduced inertia J = 0.2 30 / 30.2
-/// loses its rate by u_c / J.
+/// loses its rate by `u_c / J`.
 #[test]
 fn a_wheel_spins_down_and_sticks_when_the_closed_form_says() {
     let (rate, coulomb) = (7.0, 0.9);
@@ -77,7 +77,7 @@ fn a_wheel_spins_down_and_sticks_when_the_closed_form_says() {
     }
 }
 
-/// A motor whose torque grows by `ramp` frees the joint at u_s / ramp; it then turns against u_c, by
+/// A motor whose torque grows by `ramp` frees the joint at `u_s / ramp`; it then turns against `u_c`, by
 /// `ramp (t² - t_0²) / 2 - u_c (t - t_0)` over J.
 #[test]
 fn a_ramp_of_torque_frees_a_joint_when_static_friction_is_exceeded() {
@@ -112,8 +112,8 @@ fn a_ramp_of_torque_frees_a_joint_when_static_friction_is_exceeded() {
     }
 }
 
-/// With a spring k each half swing takes `pi sqrt(J / k)`, and its amplitude is 2 u_c / k less than that of the one
-/// before; it ends where the spring holds less than u_s.
+/// With a spring k each half swing takes `pi sqrt(J / k)`, and its amplitude is `2 u_c / k` less than that of the one
+/// before; it ends where the spring holds less than `u_s`.
 #[test]
 fn a_panel_on_a_spring_loses_the_same_of_its_amplitude_in_each_half_swing() {
     let (stiffness, coulomb, fixed, start) = (3.0_f64, 0.2, 0.3, 1.0_f64);
@@ -180,7 +180,7 @@ fn quadratic_drag_slows_a_joint_by_its_closed_form() {
     }
 }
 
-/// About Stribeck's rate friction falls from u_s to u_c: `J q'' = u - u_c - (u_s - u_c) exp(-(q'/q_s')²)`. With a motor
+/// About Stribeck's rate friction falls from `u_s` to `u_c`: `J q'' = u - u_c - (u_s - u_c) exp(-(q'/q_s')²)`. With a motor
 /// torque u the time from a rate to another is an integral over the rate.
 #[test]
 fn sliding_friction_falls_about_the_rate_of_stribeck() {
@@ -212,7 +212,7 @@ fn sliding_friction_falls_about_the_rate_of_stribeck() {
     }
 }
 
-/// A torque that swings about zero with less than u_s at first: what holds is searched between steps that nothing else
+/// A torque that swings about zero with less than `u_s` at first: what holds is searched between steps that nothing else
 /// bounds.
 #[test]
 fn a_torque_that_swings_frees_a_joint_at_its_first_excess() {
@@ -231,7 +231,7 @@ fn a_torque_that_swings_frees_a_joint_at_its_first_excess() {
     }
 }
 
-/// The gimbal of a CMG on a hub that turns: the gyroscopic torque h omega_x is held by friction up to u_s, and is the
+/// The gimbal of a CMG on a hub that turns: the gyroscopic torque `h omega_y` is held by friction up to `u_s`, and is the
 /// moment that the loads have about the axis of the gimbal.
 #[test]
 fn friction_holds_a_gimbal_against_its_gyroscopic_torque() {

@@ -6,8 +6,8 @@ use super::{DOP853, Samples, column, last, recorded, scenario, set_joint, wheel}
 use crate::engine::Run;
 use crate::record::{Outcome, RunError};
 use crate::scenario::{
-    Action, AppliedWrench, Change, Drive, IntegratorChoice, MotorLimits, Profile, Scenario, Target,
-    WrenchAxes,
+    Action, AppliedWrench, Change, Drive, DryFriction, IntegratorChoice, Interpolation,
+    JointFriction, MotorLimits, Profile, Scenario, Table, Target, WrenchAxes,
 };
 
 /// Moments of inertia of wheel and hub about the axis of the wheel, and that of the rate between them, kg m².
@@ -232,4 +232,36 @@ fn a_rate_beyond_the_largest_one_is_rejected_or_braked() {
     let (outcome, _) = recorded(&scenario);
     let crate::record::End::Failed(error) = outcome.end else { panic!("{}", outcome.end) };
     assert!(matches!(error, RunError::BeyondLargestRate { time: 2.0, .. }), "{error}");
+}
+
+#[test]
+fn a_wheel_whose_friction_sticks_breaks_away_is_held_at_its_largest_rate_and_leaves_it() {
+    // Static friction of 50 mN m, sliding friction of 30; a profile that rises by 1 mN m/s to 60, and falls again.
+    let table = Profile::Table(Table {
+        times: vec![0.0, 60.0, 120.0],
+        values: vec![0.0, 0.06, 0.0],
+        interpolation: Interpolation::Linear,
+    });
+    let mut scenario = spin_up(table, limits(None, None, Some(1.0)), 115.0);
+    let dry = DryFriction { static_friction: 0.05, coulomb: 0.03, stribeck_rate: 0.0 };
+    scenario.friction = vec![JointFriction { joint: 0, dry: Some(dry), drag: 0.0 }];
+    let (outcome, samples) = recorded(&scenario);
+    let events = events(&outcome);
+    let words: Vec<_> = events.iter().map(|(_, text)| *text).collect();
+    let held = "wheel.theta is at its largest rate, 1 rad/s; the motor holds it";
+    let left = "wheel.theta leaves its largest rate, 1 rad/s";
+    assert_eq!(words, ["wheel.theta: slides", held, left, "wheel.theta: sticks"]);
+    // rate = (20 mN m t + t^2 / 2 mN m/s) / J from 50 s.
+    let arrival = 50.0 - 20.0 + (400.0 + 2.0 * REDUCED * 1e3_f64).sqrt();
+    assert!((events[0].0 - 50.0).abs() < CLOSE, "{events:?}");
+    assert!((events[1].0 - arrival).abs() < CLOSE, "{events:?}, not {arrival}");
+    // The profile is at the sliding friction; 1e-9 of the largest torque later.
+    assert!((events[2].0 - 90.0).abs() < 2e-7, "{events:?}");
+    let at = column(&samples, "time").iter().position(|time| *time == 80.0).expect("a sample");
+    assert!(
+        (column(&samples, "wheel.u_w")[at] - 0.03).abs() < 1e-12,
+        "the motor holds against friction"
+    );
+    assert!((column(&samples, "wheel.friction_theta")[at] + 0.03).abs() < 1e-15);
+    assert!(outcome.drift.energy.is_some_and(|drift| drift < 1e-9), "{:?}", outcome.drift);
 }

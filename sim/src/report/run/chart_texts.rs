@@ -2,7 +2,9 @@
 
 use crate::report::unit::{self, Family};
 
-/// Slug, title and axis of the chart that begins with the work.
+/// Slug, title and axis of the chart that begins with the energy.
+pub(super) const ENERGY: [&str; 3] = ["energy", "Energy and work since the start", "Energy"];
+/// Of the one that begins with the work.
 pub(super) const WORK: [&str; 3] = ["energy", "Work and losses since the start", "Energy"];
 
 /// Axis, unit and symbol of forces and of moments.

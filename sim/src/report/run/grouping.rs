@@ -9,7 +9,7 @@ use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
 use super::chart_texts::{
-    ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, FORCE, FRICTION, JointTexts, LINEAR,
+    ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, ENERGY, FORCE, FRICTION, JointTexts, LINEAR,
     LoadTexts, MOMENT, MOTOR, MomentumTexts, RATE, WORK,
 };
 use crate::names::file_names;
@@ -176,10 +176,7 @@ fn found(
         }
         Quantity::ModalRate(mode) => of_modes(16, "modal rates", unit::MODAL_RATE, "η′", mode),
         Quantity::Disturbance(source, component) => of_disturbance(source, component, column),
-        Quantity::Energy => {
-            let texts = ["energy", "Energy and work since the start", "Energy"];
-            of_hub((20, 0), texts, unit::ENERGY, ["ΔE", ""])
-        }
+        Quantity::Energy => of_hub((20, 0), ENERGY, unit::ENERGY, ["ΔE", ""]),
         Quantity::Work => of_hub((20, 0), WORK, unit::ENERGY, ["W", ""]),
         Quantity::Lost => of_hub((20, 0), WORK, unit::ENERGY, ["losses", ""]),
         Quantity::Linear(axis) => of_momentum(LINEAR, axis),
