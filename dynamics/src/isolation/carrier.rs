@@ -25,6 +25,12 @@ use crate::numbers::vec3::Vec3;
 use crate::sets::with_numbers::WithNumbers;
 use crate::validation::parameter_error::ParameterError;
 
+/// The suspension of a carrier in other numbers.
+type SuspensionOver<C, U> = <<C as Carrier>::Over<U> as Carrier>::Suspension;
+
+/// A carrier in other numbers, precomputed, with its suspension.
+type PreparedOver<C, U> = (Device<<C as Carrier>::Over<U>>, SuspensionOver<C, U>);
+
 /// A device whose last body can carry a set of devices.
 ///
 /// Implemented for [`Platform`] and [`CarryingPanel`](crate::CarryingPanel), by hand.
@@ -100,14 +106,14 @@ pub trait Carrier: Kind {
         &self,
         suspension: &Self::Suspension,
         number: impl Fn(Self::Scalar) -> U + Copy,
-    ) -> (Self::Over<U>, <Self::Over<U> as Carrier>::Suspension);
+    ) -> (Self::Over<U>, SuspensionOver<Self, U>);
     /// The same, precomputed.
     #[doc(hidden)]
     fn device_over<U: Scalar>(
         device: &Device<Self>,
         suspension: &Self::Suspension,
         number: impl Fn(Self::Scalar) -> U + Copy,
-    ) -> (Device<Self::Over<U>>, <Self::Over<U> as Carrier>::Suspension);
+    ) -> PreparedOver<Self, U>;
 }
 
 impl<T: Scalar> Carrier for Platform<T> {

@@ -47,11 +47,13 @@ extern "C" {
 #elif PRECESS_TABLE_VERSION == 2
 #define PRECESS_MAX_JOINTS 7
 #define PRECESS_TABLE_SIZE(devices) (124 + 2320 * (devices))
-#define PRECESS_SPACECRAFT_SIZE 65536
+#define PRECESS_SPACECRAFT_SIZE 73728
 #define PRECESS_MAX_PLATFORMS 4   /* platforms on the hub without platforms on them, */
 #define PRECESS_MAX_LOWER 1       /* on the hub with platforms on them, */
 #define PRECESS_MAX_UPPER 1       /* platforms on each of these, */
-#define PRECESS_MAX_ON_PLATFORM 4 /* devices on each platform: all count as devices */
+#define PRECESS_MAX_ON_PLATFORM 4 /* devices on each platform: all count as devices; */
+#define PRECESS_MAX_ROWS 2        /* panels on the hub that carry one, */
+#define PRECESS_MAX_IN_ROW 4      /* panels in a row with it */
 #define precess_init precess_init_v2
 #define precess_init_from_table precess_init_from_table_v2
 #define precess_table_write precess_table_write_v2
@@ -228,7 +230,7 @@ typedef struct precess_device {
     precess_body bodies[PRECESS_MAX_JOINTS];     /* from the hub outwards */
     precess_passive passive[PRECESS_MAX_JOINTS]; /* of the joint of each body */
 #if PRECESS_TABLE_VERSION == 2
-    int32_t on;       /* 0: on the hub; otherwise 1 + index of the platform that it stands on */
+    int32_t on;       /* 0: on the hub; otherwise 1 + index of the platform that it stands on, or panel a panel */
     int32_t reserved; /* 0 */
     precess_suspension suspension; /* of a platform; not read of other kinds */
 #endif

@@ -119,6 +119,8 @@ where
             ("PRECESS_MAX_PLATFORMS", crate::MAX_PLATFORMS),
             ("PRECESS_MAX_LOWER", crate::MAX_LOWER),
             ("PRECESS_MAX_UPPER", crate::MAX_UPPER),
+            ("PRECESS_MAX_ROWS", crate::MAX_ROWS),
+            ("PRECESS_MAX_IN_ROW", crate::MAX_IN_ROW),
             ("PRECESS_MAX_ON_PLATFORM", crate::MAX_ON_PLATFORM),
         ] {
             lines.push(format!("IS({name}, {value});"));

@@ -25,6 +25,7 @@ pub mod memory;
 mod platform;
 #[cfg(test)]
 mod pointers;
+mod rows;
 pub mod state;
 pub mod table;
 pub mod types;
@@ -47,6 +48,12 @@ pub const MAX_UPPER: usize = 1;
 
 /// Devices on a platform at most: `PRECESS_MAX_ON_PLATFORM`.
 pub const MAX_ON_PLATFORM: usize = 4;
+
+/// Rows of panels at most: `PRECESS_MAX_ROWS`.
+pub const MAX_ROWS: usize = 2;
+
+/// Panels in a row at most: `PRECESS_MAX_IN_ROW`.
+pub const MAX_IN_ROW: usize = 4;
 
 /// Version of the library, `0x00MMmmpp`: `PRECESS_VERSION` of the header it was built with.
 pub const VERSION: u32 = 0x0000_0100;

@@ -2,7 +2,7 @@
 //! entries become that set.
 //!
 //! Version 1: up to eight devices of up to three joints on the hub. Version 2: entries of up to seven joints,
-//! and platforms, of which an entry may name one as what it stands on, a platform one on the hub.
+//! and platforms, of which an entry may name one as what it stands on, a platform one on the hub; and rows of panels.
 
 use precess_dynamics::{BuiltIn, DeviceLoads, DeviceSet, Devices, Each, Isolated, Value, Wrench};
 
@@ -11,6 +11,7 @@ use crate::entry_map::EntryMap;
 use crate::error::{Code, Rejection};
 use crate::memory::Plain;
 use crate::platform::{is_platform, platform_of};
+use crate::rows::{self, Rows, is_panel};
 use crate::table::Pass;
 use crate::types::{self, Device, Entry};
 use crate::{MAX_DEVICES, MAX_LOWER, MAX_ON_PLATFORM, MAX_PLATFORMS, MAX_UPPER};
@@ -28,7 +29,7 @@ type Carried = (PlatformDevices, [Option<Upper>; MAX_UPPER]);
 /// Platforms on the hub that carry platforms.
 type Lower = [Option<Isolated<Carried>>; MAX_LOWER];
 /// The set of version 2.
-type Second = (List, Platforms, Lower);
+type Second = (List, Platforms, Lower, Rows);
 
 /// Carries the versions, each by the joints that a device has at most.
 pub(crate) struct Versions;
@@ -38,7 +39,7 @@ pub(crate) type SetOf<const J: usize> = <Versions as Interface<J>>::Set;
 /// The structure of an entry of a version.
 pub(crate) type EntryOf<const J: usize> = <Versions as Interface<J>>::Entry;
 /// Loads of the devices of a set.
-type LoadsOf<D> = <D as DeviceSet>::Per<precess_dynamics::set::Loads>;
+pub(crate) type LoadsOf<D> = <D as DeviceSet>::Per<precess_dynamics::set::Loads>;
 
 /// What differs between the versions.
 pub(crate) trait Interface<const J: usize> {
@@ -90,7 +91,7 @@ impl Interface<7> for Versions {
     type Set = Second;
     type Entry = Entry;
 
-    const SIZE: usize = 65_536;
+    const SIZE: usize = 73_728;
     const EMPTY: Entry = Entry::EMPTY;
 
     fn set(entries: &[Entry]) -> Result<(Second, EntryMap), Rejection> {
@@ -98,15 +99,20 @@ impl Interface<7> for Versions {
         let mut platforms: Platforms = [const { None }; MAX_PLATFORMS];
         let mut lower: Lower = [const { None }; MAX_LOWER];
         let mut entry_map = EntryMap::none();
-        for (to, (index, entry)) in list.iter_mut().zip(standing_on(entries, None, false)) {
+        let on_hub = standing_on(entries, None, false);
+        let alone = on_hub.filter(|(index, _)| !rows::carries(entries, *index));
+        for (to, (index, entry)) in list.iter_mut().zip(alone) {
             *to = Some(placed(index, entry, &mut entry_map)?);
         }
         for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.on != 0) {
             let named =
                 usize::try_from(entry.on).ok().and_then(|on| entries.get(on.wrapping_sub(1)));
-            // What a platform stands on stands on the hub.
-            let known =
-                named.is_some_and(|of| is_platform(of) && (of.on == 0 || !is_platform(entry)));
+            // What a platform stands on stands on the hub; what carries a panel is no platform.
+            let known = named.is_some_and(|of| {
+                let on_platform = is_platform(of) && (of.on == 0 || !is_platform(entry));
+                (on_platform && !rows::carries(entries, index))
+                    || (is_panel(of) && rows::may_stand(entries, entry))
+            });
             if !known {
                 return Err(at(index, Code::NoPlatform));
             }
@@ -132,7 +138,8 @@ impl Interface<7> for Versions {
             }
             *to = Some(Isolated { carrier: platform, suspension, carried: (carried, platforms) });
         }
-        Ok(((list, platforms, lower), entry_map))
+        let rows = rows::rows(entries, &mut entry_map)?;
+        Ok(((list, platforms, lower, rows), entry_map))
     }
 
     fn pass(pass: &mut impl Pass, entry: &mut Entry, layout: usize) -> Option<()> {
@@ -140,7 +147,7 @@ impl Interface<7> for Versions {
         if layout == 7 { pass.standing(entry) } else { Some(()) }
     }
 
-    fn loads((list, platforms, lower): &LoadsOf<Second>, to: &mut LoadsByEntry<'_, 7>) {
+    fn loads((list, platforms, lower, rows): &LoadsOf<Second>, to: &mut LoadsByEntry<'_, 7>) {
         list.iter().flatten().for_each(|of| to.put(of));
         platforms.iter().flatten().for_each(|of| to.put_platform(of));
         for of in lower.iter().flatten() {
@@ -149,11 +156,12 @@ impl Interface<7> for Versions {
             devices.iter().flatten().for_each(|of| to.put(of));
             platforms.iter().flatten().for_each(|of| to.put_platform(of));
         }
+        rows::loads(rows, to);
     }
 }
 
 /// A rejection of an entry.
-fn at(index: usize, code: Code) -> Rejection {
+pub(crate) fn at(index: usize, code: Code) -> Rejection {
     Rejection { entry: Some(index), ..code.into() }
 }
 
@@ -207,7 +215,7 @@ impl<const J: usize> LoadsByEntry<'_, J> {
         of.carried.iter().flatten().for_each(|of| self.put(of));
     }
 
-    fn put<W: Each<Wrench>, U: Each<f64>, P>(&mut self, of: &DeviceLoads<W, U, P, f64>) {
+    pub(crate) fn put<W: Each<Wrench>, U: Each<f64>, P>(&mut self, of: &DeviceLoads<W, U, P, f64>) {
         let entry = self.entry_map.entry(self.next);
         self.next = self.next.wrapping_add(1);
         if let Some(mount) = self.to.mount.get_mut(entry) {

@@ -241,6 +241,22 @@ static void conserved(void)
     IS(same(saved[0], saved[1], (15 + 2 * AXES) * sizeof saved[0][0]), 1);
 }
 
+/* Panels, each on the one before it. */
+static void row(int count)
+{
+    int index;
+    for (index = 0; index < count; index++) {
+        precess_device *panel = &entries[index];
+        memset(panel, 0, sizeof *panel);
+        panel->kind = PRECESS_KIND_HINGED_PANEL;
+        panel->on = index;
+        panel->mount[0] = panel->mount[4] = panel->mount[8] = 1.0;
+        panel->bodies[0].mass = 2.0;
+        panel->bodies[0].origin[0] = panel->bodies[0].centre[0] = 0.5;
+        panel->bodies[0].inertia[0] = panel->bodies[0].inertia[4] = panel->bodies[0].inertia[8] = 0.2;
+    }
+}
+
 static void rejects(int entry, int32_t code, uint32_t count)
 {
     precess_fault fault;
@@ -388,6 +404,27 @@ static void rejected(void)
         wheel(&entries[index], 0);
     }
     rejects(-1, PRECESS_ERROR_TOO_MANY, PRECESS_MAX_DEVICES + 1);
+    /* Rows of panels: five in one, two panels on a panel, a wheel on one, a row on a platform, one row too many. */
+    row(PRECESS_MAX_IN_ROW);
+    IS(init(PRECESS_MAX_IN_ROW, 0), PRECESS_OK);
+    row(PRECESS_MAX_IN_ROW + 1);
+    rejects(PRECESS_MAX_IN_ROW, PRECESS_ERROR_NO_PLATFORM, PRECESS_MAX_IN_ROW + 1);
+    row(3);
+    entries[2].on = 1 + 0;
+    rejects(2, PRECESS_ERROR_TOO_MANY, 3);
+    row(2);
+    wheel(&entries[1], 1 + 0);
+    rejects(1, PRECESS_ERROR_NO_PLATFORM, 2);
+    row(3);
+    platform(&entries[0]);
+    rejects(1, PRECESS_ERROR_NO_PLATFORM, 3);
+    row(6);
+    for (index = 0; index < 3; index++) {
+        entries[2 * index].on = 0;
+        entries[2 * index + 1].on = 1 + 2 * index;
+    }
+    IS(init(4, 0), PRECESS_OK);
+    rejects(4, PRECESS_ERROR_TOO_MANY, 6);
     /* Links of a platform have no mass; suspensions. */
     example();
     entries[ISOLATOR].bodies[Z].mass = 1.0;

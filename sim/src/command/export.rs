@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-use precess_dynamics::{Coupled, MAX_JOINTS, Passive, Strut, Suspension};
+use precess_dynamics::{BuiltInKind, Coupled, MAX_JOINTS, Passive, Strut, Suspension};
 
 use super::error::CommandError;
 use super::exit::Exit;
@@ -17,7 +17,7 @@ use super::options::Set;
 use super::outputs::{Outputs, name_of};
 use super::terminal::print;
 use crate::file::from_file;
-use crate::scenario::{Scenario, members};
+use crate::scenario::{Member, Scenario, members};
 
 /// Bodies and joints of a device in a table of version 1, and of version 2.
 const JOINTS: [usize; 2] = [3, MAX_JOINTS];
@@ -38,6 +38,7 @@ const PLATFORMS_MAX: usize = 4;
 const LOWER_MAX: usize = 1;
 const UPPER_MAX: usize = 1;
 const CARRIED_MAX: usize = 4;
+const ROWS_MAX: usize = 2;
 
 /// What is exported.
 #[derive(Debug, Subcommand)]
@@ -105,8 +106,9 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
         return Err(CommandError::Other(message));
     }
     check_platforms(&scenario.devices)?;
+    check_rows(scenario)?;
     let most = members.iter().map(|member| member.joints().len()).max();
-    let first = most.unwrap_or(0) <= JOINTS[0];
+    let first = most.unwrap_or(0) <= JOINTS[0] && members.iter().all(|of| of.on().is_none());
     let (version, joints) = if first { (1, JOINTS[0]) } else { (2, JOINTS[1]) };
     let standing = if first { 0 } else { STANDING };
     let length = BARE + (DEVICE + PER_JOINT * joints + standing) * count;
@@ -156,11 +158,7 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
 }
 
 /// Rejects more platforms, and more on one, than the flight library takes.
-fn check_platforms((_, isolated, rows): &precess_craft::Set) -> Result<(), CommandError> {
-    if !rows.is_empty() {
-        let message = "a device stands on a panel; the flight library's table has devices on the hub and on platforms";
-        return Err(CommandError::Other(message.to_owned()));
-    }
+fn check_platforms((_, isolated, _): &precess_craft::Set) -> Result<(), CommandError> {
     let upper = isolated.iter().map(|of| of.carried.1.len());
     let lower = upper.clone().filter(|count| *count > 0).count();
     let all = isolated.iter().flat_map(|of| {
@@ -177,6 +175,37 @@ fn check_platforms((_, isolated, rows): &precess_craft::Set) -> Result<(), Comma
             let message = format!("{found} {what}; the flight library takes {most}: remove some");
             return Err(CommandError::Other(message));
         }
+    }
+    Ok(())
+}
+
+/// Rejects more rows of panels than the flight library takes, and rows that carry something else.
+fn check_rows(scenario: &Scenario) -> Result<(), CommandError> {
+    let members = members(&scenario.devices);
+    let on = |base: usize| members.iter().filter(move |member| member.on() == Some(base));
+    let carried_by = |base: usize| {
+        let on_base = scenario.members().filter(|(_, member)| member.on() == Some(base));
+        on_base.map(|(name, _)| name.to_owned()).collect::<Vec<_>>().join(", ")
+    };
+    for (index, (name, member)) in scenario.members().enumerate() {
+        let Some(panel) = member.device().filter(|of| of.kind() == BuiltInKind::HingedPanel) else {
+            continue;
+        };
+        let carried = on(index).filter_map(Member::device);
+        let others = carried.filter(|of| of.kind() != panel.kind()).count();
+        if others > 0 || on(index).count() > 1 {
+            let message = format!(
+                "`{name}` carries {}; the flight library takes one panel on a panel, and no other device: remove some",
+                carried_by(index)
+            );
+            return Err(CommandError::Other(message));
+        }
+    }
+    let (found, most) = (scenario.devices.2.len(), ROWS_MAX);
+    if found > most {
+        let message =
+            format!("{found} rows of panels; the flight library takes {most}: remove some");
+        return Err(CommandError::Other(message));
     }
     Ok(())
 }

@@ -8,8 +8,8 @@ use crate::say;
 use crate::skip::skip;
 
 /// Scenarios, each with the version of its table.
-const SCENARIOS: [(&str, &str); 3] =
-    [("desktop", "1"), ("desktop-platform", "2"), ("desktop-stacked", "2")];
+const SCENARIOS: [(&str, &str); 4] =
+    [("desktop", "1"), ("desktop-platform", "2"), ("desktop-stacked", "2"), ("desktop-rows", "2")];
 const SOURCE: &[&str] = &["flight/capi/tests/desktop.c"];
 /// The step of the scenarios, s.
 const STEP: &str = "0.001";
