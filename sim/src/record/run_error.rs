@@ -209,14 +209,23 @@ fn slower(fastest: Option<&str>) -> String {
     )
 }
 
+/// Writes items, what leads to the first before it and what separates them before the others.
+fn separated(
+    f: &mut fmt::Formatter<'_>,
+    [lead, separator]: [&str; 2],
+    items: impl Iterator<Item = impl fmt::Display>,
+) -> fmt::Result {
+    items.enumerate().try_for_each(|(index, item)| {
+        write!(f, "{}{item}", if index == 0 { lead } else { separator })
+    })
+}
+
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scenario(errors) => {
                 f.write_str("scenario rejected")?;
-                errors.iter().enumerate().try_for_each(|(index, error)| {
-                    write!(f, "{} {error}", if index == 0 { ":" } else { ";" })
-                })
+                separated(f, [": ", "; "], errors.iter())
             }
             Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Modes(error) => write!(f, "structure rejected: {error}"),
@@ -267,10 +276,8 @@ impl fmt::Display for RunError {
             ),
             Self::Crossing { name, column, nearest } => {
                 write!(f, "crossing `{name}`: `{column}` is no column of the state")?;
-                nearest.iter().enumerate().try_for_each(|(index, near)| {
-                    let lead = if index == 0 { "; nearest: " } else { ", " };
-                    write!(f, "{lead}`{near}`")
-                })
+                let near = nearest.iter().map(|near| format!("`{near}`"));
+                separated(f, ["; nearest: ", ", "], near)
             }
             Self::FrictionUndecided { time, joint, changes } => write!(
                 f,

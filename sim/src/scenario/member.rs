@@ -14,6 +14,7 @@ use super::Scenario;
 pub use precess_craft::Set;
 
 /// A device, or a platform without what stands on it.
+#[expect(clippy::large_enum_variant, reason = "members are looked at one by one, and not kept")]
 #[derive(Clone, Copy, Debug)]
 pub enum Member<'a> {
     /// A device of some kind.

@@ -161,7 +161,7 @@ impl Scenario {
                 if !matches!(self.drives.get(number), Some(Drive::Torque { .. })) {
                     continue;
                 }
-                let inertia = inertia_max(*member, joint, &carried);
+                let inertia = inertia_max(member, joint, &carried);
                 let place = (joint.index, joint.index);
                 let coupled = suspension.map(|of| [of.stiffness, of.damping].map(|of| of[place]));
                 let [k, c] = coupled.unwrap_or_default();
@@ -256,7 +256,7 @@ fn cycles(profile: &Profile, [start, end]: [f64; 2]) -> Option<(f64, [f64; 2])> 
 
 /// An upper bound of the mass or of the inertia about its axis that a joint moves while all else is held, kg or kg m²,
 /// whatever the pose is: each body outboard as far from the joint as it can be.
-fn inertia_max(member: Member<'_>, joint: &JointInfo, carried: &[(Member<'_>, f64)]) -> f64 {
+fn inertia_max(member: &Member<'_>, joint: &JointInfo, carried: &[(Member<'_>, f64)]) -> f64 {
     let of_chain = |bodies: &[BodyParameters<f64>], mut reach: f64| {
         let mut sum = 0.0;
         for (place, body) in bodies.iter().enumerate() {

@@ -1,6 +1,8 @@
 //! Rows of panels: the library's nested set to the bit, loads, momenta and energy, a locked row, the written
 //! scenario, the frequency domain, and errors.
 
+use std::ops::ControlFlow;
+
 use nalgebra::Vector3;
 use precess::engine::{Advance, Run, run};
 use precess::file::to_toml;
@@ -10,7 +12,6 @@ use precess_dynamics::{
     HingedPanel, Hub, Inputs, LoadAxes, OnPanel, Passive, ReactionWheel, Spacecraft, State,
     hinged_panel,
 };
-use std::ops::ControlFlow;
 
 use super::stacked::{RUN, WHEEL, diagonal, ran};
 use super::{errors, read};
@@ -193,6 +194,9 @@ fn parameters_of_a_carrying_panel_are_read_and_set() {
     assert_eq!(scenario.devices.2[0].carried.1[0].carrier.0.m_p, 4.0);
 }
 
+/// Panels, each with what it stands on; what else there is; parts of the message.
+type Case<'a> = (&'a [(&'a str, &'a str)], String, [&'a str; 2]);
+
 #[test]
 fn errors_of_rows_name_the_row_and_the_bound() {
     let panel = |name: &str, on: &str| {
@@ -209,7 +213,7 @@ fn errors_of_rows_name_the_row_and_the_bound() {
         ))
     };
     let wheel = |on: &str| format!("{WHEEL}on = \"{on}\"\n");
-    let cases: [(&[(&str, &str)], String, [&str; 2]); 6] = [
+    let cases: [Case; 6] = [
         (
             &[("a", "hub"), ("b", "a"), ("c", "b"), ("d", "c"), ("e", "d")],
             String::new(),

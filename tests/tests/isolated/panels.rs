@@ -239,7 +239,7 @@ fn row_with_locked_hinges_is_part_of_the_hub() {
     let i_b_bc: Matrix3<f64> = bodies.iter().map(about).sum();
     let i_b_bc = (i_b_bc + i_b_bc.transpose()) * 0.5;
     let whole = precess_dynamics::Hub { m_b, r_bc_b, i_b_bc };
-    let rigid = Spacecraft::new(&whole, &[HingedPanel::bare_panel(1.0, Matrix3::identity()); 0]);
+    let rigid = Spacecraft::new(&whole, &([] as [HingedPanel; 0]));
     let (mut same, mut given) = (State::<[HingedPanel; 0]>::at_rest(), Inputs::none());
     (same.omega, same.r_b_n_dot, same.r_b_n) = (state.omega, state.r_b_n_dot, state.r_b_n);
     (given.force, given.torque_b, given.gravity) = (inputs.force, inputs.torque_b, inputs.gravity);

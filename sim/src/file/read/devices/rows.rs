@@ -129,8 +129,8 @@ pub(super) fn set_on<'a>(
                 BuiltIn::HingedPanel(panel) if rows.carries(&device.name) => {
                     push_panel(&mut set.2, panel, depth());
                 }
-                own if rows.carries(&device.on) => push_on_panel(&mut set.2, own, depth()),
-                own => push_device(&mut set, own),
+                own if rows.carries(&device.on) => push_on_panel(&mut set.2, &own, depth()),
+                own => push_device(&mut set, &own),
             },
         }
     }
@@ -152,16 +152,16 @@ fn push_panel(rows: &mut Vec<FirstPanel>, panel: HingedPanel, depth: usize) {
 }
 
 /// A device on the last of so many panels.
-fn push_on_panel(rows: &mut [FirstPanel], device: BuiltIn, depth: usize) {
+fn push_on_panel(rows: &mut [FirstPanel], device: &BuiltIn, depth: usize) {
     let Some(first) = rows.last_mut() else { return };
     match (depth, first.carried.1.last_mut()) {
-        (2, Some(second)) => second.carried.0.push(device),
+        (2, Some(second)) => second.carried.0.push(*device),
         (3, Some(second)) => {
             if let Some(third) = second.carried.1.last_mut() {
-                third.carried.push(device);
+                third.carried.push(*device);
             }
         }
-        _ => first.carried.0.push(device),
+        _ => first.carried.0.push(*device),
     }
 }
 
@@ -179,12 +179,12 @@ fn push_platform(set: &mut Set, (carrier, suspension): (Platform, Suspension), o
 }
 
 /// A device on the last platform, or on the base where there is none.
-fn push_device(set: &mut Set, device: BuiltIn) {
+fn push_device(set: &mut Set, device: &BuiltIn) {
     match set.1.last_mut() {
-        None => set.0.push(device),
+        None => set.0.push(*device),
         Some(outer) => match outer.carried.1.last_mut() {
-            Some(inner) => inner.carried.push(device),
-            None => outer.carried.0.push(device),
+            Some(inner) => inner.carried.push(*device),
+            None => outer.carried.0.push(*device),
         },
     }
 }
