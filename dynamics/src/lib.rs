@@ -158,6 +158,7 @@ pub mod set {
     pub use crate::isolation::carrier_elimination::CarrierConstants;
     pub use crate::sets::bundle::{Bundle, Given, Maybe, MemberIndex, Part, Shared, Unique};
     pub use crate::sets::carrying::PreparedCarrying;
+    pub use crate::sets::carrying_numbers::CarrierNumbers;
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]

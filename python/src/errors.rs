@@ -63,6 +63,7 @@ pub(crate) fn evaluation(error: &EvaluationError) -> PyErr {
         EvaluationError::Derivative(_) => class::DerivativeError::new_err(message),
         EvaluationError::Flexible
         | EvaluationError::Sticks { .. }
+        | EvaluationError::AtLargestRate { .. }
         | EvaluationError::Friction { .. } => class::UnsupportedError::new_err(message),
         EvaluationError::UnknownParameter { .. } => PyKeyError::new_err(message),
     }

@@ -115,9 +115,9 @@ const CHARTS = [
   ['Force on the mount of cmg1', 'N', [19]],
 ].map(([title, unit, list, log = false], i) => ({ id: `chart-${i}`, title, unit, columns: list, log, static: `figure-${i}` }));
 
-// A limit over a part of the run, on both sides, and one that is too far away to be drawn.
-CHARTS[2].limits = [{ label: 'limit of a gimbal', values: [70, -70], from: 2, to: END }];
-CHARTS[7].limits = [{ label: 'limit of load', values: [200], from: 0, to: END }];
+// A limit over a part of the run, on both sides of a value other than zero, and one that is too far away to be drawn.
+CHARTS[2].limits = [{ label: 'limit of a gimbal', written: '70 deg', values: [75, -65], from: 2, to: END }];
+CHARTS[7].limits = [{ label: 'limit of load', written: '200 N', values: [200], from: 0, to: END }];
 
 /** Joint frames of the pyramid: gimbal axis z, spin axis x of the gimbal frame. */
 function joints() {

@@ -18,8 +18,8 @@ use crate::numbers::vec3::{Columns, Vec3, rotate_transposed, vector};
 pub struct DeviceLoads<W, U, P, T> {
     /// What the hub exerts on the device at its mount, about the device's place: the origin of its
     /// first joint at coordinate zero, which no joint of the device moves. Expressed in N if the
-    /// joints' loads are, otherwise in B; of a device on a platform, exerted by it, in the
-    /// platform's axes with [`LoadAxes::Body`](crate::LoadAxes::Body) and
+    /// joints' loads are, otherwise in B; of a device on a carrier, exerted by it, in the
+    /// carrier's axes with [`LoadAxes::Body`](crate::LoadAxes::Body) and
     /// [`LoadAxes::Parent`](crate::LoadAxes::Parent). About another point: [`Wrench::moved`].
     pub mount: Wrench<T>,
     /// What its parent body exerts on the child body of each joint, motor, spring and friction
@@ -96,7 +96,7 @@ impl<K: Kind> Device<K> {
         self.loads_with(joints, given, environment, hub, accelerations, along, totals, None)
     }
 
-    /// [`Self::loads`] with what else acts on the last body and between the joints: of a platform.
+    /// [`Self::loads`] with what else acts on the last body and between the joints: of a carrier.
     #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
     pub(crate) fn loads_with(
         &self,

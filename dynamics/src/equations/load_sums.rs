@@ -59,10 +59,10 @@ pub(crate) struct JointPowers<T> {
     pub(crate) magnitude: T,
 }
 
-/// What a platform gets from elsewhere than its own body and joints.
+/// What a carrier gets from elsewhere than its own body and joints.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Added<T> {
-    /// What the carried devices need, about P, platform axes.
+    /// What the carried devices need, about P, carrier axes.
     pub(crate) inertial: Wrench<T>,
     /// What acts on their bodies from outside.
     pub(crate) applied: Wrench<T>,

@@ -8,7 +8,6 @@ use core::fmt::Debug;
 use core::ops::Deref;
 
 use crate::equations::assembly::Assembly;
-use crate::equations::device::Device;
 use crate::equations::suspension_forces::{Forces, Six};
 use crate::generated::hub::BodyAcceleration;
 use crate::isolation::checks::check_suspension;
@@ -17,19 +16,12 @@ use crate::isolation::kernels::Constants;
 use crate::isolation::motion::{Motion, Moving, Spatial};
 use crate::isolation::parameters::Platform;
 use crate::isolation::records::{JointAccelerations, PerJoint};
-use crate::isolation::suspension::{Coupled, Strut, Suspension};
+use crate::isolation::suspension::Suspension;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
-use crate::sets::with_numbers::WithNumbers;
 use crate::validation::parameter_error::ParameterError;
-
-/// The suspension of a carrier in other numbers.
-type SuspensionOver<C, U> = <<C as Carrier>::Over<U> as Carrier>::Suspension;
-
-/// A carrier in other numbers, precomputed, with its suspension.
-type PreparedOver<C, U> = (Device<<C as Carrier>::Over<U>>, SuspensionOver<C, U>);
 
 /// A device whose last body can carry a set of devices.
 ///
@@ -37,8 +29,6 @@ type PreparedOver<C, U> = (Device<<C as Carrier>::Over<U>>, SuspensionOver<C, U>
 pub trait Carrier: Kind {
     /// Springs and dampers that couple its joints; `()` where there are none.
     type Suspension: Copy + Debug + PartialEq + 'static;
-    /// The same carrier with parameters of other numbers.
-    type Over<U: Scalar>: Carrier<Scalar = U>;
     #[doc(hidden)]
     type Moving: Deref<Target = Motion<Self::Scalar>> + Copy;
 
@@ -99,26 +89,10 @@ pub trait Carrier: Kind {
         device: usize,
         suspension: &Self::Suspension,
     ) -> Result<(), ParameterError<Self::Scalar>>;
-
-    /// Parameters in other numbers.
-    #[doc(hidden)]
-    fn over<U: Scalar>(
-        &self,
-        suspension: &Self::Suspension,
-        number: impl Fn(Self::Scalar) -> U + Copy,
-    ) -> (Self::Over<U>, SuspensionOver<Self, U>);
-    /// The same, precomputed.
-    #[doc(hidden)]
-    fn device_over<U: Scalar>(
-        device: &Device<Self>,
-        suspension: &Self::Suspension,
-        number: impl Fn(Self::Scalar) -> U + Copy,
-    ) -> PreparedOver<Self, U>;
 }
 
 impl<T: Scalar> Carrier for Platform<T> {
     type Suspension = Suspension<T>;
-    type Over<U: Scalar> = Platform<U>;
     type Moving = Moving<T, 6>;
 
     fn base(constants: &Constants<T>) -> &Constants<T> {
@@ -180,40 +154,5 @@ impl<T: Scalar> Carrier for Platform<T> {
         suspension: &Suspension<T>,
     ) -> Result<(), ParameterError<T>> {
         check_suspension(device, suspension)
-    }
-
-    fn over<U: Scalar>(
-        &self,
-        suspension: &Suspension<T>,
-        number: impl Fn(T) -> U + Copy,
-    ) -> (Platform<U>, Suspension<U>) {
-        (self.with_numbers(number), suspension.map(number))
-    }
-
-    fn device_over<U: Scalar>(
-        device: &Device<Self>,
-        suspension: &Suspension<T>,
-        number: impl Fn(T) -> U + Copy,
-    ) -> (Device<Platform<U>>, Suspension<U>) {
-        (Self::convert(device, number), suspension.map(number))
-    }
-}
-
-impl<T: Scalar> Suspension<T> {
-    /// Each number converted.
-    fn map<U: Scalar>(&self, number: impl Fn(T) -> U + Copy) -> Suspension<U> {
-        let coupled = self.coupled.map(|of| Coupled {
-            stiffness: of.stiffness.map(number),
-            rest: of.rest.map(number),
-            damping: of.damping.map(number),
-        });
-        let strut = |of: Strut<T>| Strut {
-            position: of.position.map(number),
-            direction: of.direction.map(number),
-            length: number(of.length),
-            stiffness: number(of.stiffness),
-            damping: number(of.damping),
-        };
-        Suspension { coupled, struts: self.struts.map(|of| of.map(strut)) }
     }
 }

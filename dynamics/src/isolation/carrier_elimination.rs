@@ -179,7 +179,7 @@ impl<'a, T: Scalar, C: Carrier<Scalar = T>> CarrierElimination<'a, C> {
         Ok(())
     }
 
-    /// Adds springs and friction, of the platform's joints and of the carried ones, to the stiffness
+    /// Adds springs and friction, of the carrier's joints and of the carried ones, to the stiffness
     /// that a step has to resolve.
     fn add_stiffness(
         &self,
@@ -191,7 +191,7 @@ impl<'a, T: Scalar, C: Carrier<Scalar = T>> CarrierElimination<'a, C> {
         let coefficients = filled(C::all([zero(); 2]), entries);
         let pivots = C::pivots(eliminated);
         base.stiffness.add::<C>(&coefficients, &pivots, drives);
-        // The response of a carried joint grows with the platform, as shows in its pivots.
+        // The response of a carried joint grows with the carrier, as shows in its pivots.
         let mut growth = one::<T>();
         for (pivot, drive) in pivots.values().zip(drives.values()) {
             if let Some([pivot, diagonal]) = pivot
@@ -243,7 +243,7 @@ impl<'a, T: Scalar, C: Carrier<Scalar = T>> CarrierElimination<'a, C> {
             if drive.driven == one()
                 && let Err(small) = check_pivot(pivot, bound(scale))
             {
-                // From the base to the platform: the one nearest the tip was eliminated first.
+                // From the base to the tip: the one nearest the tip was eliminated first.
                 rejected = Err(small.of(Some(self.device), Some(info.body)));
             }
         }

@@ -10,7 +10,6 @@
 use nalgebra::Matrix3;
 
 use crate::equations::assembly::Assembly;
-use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
 use crate::equations::suspension_forces::{Forces, Six};
 use crate::generated::hinged_panel::device::{HingedPanel, Joints, MotorTorques, PerJoint};
@@ -33,7 +32,6 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::Value;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{Vec3, columns, map};
-use crate::sets::with_numbers::WithNumbers;
 use crate::validation::parameter_error::ParameterError;
 
 /// A hinged panel that carries devices: the carrier of a [`Carrying`](crate::Carrying) set.
@@ -283,7 +281,6 @@ impl<T: Scalar> Kind for CarryingPanel<T> {
 
 impl<T: Scalar> Carrier for CarryingPanel<T> {
     type Suspension = ();
-    type Over<U: Scalar> = CarryingPanel<U>;
     type Moving = Moving<T, 1>;
 
     fn base(constants: &PanelConstants<T>) -> &Constants<T> {
@@ -339,17 +336,5 @@ impl<T: Scalar> Carrier for CarryingPanel<T> {
 
     fn check_suspension(_: usize, (): &()) -> Result<(), ParameterError<T>> {
         Ok(())
-    }
-
-    fn over<U: Scalar>(&self, (): &(), number: impl Fn(T) -> U + Copy) -> (CarryingPanel<U>, ()) {
-        (self.with_numbers(number), ())
-    }
-
-    fn device_over<U: Scalar>(
-        device: &Device<Self>,
-        (): &(),
-        number: impl Fn(T) -> U + Copy,
-    ) -> (Device<CarryingPanel<U>>, ()) {
-        (Self::convert(device, number), ())
     }
 }

@@ -11,7 +11,7 @@ mod built_in_names;
 mod built_in_tests;
 pub(crate) mod bundle;
 pub(crate) mod carrying;
-mod carrying_numbers;
+pub(crate) mod carrying_numbers;
 pub(crate) mod counts;
 pub(crate) mod device_parameters;
 pub(crate) mod devices;

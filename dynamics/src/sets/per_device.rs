@@ -68,7 +68,7 @@ pub struct Loads;
 #[derive(Clone, Copy, Debug)]
 pub struct Gains;
 
-/// The number of the mount of each device, from 0; at first 0. A platform's is that of all it
+/// The number of the mount of each device, from 0; at first 0. A carrier's is that of all it
 /// carries, whose own are not read.
 #[derive(Clone, Copy, Debug)]
 pub struct OnMount;

@@ -112,9 +112,9 @@ codes! {
     /// A kind of more joints than the structures of the caller hold.
     ManyJoints = 26, c"PRECESS_ERROR_MANY_JOINTS",
         c"the kind has more joints than PRECESS_MAX_JOINTS; define PRECESS_TABLE_VERSION as 2";
-    /// An entry stands on something that is no platform.
+    /// An entry stands on something that is no platform or panel.
     NoPlatform = 27, c"PRECESS_ERROR_NO_PLATFORM",
-        c"`on` is neither 0, the hub, nor 1 + the index of a platform; a platform is on the hub or on one there";
+        c"`on` is not 0 or 1 + index of a platform or panel: a platform is on the hub or one there, a panel on a panel, up to 4 in a row";
     /// A matrix or strut of a suspension is out of range.
     Suspension = 28, c"PRECESS_ERROR_SUSPENSION",
         c"a matrix is not symmetric or not positive semidefinite, or a strut has no length, direction";

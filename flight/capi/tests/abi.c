@@ -343,7 +343,7 @@ static void texts(void)
 {
     char text[128], little[5];
     int32_t code;
-    for (code = PRECESS_OK; code <= PRECESS_ERROR_MANY_JOINTS; code++) {
+    for (code = PRECESS_OK; code <= PRECESS_ERROR_SUSPENSION; code++) {
         IS(precess_error_text(code, text, sizeof text), PRECESS_OK);
         IS(text[0] != '\0', 1);
     }

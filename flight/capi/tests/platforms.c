@@ -3,6 +3,8 @@
 
 #define PRECESS_TABLE_VERSION 2
 
+#include <string.h>
+
 #include "check.h"
 #include "precess.h"
 

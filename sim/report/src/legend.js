@@ -27,14 +27,13 @@ function sample({ colour, dash, measured }) {
   return svg;
 }
 
-/** The row of a limit: its name, and the limit in the column of the cursor. */
-function limitRow({ label, values }, columns) {
+/** The row of a limit: its name, and the limit as it was written, in the column of the cursor. */
+function limitRow({ label, written }, columns) {
   const svg = sample({ colour: 'currentColor', dash: LIMIT_DASH });
-  const sign = values.length > 1 ? '±' : '';
   const empty = Array.from({ length: columns - 1 }, () => element('td'));
   return element('tr', { class: 'limit' },
     element('th', { scope: 'row' }, element('span', { class: 'key' }, svg, element('span', { class: 'name' }, label))),
-    element('td', {}, `${sign}${number(Math.abs(values[0]), 4)}`), ...empty);
+    element('td', {}, written), ...empty);
 }
 
 /** The legend's table on an axis; `changed` is called when a curve is hidden or shown. */

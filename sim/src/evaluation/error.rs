@@ -19,7 +19,12 @@ pub enum EvaluationError {
         /// Its coordinate.
         joint: String,
     },
-    /// Derivatives with friction that sticks or quadratic drag, which only runs have.
+    /// Inputs of a joint at the largest rate of its motor or beyond it: only a run decides whether it is held there.
+    AtLargestRate {
+        /// Its coordinate.
+        joint: String,
+    },
+    /// Derivatives with friction that sticks or quadratic drag.
     Friction {
         /// The coordinate of the first joint with it.
         joint: String,
@@ -46,6 +51,11 @@ impl fmt::Display for EvaluationError {
                 "whether static friction holds {joint}, which is at rest, only a run decides; give it a rate, lock \
                  it, or give it smoothed friction: `coulomb` with `coulomb_rate`"
             ),
+            Self::AtLargestRate { joint } => write!(
+                f,
+                "whether the motor holds {joint}, which is at its largest rate or beyond it, only a run decides; give it a \
+                 smaller rate, or remove the limit"
+            ),
             Self::Friction { joint } => write!(
                 f,
                 "the friction of {joint} has no derivatives: static friction and quadratic drag are of runs only; \
@@ -69,6 +79,7 @@ impl Error for EvaluationError {
             Self::Derivative(source) => Some(source),
             Self::Flexible
             | Self::Sticks { .. }
+            | Self::AtLargestRate { .. }
             | Self::Friction { .. }
             | Self::UnknownParameter { .. } => None,
         }

@@ -127,12 +127,13 @@ impl Evaluator {
     }
 
     /// What acts at a time, s, and state: the scenario's gravity, mode of the hub, initial drives,
-    /// wrenches and disturbances; friction that sticks, and quadratic drag, of joints that slide as part of the motors'
+    /// wrenches and disturbances, motors within their power; friction that sticks, and quadratic drag, of joints that slide as part of the motors'
     /// torques.
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::Sticks`] of a joint with static friction that is at rest.
+    /// [`EvaluationError::Sticks`] of a joint with static friction that is at rest, [`EvaluationError::AtLargestRate`] of one
+    /// at the largest rate of its motor.
     pub fn inputs(&self, time: f64, state: &CraftState) -> Result<CraftInputs, EvaluationError> {
         let mut acting = SegmentInputs::new(&self.scenario, &self.layout.joints);
         acting.begin(0.0, f64::INFINITY);
@@ -140,12 +141,16 @@ impl Evaluator {
             let joint = self.layout.joints.get(joint).map_or("", |place| &place.name).to_owned();
             return Err(EvaluationError::Sticks { joint });
         }
+        if let Some(joint) = acting.limited_at(time, state) {
+            let joint = self.layout.joints.get(joint).map_or("", |place| &place.name).to_owned();
+            return Err(EvaluationError::AtLargestRate { joint });
+        }
         let mut inputs = acting.inputs(&self.scenario, &self.craft);
         acting.fill(time, state, &mut inputs);
         Ok(inputs)
     }
 
-    /// Rejects derivatives with friction that only runs have.
+    /// Rejects derivatives with friction that sticks and with quadratic drag.
     fn check_smooth(&self) -> Result<(), EvaluationError> {
         match self.scenario.first_friction() {
             Some(joint) => Err(EvaluationError::Friction { joint }),

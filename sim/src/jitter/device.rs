@@ -1,4 +1,4 @@
-//! [`SweptDevice`]: a device, or a platform with what stands on it, at any speed of its rotors.
+//! [`SweptDevice`]: a device, or a platform or panel with what stands on it, at any speed of its rotors.
 //!
 //! The means over a turn of the derivatives by accelerations, rates and coordinates are polynomials of second degree in
 //! the rates (inertia does not depend on them, gyroscopic terms are linear, centrifugal ones quadratic), so
@@ -67,7 +67,7 @@ pub struct Tone {
 /// A device on a mount, at any speed.
 #[derive(Clone, Debug)]
 pub struct SweptDevice {
-    /// Its name; of a platform, that of the platform.
+    /// Its name; of a platform or panel with what stands on it, that of the platform or panel.
     pub name: String,
     /// The rotors.
     pub rotors: Vec<Rotor>,

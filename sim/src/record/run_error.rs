@@ -89,12 +89,15 @@ pub enum RunError {
         /// The nearest names of columns of the state.
         nearest: Vec<String>,
     },
-    /// Friction of a joint changes between sticking and sliding again and again at one time.
-    FrictionUndecided {
+    /// Friction of a joint changes between sticking and sliding, or its motor comes to a limit and leaves it, again and
+    /// again at one time.
+    Undecided {
         /// Simulated time, s.
         time: f64,
         /// Its coordinate.
         joint: String,
+        /// Whether it is the motor.
+        motor: bool,
         /// How often it has changed there.
         changes: usize,
     },
@@ -184,7 +187,7 @@ impl RunError {
             | Self::LockedJointMoves { time, .. }
             | Self::BeyondLargestRate { time, .. }
             | Self::NotDriven { time, .. }
-            | Self::FrictionUndecided { time, .. }
+            | Self::Undecided { time, .. }
             | Self::TooManySteps { time, .. }
             | Self::StepTooSmall { time, .. }
             | Self::Stiff { time, .. }
@@ -207,6 +210,23 @@ fn slower(fastest: Option<&str>) -> String {
         || "; check what moves fast".to_owned(),
         |what| format!("; fastest is {what}: slow it down"),
     )
+}
+
+/// What changes without end at one time, friction or a motor, and the remedy.
+fn undecided(motor: bool) -> (&'static str, &'static str) {
+    if motor {
+        (
+            "motor",
+            "between its limits, and the run does not go on; raise its `power_limit`, its largest rate or its \
+             `torque_limit`",
+        )
+    } else {
+        (
+            "friction",
+            "between sticking and sliding, and the run does not go on; lock the joint, or give it smoothed \
+             friction: `coulomb` with `coulomb_rate`",
+        )
+    }
 }
 
 /// Writes items, what leads to the first before it and what separates them before the others.
@@ -279,13 +299,12 @@ impl fmt::Display for RunError {
                 let near = nearest.iter().map(|near| format!("`{near}`"));
                 separated(f, ["; nearest: ", ", "], near)
             }
-            Self::FrictionUndecided { time, joint, changes } => write!(
-                f,
-                "at t = {time} s the friction of {joint} has changed {changes} times between sticking and \
-                 sliding, and the run does not go on; lock the joint, or give it smoothed friction: `coulomb` \
-                 with `coulomb_rate`",
-                time = Plain(*time)
-            ),
+            Self::Undecided { time, joint, motor, changes } => {
+                let (what, remedy) = undecided(*motor);
+                let time = Plain(*time);
+                write!(f, "at t = {time} s the {what} of {joint} has changed {changes} times ")?;
+                f.write_str(remedy)
+            }
             Self::TooManySteps { time, fastest } => write!(
                 f,
                 "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \

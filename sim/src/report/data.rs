@@ -65,6 +65,7 @@ struct ChartData<'a> {
 #[derive(Serialize)]
 struct LimitData<'a> {
     label: &'a str,
+    written: &'a str,
     values: &'a [f64],
     from: f64,
     to: f64,
@@ -79,7 +80,7 @@ struct EventData<'a> {
 impl<'a> LimitData<'a> {
     fn new(limit: &'a DrawnLimit) -> Self {
         let [from, to] = limit.window;
-        Self { label: &limit.label, values: &limit.values, from, to }
+        Self { label: &limit.label, written: &limit.written, values: &limit.values, from, to }
     }
 }
 

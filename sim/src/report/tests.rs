@@ -213,6 +213,7 @@ fn a_limit_is_drawn_in_the_chart_of_its_column() {
     let charts = data["charts"].as_array().expect("charts");
     let limits = charts[0]["limits"].as_array().expect("limits");
     assert_eq!(limits.len(), 2, "{limits:?}");
+    assert_eq!(limits[0]["written"], "0.5 rad/s");
     // The unit of the chart is deg/s, and the run ends at 1 s.
     let [high, low] = [0, 1].map(|k| limits[0]["values"][k].as_f64().expect("a number"));
     assert!((high - 0.5_f64.to_degrees()).abs() < 1e-9 && high == -low, "{high}");

@@ -22,6 +22,8 @@ pub enum UndescribedError {
     Lumped(String),
     /// A platform.
     Platform(String),
+    /// A device that stands on another.
+    Carried(String),
 }
 
 impl std::fmt::Display for UndescribedError {
@@ -46,6 +48,11 @@ impl std::fmt::Display for UndescribedError {
                 "{name} is an isolated platform, and these kernels are for devices on the hub; \
                  remove `[[platform]]`, and `on` of the devices on it"
             ),
+            Self::Carried(name) => write!(
+                f,
+                "{name} stands on another device, and these kernels are for devices on the hub; \
+                 remove its `on`"
+            ),
         }
     }
 }
@@ -56,7 +63,8 @@ impl Scenario {
     /// The spacecraft by its numbers. With `unlock`, joints that the scenario locks stay joints.
     ///
     /// # Errors
-    /// Where the hub is not free, the imbalance of a device is lumped, or there is a platform.
+    /// Where the hub is not free, the structure is flexible, the imbalance of a device is lumped, a device stands on
+    /// another, or there is a platform.
     pub fn description(&self, unlock: bool) -> Result<Description, UndescribedError> {
         if self.hub_mode != HubMode::Free {
             return Err(UndescribedError::Hub);
@@ -68,9 +76,12 @@ impl Scenario {
         let mut states = self.initial.devices.states();
         let mut device = Vec::new();
         for (name, member) in self.members() {
-            let Some(own) = member.device().filter(|_| member.on().is_none()) else {
+            let Some(own) = member.device() else {
                 return Err(UndescribedError::Platform(name.to_owned()));
             };
+            if member.on().is_some() {
+                return Err(UndescribedError::Carried(name.to_owned()));
+            }
             let parameters = own.parameters();
             if parameters.model == ImbalanceModel::Lumped {
                 return Err(UndescribedError::Lumped(name.to_owned()));

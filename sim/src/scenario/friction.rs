@@ -14,7 +14,7 @@ use super::check::range;
 use super::{Scenario, ScenarioError, joint_key};
 use crate::units::Plain;
 
-/// Friction of a joint that only runs have.
+/// Friction of a joint that sticks, and quadratic drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointFriction {
     /// The joint.
@@ -62,12 +62,12 @@ impl DryFriction {
 }
 
 impl Scenario {
-    /// The friction of a joint that only runs have.
+    /// Friction that sticks and quadratic drag of a joint.
     pub(crate) fn friction_of(&self, joint: usize) -> Option<&JointFriction> {
         self.friction.iter().find(|of| of.joint == joint)
     }
 
-    /// The first joint with friction that only runs have, by the name of its coordinate.
+    /// The first joint with friction that sticks or quadratic drag, by the name of its coordinate.
     #[must_use]
     pub fn first_friction(&self) -> Option<String> {
         let of = self.friction.first()?;

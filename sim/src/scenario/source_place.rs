@@ -57,9 +57,9 @@ impl Scenario {
                 let axes = own.mount() * sheet;
                 let origin = Vector3::from(own.bodies().first()?.origin);
                 let point = origin + own.mount() * of.point;
-                if let Some(platform) = own.on() {
+                if let Some(carrier) = own.on() {
                     let mut joints = self.joints();
-                    let tip = joints.position(|(on, _, info)| on == platform && info.tip)?;
+                    let tip = joints.position(|(on, _, info)| on == carrier && info.tip)?;
                     return place(SourceBody::Joint(tip), axes, point);
                 }
                 let Some(structure) = &self.structure else {

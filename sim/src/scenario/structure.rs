@@ -26,8 +26,8 @@ pub struct ModalStructure {
     pub residual: usize,
     /// The nodes that the scenario uses.
     pub nodes: Vec<StructureNode>,
-    /// The node that carries each member, device or platform; that of what stands on a platform is the
-    /// platform's.
+    /// The node that carries each member, device or platform; what stands on a platform or panel has the
+    /// node of that.
     pub on_node: Vec<usize>,
     /// Whether hub and modes contain the mass of the devices, as a rigid body at their initial
     /// coordinates: it is subtracted.

@@ -274,11 +274,11 @@ fn inertia_max(member: &Member<'_>, joint: &JointInfo, carried: &[(Member<'_>, f
     own + of_carried.sum::<f64>()
 }
 
-/// What stands on a platform and on platforms on it, each with the distance of its first joint from the origin of the
-/// platform, m, whatever the pose is; `reach` is that of the platform.
-fn carried<'a>(all: &[Member<'a>], platform: usize, reach: f64) -> Vec<(Member<'a>, f64)> {
+/// What stands on a platform or panel and on those on it, each with the distance of its first joint from the origin of the
+/// first, m, whatever the pose is; `reach` is that of `carrier`.
+fn carried<'a>(all: &[Member<'a>], carrier: usize, reach: f64) -> Vec<(Member<'a>, f64)> {
     let mut found = Vec::new();
-    for (index, member) in all.iter().enumerate().filter(|(_, of)| of.on() == Some(platform)) {
+    for (index, member) in all.iter().enumerate().filter(|(_, of)| of.on() == Some(carrier)) {
         let own = reach + member.bodies().first().map_or(0.0, |body| length(&body.origin));
         found.push((*member, own));
         found.extend(carried(all, index, own));

@@ -54,4 +54,10 @@ fn without_a_report_there_is_no_page_and_correlations_have_their_probability_by_
         // Student's t with 10 degrees of freedom: 0.576 at 0.05.
         assert_eq!(chance < 0.05, r.abs() > 0.576, "{row:?}");
     }
+    // Of fewer than ten samples none is judged.
+    let few = run(&file, &drawn, &folder.join("few"), &["--samples", "6", "--no-report"]);
+    let shown = text(&few.stdout);
+    assert!(shown.contains("largest rank correlation"), "{shown}");
+    assert!(shown.contains("(6 samples, too few to judge)"), "{shown}");
+    assert!(!shown.contains("significant"), "{shown}");
 }

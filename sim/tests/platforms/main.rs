@@ -310,8 +310,8 @@ fn errors_name_the_place_the_fault_and_the_remedy() {
     let on = "on = \"iso\"";
     for (from, to, parts) in [
         (on, "on = \"isolator\"", ["no platform or panel is named `isolator`", "there are iso"]),
-        (on, "on = \"rw1\"", ["`rw1` stands on itself", "there are iso"]),
-        (on, "on = \"rw2\"", ["`rw2` is no panel", "on platforms and on hinged panels"]),
+        (on, "on = \"rw1\"", ["`rw1` stands on itself", "remove `on`"]),
+        (on, "on = \"rw2\"", ["`rw2` is no panel", "on the hub; there are iso, panel"]),
         ("mass = \"6 kg\"", "mass = \"0 kg\"", ["mass", "\"0 kg\""]),
         (
             "x_turn = { stiffness",

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use precess::engine::{Advance, Run, run};
 use precess::file::to_toml;
 use precess::record::Samples;
+use precess::scenario::UndescribedError;
 use precess_dynamics::kind::JointStates;
 use precess_dynamics::{
     HingedPanel, Hub, Inputs, LoadAxes, OnPanel, Passive, ReactionWheel, Spacecraft, State,
@@ -183,6 +184,14 @@ fn a_row_written_is_read_back_the_same() {
     assert_eq!(row, (Vec::new(), Vec::new(), rows.clone()));
 }
 
+#[test]
+fn a_device_on_a_panel_has_no_description() {
+    let error = read(ROW).description(false).err();
+    assert_eq!(error, Some(UndescribedError::Carried("second".to_owned())));
+    let text = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(text.contains("second stands on another device") && text.contains("remove its `on`"));
+}
+
 /// A parameter of a panel that carries, by its name.
 #[test]
 fn parameters_of_a_carrying_panel_are_read_and_set() {
@@ -213,7 +222,7 @@ fn errors_of_rows_name_the_row_and_the_bound() {
         ))
     };
     let wheel = |on: &str| format!("{WHEEL}on = \"{on}\"\n");
-    let cases: [Case; 6] = [
+    let cases: [Case; 9] = [
         (
             &[("a", "hub"), ("b", "a"), ("c", "b"), ("d", "c"), ("e", "d")],
             String::new(),
@@ -224,10 +233,24 @@ fn errors_of_rows_name_the_row_and_the_bound() {
         (
             &[("a", "iso"), ("b", "a")],
             platform.to_owned(),
-            ["`b` on `a` on `iso`: a panel that carries devices stands on the hub", "remove `on`"],
+            [
+                "`b` on `a` on `iso`: a panel that carries devices stands on the hub",
+                "let the platform carry the devices of the row one by one, or remove `on`",
+            ],
+        ),
+        (
+            &[("a", "rw"), ("b", "a")],
+            wheel("hub"),
+            ["`b` on `a` on `rw`: a panel that carries", "remove `on` of the panel"],
         ),
         (&[("a", "rw")], wheel("hub"), ["`rw` is no panel: devices stand on", "remove `on`"]),
-        (&[("a", "hub")], wheel("b"), ["no platform or panel is named `b`", "a `[[platform]]`"]),
+        (&[], wheel("b"), ["no platform or panel is named `b`", "a `[[platform]]`"]),
+        (
+            &[("a", "hub")],
+            wheel("b"),
+            ["no platform or panel is named `b`", "there are a; without"],
+        ),
+        (&[("wing", "hub")], wheel("wng"), ["is named `wng`", "did you mean `wing`?"]),
     ];
     for (panels, more, parts) in cases {
         let shown = of(panels, &more);
@@ -235,5 +258,19 @@ fn errors_of_rows_name_the_row_and_the_bound() {
             assert!(shown.contains(part), "`{part}` of {panels:?}:\n{shown}");
         }
         assert!(shown.contains("test.toml:"), "{panels:?}:\n{shown}");
+        let is_on_platform = more.starts_with("[[platform]]");
+        assert_eq!(shown.contains("let the platform"), is_on_platform, "{panels:?}:\n{shown}");
+        // To add a platform is a remedy where the name is unknown, and nothing else is there.
+        assert_eq!(shown.contains("add a `[[platform]]`"), panels.is_empty(), "{shown}");
+    }
+    // A circle is reported once, and what stands on one of it is not; so is one that stands on itself.
+    for (panels, fault) in [
+        (&[("c", "a"), ("a", "b"), ("b", "a")], "`a` on `b` on `a`: panels in a circle"),
+        (&[("c", "a"), ("b", "a"), ("a", "a")], "`a` stands on itself"),
+    ] {
+        let shown = of(panels, "");
+        assert!(shown.contains(fault), "{shown}");
+        let count = shown.matches("in a circle").count() + shown.matches("on itself").count();
+        assert!(count == 1 && !shown.contains("`c`"), "{shown}");
     }
 }

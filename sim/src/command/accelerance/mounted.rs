@@ -104,7 +104,7 @@ impl DeviceOptions {
         Ok(Some(MountedDevices { names, averaged, rigid }))
     }
 
-    /// Numbers of the devices, in the order of the scenario; a platform brings what stands on it.
+    /// Numbers of the devices, in the order of the scenario; a platform or panel brings what stands on it.
     fn chosen(&self, scenario: &Scenario) -> Result<Vec<usize>, CommandError> {
         let Scenario { names, .. } = scenario;
         if let Some(device) = self.device.iter().find(|device| !names.contains(device)) {
@@ -119,7 +119,7 @@ impl DeviceOptions {
         };
         let (mut chosen, members) = (Vec::new(), members(&scenario.devices));
         for (index, member) in members.iter().enumerate() {
-            // Of what stands on a platform on a platform, the one on the hub.
+            // Of what stands on several platforms or panels, the one on the hub.
             let below = |on: &usize| members.get(*on).and_then(Member::on);
             let on = std::iter::successors(member.on(), below).last().and_then(|on| names.get(on));
             let is_named = is_chosen(names.get(index));

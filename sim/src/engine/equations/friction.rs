@@ -9,9 +9,6 @@ use precess_dynamics::{JointStates, Mode};
 use crate::scenario::{JointFriction, Profile, Scenario};
 use precess_craft::{CraftInputs, CraftState};
 
-/// Steps in a cycle of the fastest profile while a joint sticks: its holding torque is searched at five times in each.
-const STEPS_PER_CYCLE: f64 = 4.0;
-
 /// What a joint with dry friction does during a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Contact {
@@ -25,8 +22,6 @@ pub(crate) enum Contact {
 #[derive(Clone, Debug)]
 pub(crate) struct Frictions<'a> {
     all: Vec<(&'a JointFriction, Contact)>,
-    /// Highest frequency of a torque or a wrench, Hz.
-    highest: f64,
 }
 
 impl<'a> Frictions<'a> {
@@ -38,18 +33,12 @@ impl<'a> Frictions<'a> {
             _ => Contact::Sticks,
         };
         let all: Vec<_> = scenario.friction.iter().map(|of| (of, contact(of))).collect();
-        let highest = if all.is_empty() { 0.0 } else { scenario.highest_profile_frequency() };
-        Self { all, highest }
+        Self { all }
     }
 
     /// Joints with dry friction, and what they do.
     pub(crate) fn dry(&self) -> impl Iterator<Item = (&'a JointFriction, Contact)> {
         self.all.iter().copied().filter(|(of, _)| of.dry.is_some())
-    }
-
-    /// Whether a joint sticks, where it is not held otherwise.
-    fn sticks(of: &JointFriction, contact: Contact) -> bool {
-        of.dry.is_some() && contact == Contact::Sticks
     }
 
     pub(crate) fn set(&mut self, joint: usize, contact: Contact) {
@@ -61,12 +50,6 @@ impl<'a> Frictions<'a> {
     /// Whether friction varies with a rate.
     pub(crate) fn vary(&self) -> bool {
         self.all.iter().any(|(of, _)| of.varies())
-    }
-
-    /// The longest step that resolves the holding torque of a joint that sticks, s: the state does not show it.
-    pub(crate) fn longest_step(&self) -> f64 {
-        let any = self.all.iter().any(|(of, contact)| Self::sticks(of, *contact));
-        if any { 1.0 / (STEPS_PER_CYCLE * self.highest) } else { f64::INFINITY }
     }
 
     /// Adds friction to the motor torques of joints that slide, and locks those that stick.
@@ -89,8 +72,8 @@ impl<'a> Frictions<'a> {
 
     /// Splits the torques of all joints into those of motors and of friction, N m or N.
     ///
-    /// `of_motor` is a joint's motor torque, none of one whose motion is prescribed or which is locked: there the motor
-    /// makes up for friction.
+    /// `of_motor` is a joint's motor torque where its profile says it, none of one whose motion is prescribed, which is locked
+    /// or whose motor delivers its largest power: there it is the total less friction.
     pub(crate) fn split(
         &self,
         totals: &[f64],
@@ -120,7 +103,7 @@ fn rate(state: &CraftState, joint: usize) -> f64 {
 
 impl Scenario {
     /// The highest frequency of a drive or a wrench, Hz; zero where none oscillates.
-    fn highest_profile_frequency(&self) -> f64 {
+    pub(super) fn highest_profile_frequency(&self) -> f64 {
         let frequencies = self.profiles().map(Profile::highest_frequency);
         frequencies.fold(0.0, f64::max)
     }

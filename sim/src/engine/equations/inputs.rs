@@ -13,8 +13,11 @@ use super::kinematics::{Chain, axes};
 use super::motors::MotorState;
 use super::packing::JointPlace;
 use crate::disturbance::Six;
-use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Target, WrenchAxes};
+use crate::scenario::{AppliedWrench, Drive, JointFriction, Profile, Scenario, Target, WrenchAxes};
 use precess_craft::{Craft, CraftInputs, CraftState};
+
+/// Steps in a cycle of the fastest profile while the state does not show it: each step is searched at five times.
+const STEPS_PER_CYCLE: f64 = 4.0;
 
 /// A locked joint.
 pub(crate) const LOCKED: &Drive = &Drive::Locked;
@@ -32,6 +35,8 @@ pub(crate) struct SegmentInputs<'a> {
     disturbances: Disturbances<'a>,
     pub(crate) friction: Frictions<'a>,
     chains: Vec<Chain>,
+    /// Highest frequency of a torque or a wrench, Hz.
+    highest: f64,
     start: f64,
     end: f64,
 }
@@ -82,6 +87,7 @@ impl<'a> SegmentInputs<'a> {
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
             friction: Frictions::new(scenario),
+            highest: scenario.highest_profile_frequency(),
             chains: Chain::all(&scenario.devices),
             start: 0.0,
             end: 0.0,
@@ -186,9 +192,17 @@ impl<'a> SegmentInputs<'a> {
         self.disturbances.wrenches(time, time > self.start, state)
     }
 
-    /// The longest step that resolves the disturbances at these rates of the joints, and holding torques, s.
+    /// The longest step that resolves the disturbances at these rates of the joints and, while a joint sticks or a motor is
+    /// at one of its limits, the profiles, s: the state does not show them then.
     pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
-        self.disturbances.longest_step(rate).min(self.friction.longest_step())
+        let sticks = |(of, contact): (&JointFriction, Contact)| {
+            contact == Contact::Sticks && self.motor(of.joint, self.start).is_some()
+        };
+        let limited = self.motors.iter().any(|motor| *motor != MotorState::Commanded);
+        let hidden = limited || self.friction.dry().any(sticks);
+        let of_profiles =
+            if hidden { 1.0 / (STEPS_PER_CYCLE * self.highest) } else { f64::INFINITY };
+        self.disturbances.longest_step(rate).min(of_profiles)
     }
 
     /// The torque or force of a joint's motor at a time, of a joint at rest, N m or N; none where its motion is
@@ -202,6 +216,28 @@ impl<'a> SegmentInputs<'a> {
             Some(MotorState::Beyond(sign)) => Some(-sign * drive.limits().torque?.abs()),
             _ => Some(self.commanded(joint, time)),
         }
+    }
+
+    /// The same, none also of a motor whose torque depends on the rate.
+    pub(crate) fn motor_of_profile(&self, joint: usize, time: f64) -> Option<f64> {
+        let depends = self.motors.get(joint) == Some(&MotorState::LargestPower);
+        self.motor(joint, time).filter(|_| !depends)
+    }
+
+    /// Gives motors the state that they have at the rates of a state by themselves; returns the first of which the rate is
+    /// the largest or beyond it.
+    pub(crate) fn limited_at(&mut self, time: f64, state: &CraftState) -> Option<usize> {
+        let rates: Vec<_> = state.devices.states().map(|[_, rate]| rate).collect();
+        for (joint, rate) in rates.into_iter().enumerate() {
+            let limits = self.drive(joint).limits();
+            if limits.rate.is_some_and(|limit| rate.abs() >= limit) {
+                return Some(joint);
+            }
+            if limits.power.is_some_and(|power| self.commanded(joint, time) * rate > power) {
+                self.set_motor(joint, MotorState::LargestPower);
+            }
+        }
+        None
     }
 
     /// Whether the motor torque of every moving joint is an input.

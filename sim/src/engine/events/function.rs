@@ -8,7 +8,7 @@ use super::{EventKind, StepEvent};
 use crate::engine::equations::packing::Layout;
 use crate::engine::equations::system::System;
 use crate::engine::integration::{Moment, Stepper};
-use crate::engine::quantities::joint_torques::joint_torques;
+use crate::engine::quantities::joint_torques::TorquesOnce;
 use crate::record::RunError;
 use crate::record::columns::Quantity;
 
@@ -50,16 +50,16 @@ impl Function {
         stepper: &Stepper,
         time: f64,
         moment: &Moment,
+        torques: &mut TorquesOnce,
     ) -> Result<f64, RunError> {
         match self.of {
             FunctionOf::State { quantity, value, sign } => {
                 Ok(sign * (state_value(stepper, moment, quantity) - value))
             }
-            FunctionOf::Motor(change) => change.distance(system, time, &moment.state),
+            FunctionOf::Motor(change) => change.distance(system, time, &moment.state, torques),
             FunctionOf::Slack { joint, static_friction } => {
-                let torques = joint_torques(system, time, &moment.state);
-                let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
-                Ok(static_friction - torques.get(joint).map_or(0.0, |[_, held]| held.abs()))
+                let [_, held] = torques.of(system, time, &moment.state, joint)?;
+                Ok(static_friction - held.abs())
             }
         }
     }
@@ -74,8 +74,12 @@ impl Function {
         }
     }
 
-    fn is_of_friction(&self) -> bool {
-        matches!(self.what, EventKind::Rest { .. } | EventKind::Release { .. })
+    /// Whether it may be zero at the start of a segment, but for rounding, and is searched for extrema by its values.
+    fn starts_at_zero(&self) -> bool {
+        matches!(
+            self.what,
+            EventKind::Rest { .. } | EventKind::Release { .. } | EventKind::Motor(_)
+        )
     }
 
     /// Whether a passage lies between two values: out of a stop, or through a value either way.
@@ -87,12 +91,13 @@ impl Function {
     }
 }
 
-/// Both ends of an interval, with value and rate of a function there.
+/// Both ends of an interval, with value and rate of a function there, and its values close to both within it.
 #[derive(Clone, Copy)]
 struct Interval {
     span: [f64; 2],
     values: [f64; 2],
     rates: [f64; 2],
+    inner: Option<[f64; 2]>,
 }
 
 /// Searches the last step.
@@ -114,14 +119,20 @@ pub(super) fn search(
             start + (end - start) * f64::from(interval) / f64::from(intervals)
         };
         let to = evaluated(system, stepper, functions, later, moment)?;
-        for (function, (from, to)) in functions.iter().zip(from.iter().zip(&to)) {
+        let inner = values_within(system, stepper, functions, [earlier, later], moment)?;
+        for (index, (function, (from, to))) in
+            functions.iter().zip(from.iter().zip(&to)).enumerate()
+        {
+            let inner =
+                inner.as_ref().and_then(|[a, b]| Some([a.get(index)?[0], b.get(index)?[0]]));
             let within = Interval {
                 span: [earlier, later],
                 values: [from[0], to[0]],
                 rates: [from[1], to[1]],
+                inner,
             };
-            let passage = if function.is_of_friction() {
-                of_friction(system, stepper, function, within, moment)?
+            let passage = if function.starts_at_zero() {
+                of_start(system, stepper, function, within, moment)?
             } else {
                 of_state(system, stepper, function, within, moment)?
             };
@@ -153,10 +164,34 @@ fn evaluated(
     moment: &mut Moment,
 ) -> Result<Vec<[f64; 2]>, RunError> {
     stepper.at(system, time, moment)?;
+    let mut torques = TorquesOnce::default();
     let of = |function: &Function| {
-        Ok([function.at(system, stepper, time, moment)?, function.rate(stepper, moment)])
+        let value = function.at(system, stepper, time, moment, &mut torques)?;
+        Ok([value, function.rate(stepper, moment)])
     };
     functions.iter().map(of).collect()
+}
+
+/// Values and rates of all functions close to both ends of an interval, where one is searched for extrema by its values
+/// and a state within a step costs next to nothing, or a joint sticks or slides.
+fn values_within(
+    system: &System<'_>,
+    stepper: &mut Stepper,
+    functions: &[Function],
+    [earlier, later]: [f64; 2],
+    moment: &mut Moment,
+) -> Result<Option<[Vec<[f64; 2]>; 2]>, RunError> {
+    let is_dense = stepper.is_dense();
+    let searched = |function: &Function| {
+        function.starts_at_zero() && (is_dense || !matches!(function.what, EventKind::Motor(_)))
+    };
+    if !functions.iter().any(searched) {
+        return Ok(None);
+    }
+    let apart = (later - earlier) * SHARE;
+    let first = evaluated(system, stepper, functions, earlier + apart, moment)?;
+    let last = evaluated(system, stepper, functions, later - apart, moment)?;
+    Ok(Some([first, last]))
 }
 
 /// The bracket of the passage of a stop or a crossing in an interval.
@@ -164,7 +199,7 @@ fn of_state(
     system: &System<'_>,
     stepper: &mut Stepper,
     function: &Function,
-    Interval { mut span, mut values, rates }: Interval,
+    Interval { mut span, mut values, rates, .. }: Interval,
     moment: &mut Moment,
 ) -> Result<Option<[f64; 2]>, RunError> {
     let [earlier, later] = span;
@@ -179,7 +214,7 @@ fn of_state(
         })?;
         stepper.at(system, extremum, moment)?;
         span[1] = extremum;
-        values[1] = function.at(system, stepper, extremum, moment)?;
+        values[1] = function.at(system, stepper, extremum, moment, &mut TorquesOnce::default())?;
         if !function.passes(values) {
             return Ok(None);
         }
@@ -187,24 +222,26 @@ fn of_state(
     bracketed(system, stepper, function, (span, values), moment).map(Some)
 }
 
-/// The bracket of the time in an interval at which a joint comes to rest, or static friction no longer holds it. Either
-/// function may be zero at the start of a segment: of a joint that was released there, or that is held with nothing left.
-fn of_friction(
+/// The bracket of the time in an interval at which a joint comes to rest, static friction no longer holds it, or a motor
+/// changes. Each of these functions may be zero at the start of a segment, but for rounding: of a joint that was released
+/// there, or that is held with nothing left.
+fn of_start(
     system: &System<'_>,
     stepper: &mut Stepper,
     function: &Function,
-    Interval { mut span, mut values, .. }: Interval,
+    Interval { mut span, mut values, inner, .. }: Interval,
     moment: &mut Moment,
 ) -> Result<Option<[f64; 2]>, RunError> {
     let [earlier, later] = span;
     let [from, to] = values;
     let mut at = |time: f64| {
         stepper.at(system, time, moment)?;
-        function.at(system, stepper, time, moment)
+        function.at(system, stepper, time, moment, &mut TorquesOnce::default())
     };
     if to >= 0.0 {
         let apart = (later - earlier) * SHARE;
-        if from <= 0.0 || at(earlier + apart)? >= from || at(later - apart)? >= to {
+        let falls = |[first, last]: [f64; 2]| first < from && last < to;
+        if from <= 0.0 || !inner.is_some_and(falls) {
             return Ok(None);
         }
         let [_, extremum] = bracket(span, [-1.0, 1.0], apart, |time| {
@@ -243,7 +280,7 @@ fn bracketed(
 ) -> Result<[f64; 2], RunError> {
     bracket(span, values, width(span[1]), |time| {
         stepper.restep(system, time, moment)?;
-        function.at(system, stepper, time, moment)
+        function.at(system, stepper, time, moment, &mut TorquesOnce::default())
     })
 }
 

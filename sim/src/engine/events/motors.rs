@@ -8,7 +8,7 @@
 use crate::engine::equations::motors::{MotorState, POWER};
 use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
-use crate::engine::quantities::joint_torques::joint_torques;
+use crate::engine::quantities::joint_torques::TorquesOnce;
 use crate::record::RunError;
 use crate::scenario::Drive;
 use precess_craft::CraftState;
@@ -65,8 +65,10 @@ impl MotorChange {
         system: &System<'_>,
         time: f64,
         state: &CraftState,
+        torques: &mut TorquesOnce,
     ) -> Result<f64, RunError> {
         let joint = self.joint;
+        let mut holding = || torques.of(system, time, state, joint).map(|[motor, _]| motor);
         let limits = system.acting.drive(joint).limits();
         let present = system.acting.motors().get(joint).copied().unwrap_or_default();
         let rate = state.devices.states().nth(joint).map_or(f64::NAN, |[_, rate]| rate);
@@ -80,11 +82,11 @@ impl MotorChange {
             (_, MotorState::LargestRate(sign)) => rate_max - sign * rate,
             (MotorState::LargestRate(sign), MotorState::Beyond(_)) => {
                 let limit = limits.torque.map_or(f64::INFINITY, f64::abs);
-                sign * holding(system, joint, time, state)? + limit * (1.0 + TORQUE)
+                sign * holding()? + limit * (1.0 + TORQUE)
             }
             (MotorState::LargestRate(sign), MotorState::Commanded) => {
                 let largest = system.acting.largest_torque(joint);
-                let holding = holding(system, joint, time, state)?;
+                let holding = holding()?;
                 let available = (sign * commanded()).min(power / rate.abs());
                 available - sign * holding + TORQUE * largest
             }
@@ -107,13 +109,18 @@ pub(crate) fn due(
     let limits = system.acting.drive(joint).limits();
     let present = system.acting.motors().get(joint).copied().unwrap_or_default();
     let state = &moment.state;
-    let is_due = |to| {
+    let mut torques = TorquesOnce::default();
+    let mut is_due = |to| {
         let change = MotorChange { joint, to };
-        Ok::<_, RunError>((change.distance(system, time, state)? < 0.0).then_some(change))
+        let distance = change.distance(system, time, state, &mut torques)?;
+        Ok::<_, RunError>((distance < 0.0).then_some(change))
     };
+    // An impulse may have taken the joint below its largest rate.
+    let rate = state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate);
+    let is_below = |sign: f64| limits.rate.is_some_and(|limit| sign * rate < limit * (1.0 - RATE));
+    let commanded = Some(MotorChange { joint, to: MotorState::Commanded });
     match present {
         MotorState::Commanded | MotorState::LargestPower => {
-            let rate = state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate);
             if limits.rate.is_some_and(|limit| rate.abs() > limit * (1.0 + RATE)) {
                 if limits.torque.is_none() {
                     return Err(beyond(system, time, joint, rate));
@@ -129,6 +136,7 @@ pub(crate) fn due(
             };
             Ok(Some(MotorChange { joint, to }))
         }
+        MotorState::LargestRate(sign) | MotorState::Beyond(sign) if is_below(sign) => Ok(commanded),
         MotorState::LargestRate(sign) => match is_due(MotorState::Commanded)? {
             None if limits.torque.is_some() => is_due(MotorState::Beyond(sign)),
             found => Ok(found),
@@ -155,16 +163,4 @@ pub(crate) fn limited(system: &System<'_>) -> Vec<usize> {
         _ => false,
     };
     joints.filter(is_limited).collect()
-}
-
-/// The motor torque (force) that keeps a joint at its rate, N m or N.
-fn holding(
-    system: &System<'_>,
-    joint: usize,
-    time: f64,
-    state: &CraftState,
-) -> Result<f64, RunError> {
-    let torques = joint_torques(system, time, state);
-    let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
-    Ok(torques.get(joint).map_or(f64::NAN, |[motor, _]| *motor))
 }

@@ -5,8 +5,8 @@
 //! F = sum of F_k,   M = sum of (M_k + r_k x F_k)
 //! ```
 //!
-//! over the devices and platforms k on a platform, with `F_k` and `M_k` the load at the mount of each about its
-//! `position`, `r_k` from P; expressed in the platform's axes, about P.
+//! over the devices and platforms k on a platform or panel, with `F_k` and `M_k` the load at the mount of each about its
+//! `position`, `r_k` from P; expressed in the axes of the platform or panel, about P.
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;

@@ -310,7 +310,10 @@ fn torques(
         needed.and_then(|loads| loads.motors.get(joint).copied()).unwrap_or(motor)
     };
     let totals: Vec<_> = joints.map(total).collect();
-    system.acting.friction.split(&totals, state, |joint| system.acting.motor(joint, time))
+    system
+        .acting
+        .friction
+        .split(&totals, state, |joint| system.acting.motor_of_profile(joint, time))
 }
 
 /// The attitude of a point's axes with respect to N: that of B, then the rotation vector in B.

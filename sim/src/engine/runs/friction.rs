@@ -11,7 +11,7 @@ use crate::engine::equations::friction::Contact;
 use crate::engine::quantities::joint_torques::joint_torques;
 use crate::record::RunError;
 
-/// Changes of friction at one time beyond those of each joint: more, and the run does not go on.
+/// Changes at one time beyond those of each joint: more, and the run does not go on.
 const CHANGES_AT_ONCE_MAX: usize = 100;
 
 /// What an event says of the friction of a joint.
@@ -24,20 +24,24 @@ pub(super) enum Changed {
 }
 
 impl Run<'_> {
-    /// Counts changes at one time.
+    /// Counts changes of friction and of motors at one time.
     pub(super) fn count_changes(&mut self, reached: f64) -> Result<(), RunError> {
-        let Some(Changed::AtRest(joint) | Changed::Released(joint)) = self.changed else {
+        let of_friction =
+            self.changed.map(|(Changed::AtRest(joint) | Changed::Released(joint))| joint);
+        let of_motor = self.motor_change.map(|change| change.joint);
+        let Some(joint) = of_friction.or(of_motor) else {
             self.changes_at_once = 0;
             return Ok(());
         };
         let again = reached <= self.time;
         self.changes_at_once = if again { self.changes_at_once + 1 } else { 0 };
-        let most = CHANGES_AT_ONCE_MAX + self.scenario.friction.len();
+        let most = CHANGES_AT_ONCE_MAX + self.scenario.joint_count();
         if self.changes_at_once <= most {
             return Ok(());
         }
         let joint = self.system.layout.joints.get(joint).map_or("", |place| &place.name).to_owned();
-        Err(RunError::FrictionUndecided { time: reached, joint, changes: self.changes_at_once })
+        let motor = of_friction.is_none();
+        Err(RunError::Undecided { time: reached, joint, motor, changes: self.changes_at_once })
     }
 
     /// Gives joints that have just come to rest a rate of exactly zero, by an impulse that keeps the momenta; returns the

@@ -55,6 +55,9 @@ impl Run<'_> {
             (_, MotorState::Beyond(_)) => format!(
                 "{name} exceeds its largest rate, {rate} {unit}: the motor brakes with its largest torque"
             ),
+            (MotorState::Beyond(_), MotorState::Commanded) => {
+                format!("{name} is below its largest rate, {rate} {unit}, again")
+            }
             (_, MotorState::Commanded) => return,
         };
         self.note(self.time, text);

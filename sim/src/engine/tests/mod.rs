@@ -3,6 +3,7 @@
 mod changes;
 mod conservation;
 mod friction;
+mod motor_excursions;
 mod motors;
 mod points;
 mod stops;

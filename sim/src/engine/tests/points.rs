@@ -144,6 +144,35 @@ name = "cmg""#;
     assert_derivatives(&scenario);
 }
 
+/// The gyro on the second of two panels in a row, with a point on that.
+#[test]
+fn points_of_panels_in_a_row_move_as_their_derivatives() {
+    let panels = r#"
+[[device]]
+name = "inner"
+kind = "hinged_panel"
+position = "3, -2, 8 cm"
+mount = { axis = [-2, 1, 1], angle = "65 deg" }
+panel = { mass = "2 kg", inertia = "0.05, 0.06, 0.07 kg m^2", angle = "30 deg", rate = "0.4 rad/s" }
+[[device]]
+name = "outer"
+copy_of = "inner"
+on = "inner"
+panel = { rate = "-0.7 rad/s" }
+[[point]]
+name = "of_outer"
+on = "outer.panel"
+position = "1, -2, 3 cm"
+[[device]]
+name = "cmg""#;
+    let text = MOVING
+        .replace("on = \"iso\"", "on = \"outer\"")
+        .replace("\n[[device]]\nname = \"cmg\"", panels);
+    let scenario = read(&text);
+    assert_eq!(scenario.names, ["tank", "iso", "inner", "outer", "cmg"]);
+    assert_derivatives(&scenario);
+}
+
 /// Differences of fourth order, of steps in which the wheel turns by a hundredth: about 1e-9.
 fn assert_derivatives(scenario: &Scenario) {
     let craft = Craft::from(scenario.spacecraft().expect("a spacecraft"));

@@ -5,8 +5,12 @@ use crate::file::load::Override;
 
 use super::Read;
 
+/// The file is read again without each of up to so many overrides.
+const OVERRIDES_MAX: usize = 20;
+
 /// Adds to the help of errors at a place of a file, or at none, which overrides they come from: those without any one of which
-/// there is no error, else all of them, where there is no error without them. `read` reads the file with some overrides.
+/// there is no error, else all of them, where there is no error without them; of many overrides only that it is they. `read`
+/// reads the file with some overrides.
 pub(super) fn name_overrides(
     mut errors: Diagnostics,
     (overrides, numbers): (&[Override], Numbers),
@@ -27,16 +31,7 @@ pub(super) fn name_overrides(
         others.remove(at);
         read((&others, numbers)).is_ok()
     };
-    let mut causes: Vec<&str> = Vec::new();
-    if overrides.len() > 1 {
-        let of_one = overrides.iter().enumerate().filter(|(at, _)| without(*at));
-        causes.extend(of_one.map(|(_, text)| text.as_str()));
-    }
-    if causes.is_empty() {
-        causes.extend(overrides.iter().map(String::as_str));
-    }
-    let causes: Vec<String> = causes.iter().map(|text| format!("`--set {text}`")).collect();
-    let sentence = format!("without {} the file has no error", causes.join(", "));
+    let sentence = sentence(overrides, without);
     for place in places {
         let Some(error) = errors.all.get_mut(place) else { continue };
         let between = if error.help.is_empty() { "" } else { "; " };
@@ -45,10 +40,30 @@ pub(super) fn name_overrides(
     errors
 }
 
+/// Without which overrides there is no error, where there is none without all of them; `without` is whether there is none
+/// without that of a number.
+fn sentence(overrides: &[Override], without: impl Fn(usize) -> bool) -> String {
+    if overrides.len() > OVERRIDES_MAX {
+        return "without the overrides the file has no error".to_owned();
+    }
+    let shown = |text: &Override| format!("`--set {text}`");
+    let mut causes: Vec<String> = Vec::new();
+    if overrides.len() > 1 {
+        let of_one = overrides.iter().enumerate().filter(|(at, _)| without(*at));
+        causes.extend(of_one.map(|(_, text)| shown(text)));
+    }
+    let which = if causes.len() > 1 { "any one of " } else { "" };
+    if causes.is_empty() {
+        causes.extend(overrides.iter().map(shown));
+    }
+    format!("without {which}{} the file has no error", causes.join(", "))
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
+    use super::{OVERRIDES_MAX, sentence};
     use crate::file::diagnostic::Numbers;
     use crate::file::{Tables, from_program};
 
@@ -62,6 +77,20 @@ mod tests {
         let tables = Tables::Text { name: "test.toml", text: file, numbers, folder };
         let read = from_program(tables, &overrides).map(|_| ());
         read.expect_err("an error").to_string()
+    }
+
+    #[test]
+    fn overrides_of_which_each_causes_an_error_differ_from_those_that_do_together() {
+        let both = ["a = 1".to_owned(), "b = 2".to_owned()];
+        for (of_one, expected) in [
+            ([true, true], "without any one of `--set a = 1`, `--set b = 2` the file has no error"),
+            ([false, true], "without `--set b = 2` the file has no error"),
+            ([false, false], "without `--set a = 1`, `--set b = 2` the file has no error"),
+        ] {
+            assert_eq!(sentence(&both, |at| of_one[at]), expected);
+        }
+        let many = vec!["a = 1".to_owned(); OVERRIDES_MAX + 1];
+        assert_eq!(sentence(&many, |_| true), "without the overrides the file has no error");
     }
 
     #[test]

@@ -142,8 +142,8 @@ impl JitterReport<'_> {
         let found = self.scenario.members().position(|(known, _)| known == name);
         let member = found.and_then(|index| Some((index, self.scenario.members().nth(index)?.1)));
         let Some((index, member)) = member else { return String::new() };
-        if let Some(platform) = member.on().and_then(|on| self.scenario.names.get(on)) {
-            return platform.clone();
+        if let Some(carrier) = member.on().and_then(|on| self.scenario.names.get(on)) {
+            return carrier.clone();
         }
         if let Some(structure) = &self.scenario.structure {
             let node = structure.on_node.get(index).and_then(|node| structure.nodes.get(*node));

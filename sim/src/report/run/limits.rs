@@ -5,6 +5,7 @@
 
 use super::chart::{Chart, ScaledChart};
 use crate::record::Header;
+use crate::report::number::short;
 use crate::scenario::{Projection, Requirement, Statistic};
 
 /// A limit further away than this many times the largest value leaves no room for the curves.
@@ -15,7 +16,7 @@ const SHOWN: f64 = 3.0;
 pub(in crate::report) struct DrawnLimit {
     /// In the legend: `limit of smear`.
     pub(in crate::report) label: String,
-    /// With its unit, as it was written.
+    /// With its unit, as it was written; in the unit of the chart, where it was written without one.
     pub(in crate::report) written: String,
     /// Where the lines are.
     pub(in crate::report) values: Vec<f64>,
@@ -49,9 +50,15 @@ pub(in crate::report) fn limits(
             let below = values().any(|value| *value < middle);
             let above = values().any(|value| *value > middle) || !below;
             let sides = [(above, high), (below, low)];
+            let written = if of.written.parse::<f64>().is_ok() {
+                let value = short(of.limit * drawn.unit.per_si, 4);
+                format!("{value} {}", drawn.unit.name).trim_end().to_owned()
+            } else {
+                of.written.clone()
+            };
             DrawnLimit {
                 label: format!("limit of {}", of.name),
-                written: of.written.clone(),
+                written,
                 values: sides.into_iter().filter(|(is, _)| *is).map(|(_, value)| value).collect(),
                 window: [of.window[0].max(drawn.start()), of.window[1].min(drawn.end)],
             }

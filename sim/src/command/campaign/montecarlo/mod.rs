@@ -279,9 +279,10 @@ impl RankCorrelation {
         Some(Self { value, pairs, by_chance: by_chance(value, pairs) })
     }
 
-    /// Whether it differs from zero, one of so many that are looked at together (Bonferroni).
-    fn is_significant(&self, of: usize) -> bool {
-        self.by_chance.is_some_and(|chance| chance * float(of) < 1.0 - LEVEL)
+    /// Whether it is significant at 0.05, one of so many that are looked at together (Bonferroni); none of too few
+    /// samples to judge.
+    fn is_significant(&self, of: usize) -> Option<bool> {
+        self.by_chance.map(|chance| chance * float(of) < 1.0 - LEVEL)
     }
 }
 
@@ -303,7 +304,7 @@ fn correlations(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Correl
     shown(prepared).map(of).collect()
 }
 
-/// The largest rank correlation of a number, or that none differs from zero: for the terminal.
+/// The largest rank correlation of a number, and whether none is significant: for the terminal.
 fn largest_correlation(name: &str, by: &[(String, Option<RankCorrelation>)]) -> String {
     let known = by.iter().filter_map(|(key, found)| Some((key, (*found)?)));
     let largest = known.max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs()));
@@ -319,15 +320,11 @@ fn largest_correlation(name: &str, by: &[(String, Option<RankCorrelation>)]) -> 
             }
         },
     );
-    if found.is_significant(by.len()) {
-        format!(
-            "{name}: largest rank correlation {value:.3}, with {key} ({pairs} samples, {chance})\n"
-        )
-    } else {
-        format!(
-            "{name}: no rank correlation that differs from zero; largest {value:.3}, with {key} ({pairs} samples, {chance})\n"
-        )
-    }
+    let which = match found.is_significant(by.len()) {
+        Some(false) => "no rank correlation is significant at 0.05 (Bonferroni); largest",
+        Some(true) | None => "largest rank correlation",
+    };
+    format!("{name}: {which} {value:.3}, with {key} ({pairs} samples, {chance})\n")
 }
 
 /// For the terminal; and what became of the requirements.

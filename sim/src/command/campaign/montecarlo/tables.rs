@@ -78,15 +78,15 @@ pub(super) fn correlation_table(of: &Correlations) -> CampaignTable {
     let row = |(name, by): &(String, Vec<(String, Option<RankCorrelation>)>)| {
         let cell = |(_, found): &(String, Option<RankCorrelation>)| match found {
             None => "–".to_owned(),
-            Some(of) if of.is_significant(by.len()) => format!("{:.3}", of.value),
-            Some(of) => format!("({:.3})", of.value),
+            Some(of) if of.is_significant(by.len()) == Some(false) => format!("({:.3})", of.value),
+            Some(of) => format!("{:.3}", of.value),
         };
         ("", std::iter::once(name.clone()).chain(by.iter().map(cell)).collect())
     };
     let heads = keys.iter().map(|(key, _)| key.clone());
     CampaignTable {
-        caption: "Rank correlations (Spearman) of each number with each key; in parentheses those that do not differ from \
-                  zero (p times the number of keys is 0.05 or more)",
+        caption: "Rank correlations (Spearman) of each number with each key; in parentheses those that are not significant at \
+                  0.05 (Bonferroni: p times the number of keys is 0.05 or more); fewer than ten samples are not judged",
         heads: std::iter::once("Number".to_owned()).chain(heads).collect(),
         rows: of.iter().map(row).collect(),
         numbers: 1..keys.len() + 1,

@@ -29,7 +29,8 @@ pub(super) fn arranged(
     let mut known: Vec<_> = devices.iter().map(|device| device.name.clone()).collect();
     known.sort_unstable();
     let is_device = |name: &str| known.binary_search_by(|of| of.as_str().cmp(name)).is_ok();
-    let devices = Rows::new(devices.iter()).without_faults(keys, devices);
+    let is_platform = |name: &str| named.iter().any(|of| of.name == name);
+    let devices = Rows::new(devices.iter()).without_faults(keys, devices, &is_platform);
     report_devices(keys, &devices, &named);
     let wrong: Vec<&str> =
         named.iter().filter(|of| of.reported(&named, &is_device)).map(|of| of.name).collect();
@@ -61,7 +62,7 @@ pub(super) fn arranged(
     arranged
 }
 
-/// Reports devices on what is no platform.
+/// Reports devices on what is no platform or panel.
 fn report_devices(keys: &Keys<'_>, devices: &[Device], named: &[Standing<'_>]) {
     let mut reported = Vec::new();
     let panels: BTreeMap<&str, bool> =
@@ -76,23 +77,37 @@ fn report_devices(keys: &Keys<'_>, devices: &[Device], named: &[Standing<'_>]) {
         if known || reported.contains(&device.place) {
             continue;
         }
-        let what = if device.name == *on {
-            format!("`{on}` stands on itself")
+        let platforms = named.iter().map(|of| of.name);
+        let of_devices = devices.iter().filter(|of| of.is_panel() && of.name != device.name);
+        let bases: Vec<&str> =
+            platforms.chain(of_devices.map(|panel| panel.name.as_str())).collect();
+        let (what, help) = if device.name == *on {
+            (format!("`{on}` stands on itself"), without_on(&bases))
         } else if base.is_some() {
-            format!(
+            let what = format!(
                 "`{on}` is no panel: devices stand on the hub, on platforms and on hinged panels"
-            )
+            );
+            (what, without_on(&bases))
         } else {
-            format!("no platform or panel is named `{on}`")
-        };
-        let help = match named {
-            [] => "add a `[[platform]]` of this name, or remove `on`".to_owned(),
-            _ => there_are(named.iter().map(|of| of.name)),
+            let otherwise = match bases.as_slice() {
+                [] => "add a `[[platform]]` of this name, or remove `on`".to_owned(),
+                _ => there_are(bases.iter().copied()),
+            };
+            let help = did_you_mean(on, bases.iter(), &otherwise);
+            (format!("no platform or panel is named `{on}`"), help)
         };
         if let Some(place) = &device.place {
             keys.reports().borrow_mut().error(place, what, "", &help);
         }
         reported.push(device.place.clone());
+    }
+}
+
+/// To remove `on`, and the platforms and panels on which the device may stand instead.
+fn without_on(bases: &[&str]) -> String {
+    match bases {
+        [] => "remove `on`: it stands on the hub".to_owned(),
+        _ => format!("remove `on`: it stands on the hub; there are {}", bases.join(", ")),
     }
 }
 

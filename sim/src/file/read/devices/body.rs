@@ -24,7 +24,7 @@ pub(in crate::file::read) struct Body {
 #[derive(Clone)]
 pub(in crate::file::read) struct Joint {
     pub(in crate::file::read) passive: Passive,
-    /// Friction that only runs have; its joint is not known yet.
+    /// Friction that sticks, and quadratic drag; its joint is not known yet.
     pub(in crate::file::read) friction: Option<JointFriction>,
     /// Initial coordinate and rate.
     pub(in crate::file::read) state: [f64; 2],

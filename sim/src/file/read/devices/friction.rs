@@ -4,7 +4,7 @@ use super::joint_measures::JointMeasures;
 use crate::file::keys::Keys;
 use crate::scenario::{DryFriction, JointFriction};
 
-/// The friction that only runs have; none where no key states any. Its joint is 0 until the joints are counted.
+/// Friction that sticks, and quadratic drag; none where no key states any. Its joint is 0 until the joints are counted.
 pub(super) fn friction(keys: &Keys<'_>, measures: &JointMeasures) -> Option<JointFriction> {
     let drag = keys.quantity("quadratic_drag", measures.drag).unwrap_or(0.0);
     let dry = dry(keys, measures);

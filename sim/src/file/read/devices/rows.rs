@@ -47,34 +47,54 @@ impl Rows {
     }
 
     /// The devices, those of which the row cannot be on the hub, which is reported.
-    pub(super) fn without_faults(&self, keys: &Keys<'_>, devices: Vec<Device>) -> Vec<Device> {
+    pub(super) fn without_faults(
+        &self,
+        keys: &Keys<'_>,
+        devices: Vec<Device>,
+        is_platform: &dyn Fn(&str) -> bool,
+    ) -> Vec<Device> {
         let mut reported = Vec::new();
+        // The panels of circles that are reported.
+        let mut circles: Vec<String> = Vec::new();
+        let on_hub = |device: Device| Device { on: HUB.to_owned(), ..device };
         let checked = devices.into_iter().map(|device| {
-            if !self.carries(&device.on) {
+            // One that stands on itself is reported by itself.
+            if !self.carries(&device.on) || device.on == device.name {
                 return device;
             }
             let chain = self.below(&device.name, &device.on);
             let shown = chain.join("` on `");
             let (what, help) = match chain.last() {
                 Some(&HUB) if chain.len() <= CARRYING_MAX.saturating_add(2) => return device,
-                Some(last) if self.carries(last) && chain.iter().filter(|of| of == &last).count() > 1 => (
-                    format!("`{shown}`: panels in a circle"),
-                    "remove `on` of the one that stands on the hub",
-                ),
+                Some(last) if self.carries(last) && chain.iter().filter(|of| of == &last).count() > 1 => {
+                    // Once for all of them, and not for what stands on one of them.
+                    if *last != device.name || circles.contains(&device.name) {
+                        return on_hub(device);
+                    }
+                    circles.extend(chain.iter().map(|of| (*of).to_owned()));
+                    (
+                        format!("`{shown}`: panels in a circle"),
+                        "remove `on` of the one that stands on the hub",
+                    )
+                }
                 Some(last) if *last == HUB || chain.len() >= SHOWN_MAX => (
                     format!("`{shown}`: at most four panels stand on one another"),
                     "remove `on` of one of them: it stands on the hub",
                 ),
-                _ => (
+                last => (
                     format!("`{shown}`: a panel that carries devices stands on the hub or on a panel"),
-                    "let the platform carry the devices of the row one by one, or remove `on` of the panel",
+                    if last.is_some_and(|last| is_platform(last)) {
+                        "let the platform carry the devices of the row one by one, or remove `on` of the panel"
+                    } else {
+                        "remove `on` of the panel"
+                    },
                 ),
             };
             if let Some(place) = device.place.as_ref().filter(|place| !reported.contains(*place)) {
                 keys.reports().borrow_mut().error(place, what, "", help);
                 reported.push(place.clone());
             }
-            Device { on: HUB.to_owned(), ..device }
+            on_hub(device)
         });
         checked.collect()
     }
