@@ -168,7 +168,8 @@ impl Scenario {
     pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for (index, member) in members(&self.devices).into_iter().enumerate() {
-            match member.on().and_then(|on| groups.iter_mut().find(|group| group.contains(&on))) {
+            // What stands on a member follows it.
+            match groups.last_mut().filter(|_| member.on().is_some()) {
                 Some(group) => group.push(index),
                 None => groups.push(vec![index]),
             }
