@@ -6,7 +6,7 @@
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode};
 
-use crate::scenario::{JointFriction, Profile, Scenario};
+use crate::scenario::{JointFriction, Scenario};
 use precess_craft::{CraftInputs, CraftState};
 
 /// What a joint with dry friction does during a segment.
@@ -99,12 +99,4 @@ impl<'a> Frictions<'a> {
 
 fn rate(state: &CraftState, joint: usize) -> f64 {
     state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate)
-}
-
-impl Scenario {
-    /// The highest frequency of a drive or a wrench, Hz; zero where none oscillates.
-    pub(super) fn highest_profile_frequency(&self) -> f64 {
-        let frequencies = self.profiles().map(Profile::highest_frequency);
-        frequencies.fold(0.0, f64::max)
-    }
 }

@@ -87,7 +87,7 @@ impl<'a> SegmentInputs<'a> {
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
             friction: Frictions::new(scenario),
-            highest: scenario.highest_profile_frequency(),
+            highest: scenario.profiles().map(Profile::highest_frequency).fold(0.0, f64::max),
             chains: Chain::all(&scenario.devices),
             start: 0.0,
             end: 0.0,

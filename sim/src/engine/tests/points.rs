@@ -136,12 +136,15 @@ on = "upper.platform"
 position = "1, -2, 3 cm"
 [[device]]
 name = "cmg""#;
-    let text = MOVING
-        .replace("on = \"iso\"", "on = \"upper\"")
-        .replace("\n[[device]]\nname = \"cmg\"", upper);
-    let scenario = read(&text);
+    let scenario = with_gyro_on("upper", upper);
     assert_eq!(scenario.names, ["tank", "iso", "upper", "cmg"]);
     assert_derivatives(&scenario);
+}
+
+/// The scenario with the gyro on what some tables, which end before the gyro's name, add.
+fn with_gyro_on(base: &str, tables: &str) -> Scenario {
+    let on_base = MOVING.replace("on = \"iso\"", &format!("on = \"{base}\""));
+    read(&on_base.replace("\n[[device]]\nname = \"cmg\"", tables))
 }
 
 /// The gyro on the second of two panels in a row, with a point on that.
@@ -165,10 +168,7 @@ on = "outer.panel"
 position = "1, -2, 3 cm"
 [[device]]
 name = "cmg""#;
-    let text = MOVING
-        .replace("on = \"iso\"", "on = \"outer\"")
-        .replace("\n[[device]]\nname = \"cmg\"", panels);
-    let scenario = read(&text);
+    let scenario = with_gyro_on("outer", panels);
     assert_eq!(scenario.names, ["tank", "iso", "inner", "outer", "cmg"]);
     assert_derivatives(&scenario);
 }
