@@ -109,11 +109,15 @@ pub(crate) fn loads(rows: &LoadsOf<Rows>, to: &mut LoadsByEntry<'_, 7>) {
     for first in rows.iter().flatten() {
         to.put(&first.carrier);
         let (tip, second) = &first.carried;
-        tip.iter().for_each(|of| to.put(of));
+        if let Some(of) = tip {
+            to.put(of);
+        }
         if let Some(second) = second {
             to.put(&second.carrier);
             let (tip, third) = &second.carried;
-            tip.iter().for_each(|of| to.put(of));
+            if let Some(of) = tip {
+                to.put(of);
+            }
             if let Some(third) = third {
                 to.put(&third.carrier);
                 to.put(&third.carried);
