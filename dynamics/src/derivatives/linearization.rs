@@ -97,58 +97,96 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     ) -> Result<Linearization<D, S>, DerivativeError<D::Scalar>> {
         let joints = inputs.modes.values().count();
         let variables = joints.saturating_add(S::modes(self)).saturating_mul(2).saturating_add(12);
-        let (mut states, mut by_inputs) =
-            (Vec::with_capacity(variables), Vec::with_capacity(variables));
-        states.extend(self.state_variables(inputs));
-        by_inputs.extend(self.input_variables(inputs));
-        let rows = self.outputs(outputs);
-        let matrix = |rows: usize, columns: usize| DMatrix::from_element(rows, columns, zero());
-        let (mut a, mut b) =
-            (matrix(states.len(), states.len()), matrix(states.len(), by_inputs.len()));
-        let (mut c, mut d) =
-            (matrix(rows.len(), states.len()), matrix(rows.len(), by_inputs.len()));
-        let accelerations = self.checked(state, inputs, outputs)?;
+        let list = || Vec::with_capacity(variables);
+        let [a, b, c, d] = [(); 4].map(|()| DMatrix::from_element(0, 0, zero()));
+        let (states, by_inputs, outputs_of) = (list(), list(), Vec::new());
+        let accelerations = self.no_accelerations();
+        let mut found = Linearization {
+            accelerations,
+            states,
+            inputs: by_inputs,
+            outputs: outputs_of,
+            a,
+            b,
+            c,
+            d,
+        };
+        self.linearize_into(state, inputs, outputs, &mut found)?;
+        Ok(found)
+    }
+
+    /// As [`Self::linearize`], into what an earlier call returned: its matrices and lists are written, and allocated
+    /// again only where they have another size.
+    ///
+    /// ```
+    /// # use nalgebra::{Matrix3, Vector3};
+    /// # use precess_dynamics::{Hub, Inputs, Outputs, ReactionWheel, Spacecraft, State};
+    /// # let inertia = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    /// # let hub = Hub { m_b: 80.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 9.0 };
+    /// let craft = Spacecraft::new(&hub, &[ReactionWheel::bare_wheel(4.0, inertia)])?;
+    /// let (mut state, inputs): (State<[ReactionWheel; 1]>, _) = (State::at_rest(), Inputs::none());
+    /// let mut kept = craft.linearize(&state, &inputs, &Outputs::accelerations())?;
+    /// for spin in [10.0, 20.0] {
+    ///     state.devices[0].spin = spin;
+    ///     craft.linearize_into(&state, &inputs, &Outputs::accelerations(), &mut kept)?;
+    ///     assert_eq!(kept, craft.linearize(&state, &inputs, &Outputs::accelerations())?);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::derivatives`]; the matrices then have no meaning.
+    pub fn linearize_into<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        outputs: &Outputs<D::Scalar>,
+        into: &mut Linearization<D, S>,
+    ) -> Result<(), DerivativeError<D::Scalar>> {
+        into.accelerations = self.checked(state, inputs, outputs)?;
+        into.shape(self, inputs, outputs);
+        let Linearization { accelerations, states, inputs: by_inputs, a, b, c, d, .. } = into;
+        let variables = states.iter().chain(&*by_inputs).copied();
+        let slopes = [a, b].into_iter().flat_map(columns_of);
+        let results = [c, d].into_iter().flat_map(columns_of);
+        let mut columns = slopes.zip(results);
         let emitted = if *outputs == Outputs::accelerations() {
-            ByLoads::new(self, state, inputs, &accelerations)
+            ByLoads::new(self, state, inputs, accelerations)
         } else {
             None
         };
-        let variables = states.iter().chain(&by_inputs).copied();
-        let slopes = [&mut a, &mut b].into_iter().flat_map(columns_of);
-        let results = [&mut c, &mut d].into_iter().flat_map(columns_of);
-        let mut columns = slopes.zip(results);
-        if let Some(emitted) = emitted {
-            let fill = Fill::new(state, inputs, &accelerations);
-            for (number, (variable, (slopes, results))) in
-                variables.zip(columns.by_ref()).enumerate()
-            {
-                let (of_hub, of_joints) = results.split_at_mut(results.len().min(6));
-                let hub = emitted.column(variable, of_joints);
-                let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
-                of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
-                fill.column(variable, &hub, of_joints, slopes);
-                if !(are_finite(slopes) & are_finite(of_hub) & are_finite(of_joints)) {
-                    return Err(DerivativeError::NotFinite { variable: number });
-                }
-            }
-        } else {
+        let Some(emitted) = emitted else {
             self.derivatives(state, inputs, outputs, variables, |variable, column| {
                 let Some((slopes, results)) = columns.next() else { return };
-                for (to, of) in slopes.iter_mut().zip(&states) {
+                for (to, of) in slopes.iter_mut().zip(&*states) {
                     let element = column.element(*of, variable, &state.omega);
                     *to = element.unwrap_or_else(zero);
                 }
                 results.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
             })?;
+            return Ok(());
+        };
+        let fill = Fill::new(state, inputs, accelerations);
+        for (number, (variable, (slopes, results))) in variables.zip(columns).enumerate() {
+            let (of_hub, of_joints) = results.split_at_mut(results.len().min(6));
+            let hub = emitted.column(variable, of_joints);
+            let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
+            of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
+            fill.column(variable, &hub, of_joints, slopes);
+            // The other slopes are among these.
+            let of_slopes = slopes.get(..fill.of_hub).unwrap_or_default();
+            if !(are_finite(of_slopes) & are_finite(of_hub) & are_finite(of_joints)) {
+                return Err(DerivativeError::NotFinite { variable: number });
+            }
         }
-        drop(columns);
-        Ok(Linearization { accelerations, a, b, c, d, outputs: rows, states, inputs: by_inputs })
+        Ok(())
     }
 
     /// The outputs in the order of [`Column::outputs`].
-    fn outputs(&self, outputs: &Outputs<D::Scalar>) -> Vec<Output> {
+    fn outputs(&self, outputs: &Outputs<D::Scalar>, rows: &mut Vec<Output>) {
         let joints = self.joints().count();
-        let mut rows = Vec::new();
+        rows.clear();
         rows.extend(Axis::ALL.map(Output::Acceleration));
         rows.extend(Axis::ALL.map(Output::AngularAcceleration));
         rows.extend((0..joints).map(Output::JointAcceleration));
@@ -166,7 +204,30 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             rows.extend(Axis::ALL.map(Output::HubForce));
             rows.extend(Axis::ALL.map(Output::HubMoment));
         }
-        rows
+    }
+}
+
+impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
+    /// Lists and matrices of the size that they have for these inputs; the elements stay as they are.
+    fn shape(
+        &mut self,
+        craft: &Spacecraft<D, S>,
+        inputs: &Inputs<D, S>,
+        outputs: &Outputs<D::Scalar>,
+    ) {
+        self.states.clear();
+        self.states.extend(craft.state_variables(inputs));
+        self.inputs.clear();
+        self.inputs.extend(craft.input_variables(inputs));
+        craft.outputs(outputs, &mut self.outputs);
+        let (states, by_inputs, rows) = (self.states.len(), self.inputs.len(), self.outputs.len());
+        let sizes = [(states, states), (states, by_inputs), (rows, states), (rows, by_inputs)];
+        let Self { a, b, c, d, .. } = self;
+        for (matrix, (rows, columns)) in [a, b, c, d].into_iter().zip(sizes) {
+            if matrix.shape() != (rows, columns) {
+                *matrix = DMatrix::from_element(rows, columns, zero());
+            }
+        }
     }
 }
 
@@ -239,7 +300,7 @@ impl<T: Scalar> Fill<T> {
         }
     }
 
-    /// Into `slopes`, which are zero, in the order of [`Spacecraft::state_variables`].
+    /// Into `slopes`, in the order of [`Spacecraft::state_variables`].
     fn column(&self, by: Variable, hub: &HubChange<T>, joints: &[T], slopes: &mut [T]) {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let Some((of_hub, of_joints)) = slopes.split_at_mut_checked(self.of_hub) else { return };
@@ -266,6 +327,7 @@ impl<T: Scalar> Fill<T> {
                 *rate = joints.get(*joint).copied().unwrap_or_else(zero);
             }
         }
+        coordinates.fill(zero());
         if let Variable::Rate(joint) = by
             && let Some(place) = self.moving.iter().position(|moving| *moving == joint)
             && let Some(coordinate) = coordinates.get_mut(place)

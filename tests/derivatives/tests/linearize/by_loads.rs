@@ -160,3 +160,19 @@ fn what_does_not_move_has_matrices_without_rows() {
     let nothing = found.d.column_iter().filter(|column| column.amax() == 0.0).count();
     assert_eq!(nothing, 0, "{}", found.d);
 }
+
+#[test]
+fn kept_matrices_become_those_of_another_spacecraft() {
+    // Other sizes, other modes, with and without a hub that moves; by emitted derivatives and by dual numbers.
+    let wanted = Outputs::accelerations();
+    let mut kept = None;
+    for seed in SEED..SEED + 24 {
+        for case in [Drawn::new(seed), drawn(Drawn::new(seed))].map(|of| of.case::<f64>()) {
+            let craft = case.craft();
+            let expected = craft.linearize(&case.state, &case.inputs, &wanted).unwrap();
+            let kept = kept.get_or_insert_with(|| expected.clone());
+            craft.linearize_into(&case.state, &case.inputs, &wanted, kept).unwrap();
+            assert!(*kept == expected, "{seed:#x}");
+        }
+    }
+}
