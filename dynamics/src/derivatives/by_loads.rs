@@ -92,7 +92,7 @@ impl<T: Scalar> ByLoads<T> {
             Variable::Omega(axis) => {
                 let of_devices = self.devices.iter().filter_map(|of| of.omega.get(axis as usize));
                 let loads: Vec<&Load<T>> = of_devices.collect();
-                let mut hub = self.own_by_omega(unit(axis));
+                let mut hub = of_both(self.hub.loads_by_omega(self.omega, unit(axis)));
                 for load in &loads {
                     hub.iter_mut().zip(load.hub).for_each(|(to, from)| *to = *to + from);
                 }
@@ -163,13 +163,9 @@ impl<T: Scalar> ByLoads<T> {
         }
         (self.devices.len(), own)
     }
+}
 
-    /// What the hub itself needs more where its angular velocity grows along a unit vector.
-    fn own_by_omega(&self, e: Vec3<T>) -> Six<T> {
-        let HubConstants { first_moment: s, i_b_b, .. } = &self.hub;
-        let force = add(cross(e, cross(self.omega, *s)), cross(self.omega, cross(e, *s)));
-        let moment = add(cross(e, i_b_b.times(self.omega)), cross(self.omega, i_b_b.times(e)));
-        let ([a, b, c], [d, e, f]) = (force, moment);
-        [a, b, c, d, e, f]
-    }
+/// Force and moment about B.
+fn of_both<T>([[a, b, c], [d, e, f]]: [Vec3<T>; 2]) -> Six<T> {
+    [a, b, c, d, e, f]
 }

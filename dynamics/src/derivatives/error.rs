@@ -76,6 +76,16 @@ pub enum DerivativeError<T = f64> {
         /// The position of the variable in the list, from 0.
         variable: usize,
     },
+    /// A direction, the weights of accelerations or a gradient are of another number of variables.
+    Length {
+        /// How many numbers there must be: one of each variable, or of each acceleration.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// Every input is finite and so are the accelerations, but their derivatives' product with a direction or with
+    /// weights is not.
+    NotFiniteProduct,
 }
 
 impl<T> From<SolveError<T>> for DerivativeError<T> {
@@ -121,6 +131,15 @@ impl<T: Scalar> Display for DerivativeError<T> {
                 f,
                 "the derivative by variable {variable} of the list is not finite although the \
                  accelerations are; check the units of large or tiny inputs"
+            ),
+            Self::Length { expected, found } => write!(
+                f,
+                "{found} numbers where there are {expected} variables or accelerations; list \
+                 `state_variables` and `input_variables` for the inputs at hand"
+            ),
+            Self::NotFiniteProduct => f.write_str(
+                "a product of derivatives is not finite although the accelerations are; check the direction or \
+                 the weights, and the units of large or tiny inputs",
             ),
         }
     }

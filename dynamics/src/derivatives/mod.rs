@@ -3,7 +3,7 @@
 //!
 //! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
-//! step. Of a rigid hub's accelerations `linearization` needs no dual numbers: `by_loads` has the columns from the
+//! step. `products` has the derivatives along a direction and of a weighted sum, without matrices. Of a rigid hub's accelerations `linearization` needs no dual numbers: `by_loads` has the columns from the
 //! emitted derivatives of the loads (`load_columns`) and the mass matrix (`mass_system`).
 
 #[cfg(feature = "alloc")]
@@ -12,14 +12,18 @@ pub(crate) mod column;
 mod elimination;
 pub(crate) mod error;
 pub(crate) mod evaluation;
+mod joint_order;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
 #[cfg(feature = "alloc")]
 mod load_columns;
+mod load_products;
+mod mass_solution;
 #[cfg(feature = "alloc")]
 mod mass_system;
 pub(crate) mod parameters;
 mod point;
+mod products;
 #[cfg(feature = "alloc")]
 pub(crate) mod step;
 pub(crate) mod structure;

@@ -104,10 +104,20 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>, S: StructureDerivatives> Point<D
         variable: Variable,
         number: usize,
     ) -> Result<(), DerivativeError<T>> {
+        self.seed_multiple(variable, number, one())
+    }
+
+    /// Makes something a multiple of the variable of a number.
+    pub(super) fn seed_multiple(
+        &mut self,
+        variable: Variable,
+        number: usize,
+        multiple: T,
+    ) -> Result<(), DerivativeError<T>> {
         let Self { state, inputs } = self;
         let found = match variable {
             Variable::Attitude(axis) => {
-                state.attitude.seed(axis, number);
+                state.attitude.seed(axis, number, multiple);
                 return Ok(());
             }
             Variable::Position(axis) => Some(axis.of_mut(&mut state.r_b_n)),
@@ -168,7 +178,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>, S: StructureDerivatives> Point<D
             }
         };
         if let Some(found) = found {
-            found.add_derivative(number, one());
+            found.add_derivative(number, multiple);
             return Ok(());
         }
         Err(self.missing(variable))

@@ -20,9 +20,9 @@ impl<T: Scalar, const N: usize> Turned<Dual<T, N>> {
         Self(columns(&attitude.dcm().map(Dual::constant)))
     }
 
-    /// Makes a variable of a small rotation about an axis of B: `d[BN] = -tilde(e) [BN]`.
-    pub(super) fn seed(&mut self, about: Axis, number: usize) {
-        let unit = Axis::ALL.map(|axis| if axis == about { one() } else { zero() });
+    /// Makes a variable, of which it is a multiple, of a small rotation about an axis of B: `d[BN] = -tilde(e) [BN]`.
+    pub(super) fn seed(&mut self, about: Axis, number: usize, multiple: T) {
+        let unit = Axis::ALL.map(|axis| if axis == about { multiple } else { zero() });
         for column in &mut self.0 {
             let turned = cross(column.map(|element| element.value), unit);
             for (element, derivative) in column.iter_mut().zip(turned) {

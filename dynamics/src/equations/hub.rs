@@ -104,6 +104,27 @@ impl<T: Scalar> HubConstants<T> {
         Wrench::of(force, moment)
     }
 
+    /// What force and moment about B these accelerations need more along a direction of the angular velocity.
+    pub(crate) fn loads_by_omega(&self, omega: Vec3<T>, by: Vec3<T>) -> [Vec3<T>; 2] {
+        let (s, i) = (self.first_moment, &self.i_b_b);
+        let force = add(cross(by, cross(omega, s)), cross(omega, cross(by, s)));
+        let moment = add(cross(by, i.times(omega)), cross(omega, i.times(by)));
+        [force, moment]
+    }
+
+    /// The gradient by the angular velocity of what they need, weighed, less it: the transpose of
+    /// [`Self::loads_by_omega`].
+    pub(crate) fn gradient_by_omega(
+        &self,
+        omega: Vec3<T>,
+        [force, moment]: [Vec3<T>; 2],
+    ) -> Vec3<T> {
+        let (s, i) = (self.first_moment, &self.i_b_b);
+        let of_force = add(cross(force, cross(omega, s)), cross(cross(force, omega), s));
+        let of_moment = sub(cross(moment, i.times(omega)), i.times(cross(moment, omega)));
+        add(of_force, of_moment)
+    }
+
     /// Kinetic energy and momenta for the inertial velocity of B and the angular velocity.
     pub(crate) fn sums(&self, r_b_n_dot: Vec3<T>, omega: Vec3<T>) -> BodySums<T> {
         let relative = cross(omega, self.first_moment);

@@ -9,6 +9,7 @@ mod known;
 mod outputs;
 mod parameters;
 mod perturb;
+mod products;
 mod rejected;
 mod route;
 mod step;
