@@ -14,11 +14,12 @@ use imports::Crate;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 /// Folders of the sources of crates that have folders or more than a few files.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "codegen/src",
     "codegen/bake/src",
     "codegen/review/src",
     "dynamics/src",
+    "sim/control/src",
     "sim/src",
     "tests/src",
     "xtask/src",

@@ -8,7 +8,7 @@ use xtask::run::root;
 use super::suites::{How, Suite, When};
 
 /// The packages of the suites and their folders.
-const FOLDERS: [(&str, &str); 19] = [
+const FOLDERS: [(&str, &str); 20] = [
     ("precess-codegen", "codegen"),
     ("precess-bake", "codegen/bake"),
     ("precess-description", "codegen/description"),
@@ -23,6 +23,7 @@ const FOLDERS: [(&str, &str); 19] = [
     ("four-wheels", "tests/baked/four_wheels"),
     ("imaging-satellite", "tests/baked/imaging_satellite"),
     ("precess-attack", "tests/attack"),
+    ("precess-control", "sim/control"),
     ("precess", "sim"),
     ("xtask", "xtask"),
     ("precess-distribute", "xtask/distribute"),

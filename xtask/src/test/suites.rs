@@ -70,7 +70,8 @@ const OUTSIDE: &[&str] = &["tests/outside"];
 /// What is stored of the engines, and the scripts that store it.
 const ENGINES: &[&str] = &["tests/engines", "tests/fixtures"];
 /// The desktop tool, whichever of its commands.
-const DESKTOP: &[&str] = &["sim/Cargo.toml", "sim/craft", "sim/schema", "sim/src", "scenarios"];
+const DESKTOP: &[&str] =
+    &["sim/Cargo.toml", "sim/control", "sim/craft", "sim/schema", "sim/src", "scenarios"];
 /// What goes on board.
 const BOARD: &[&str] = &["flight"];
 /// Pages.
@@ -243,6 +244,9 @@ pub(crate) const SUITES: &[Suite] = &[
     all("precess-attack", "numbers", &[&["tests/attack"]]),
     all("precess-attack", "printed", &[SOLVER, LANES, &["tests/attack"]]),
     all("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
+    // What a sampled controller is made of.
+    always("precess-control", "lib", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "laws", &[SOLVER, &["sim/control"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),

@@ -1,0 +1,23 @@
+//! What a sampled controller is made of, without scenarios, runs or devices: laws, and what they read.
+//!
+//! Plain numbers of `f64`; SI units and radians; nothing is allocated at a sample, and the same inputs give the same bits
+//! on every host: without the standard library only `libm` has transcendental functions. B is the frame of the hub, N
+//! inertial, R that of the reference; `omega_br` is the angular velocity of B relative to R.
+//!
+//! - [`Motion`], [`Reference`], [`Tracking`]: what is measured, what is wanted, and the difference;
+//! - [`Law`]: from these to the torque on the spacecraft; [`MrpFeedback`];
+//! - [`rotation`]: quaternions as turns one after another.
+
+#![no_std]
+
+#[cfg(test)]
+extern crate std;
+
+mod law;
+mod model;
+
+pub use law::mrp::{Gyroscopic, MrpFeedback, MrpGains};
+pub use law::{Law, Sample};
+pub use model::error::ControlError;
+pub use model::motion::{Motion, Reference, Tracking};
+pub use model::rotation;

@@ -1,0 +1,139 @@
+//! [`ControlError`]: what is wrong with a parameter.
+
+use core::fmt;
+
+use nalgebra::Matrix3;
+
+/// A parameter that is not in its range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ControlError {
+    /// It is negative, infinite or NaN.
+    Negative {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// It is zero, negative, infinite or NaN.
+    NotPositive {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// It is infinite or NaN.
+    NotFinite {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A matrix is not symmetric: an element and the one opposite.
+    NotSymmetric {
+        /// Which.
+        what: &'static str,
+        /// An element above the diagonal.
+        upper: f64,
+        /// The one below it.
+        lower: f64,
+    },
+    /// A symmetric matrix is not positive definite.
+    NotDefinite {
+        /// Which.
+        what: &'static str,
+        /// A leading minor that is not positive; of a matrix that may be singular, a principal minor that is negative.
+        minor: f64,
+    },
+}
+
+impl fmt::Display for ControlError {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Negative { what, value } => {
+                write!(to, "{what} is {value}; it must be finite and not negative")
+            }
+            Self::NotPositive { what, value } => {
+                write!(to, "{what} is {value}; it must be finite and positive")
+            }
+            Self::NotFinite { what, value } => write!(to, "{what} is {value}; it must be finite"),
+            Self::NotSymmetric { what, upper, lower } => {
+                write!(to, "{what} is not symmetric: {upper} is opposite {lower}")
+            }
+            Self::NotDefinite { what, minor } => {
+                write!(to, "{what} is not positive definite: a minor is {minor}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ControlError {}
+
+/// Rejects what is not finite.
+pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), ControlError> {
+    if value.is_finite() { Ok(()) } else { Err(ControlError::NotFinite { what, value }) }
+}
+
+/// Rejects what is not positive and finite.
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), ControlError> {
+    let sound = value > 0.0 && value.is_finite();
+    if sound { Ok(()) } else { Err(ControlError::NotPositive { what, value }) }
+}
+
+/// Rejects what is negative or not finite.
+pub(crate) fn not_negative(what: &'static str, value: f64) -> Result<(), ControlError> {
+    let sound = value >= 0.0 && value.is_finite();
+    if sound { Ok(()) } else { Err(ControlError::Negative { what, value }) }
+}
+
+/// Rejects a matrix that is not finite and symmetric.
+fn symmetric(what: &'static str, matrix: &Matrix3<f64>) -> Result<(), ControlError> {
+    for value in matrix.iter() {
+        finite(what, *value)?;
+    }
+    for (upper, lower) in
+        [(matrix.m12, matrix.m21), (matrix.m13, matrix.m31), (matrix.m23, matrix.m32)]
+    {
+        if upper != lower {
+            return Err(ControlError::NotSymmetric { what, upper, lower });
+        }
+    }
+    Ok(())
+}
+
+/// Rejects a matrix that is not symmetric and positive definite: its leading minors are positive.
+pub(crate) fn definite(what: &'static str, matrix: &Matrix3<f64>) -> Result<(), ControlError> {
+    symmetric(what, matrix)?;
+    for minor in
+        [matrix.m11, matrix.m11 * matrix.m22 - matrix.m12 * matrix.m12, matrix.determinant()]
+    {
+        if minor <= 0.0 {
+            return Err(ControlError::NotDefinite { what, minor });
+        }
+    }
+    Ok(())
+}
+
+/// Rejects a matrix that is not symmetric and positive semidefinite: its principal minors are not negative but for
+/// rounding of their terms.
+pub(crate) fn semidefinite(what: &'static str, matrix: &Matrix3<f64>) -> Result<(), ControlError> {
+    /// A few roundings of the terms of a determinant, in units of the cube of the largest element.
+    const ROUNDING: f64 = 1e-14;
+    symmetric(what, matrix)?;
+    let size = matrix.amax();
+    let m = matrix;
+    let minors = [
+        (m.m11, 1.0),
+        (m.m22, 1.0),
+        (m.m33, 1.0),
+        (m.m11 * m.m22 - m.m12 * m.m12, size),
+        (m.m11 * m.m33 - m.m13 * m.m13, size),
+        (m.m22 * m.m33 - m.m23 * m.m23, size),
+        (m.determinant(), size * size),
+    ];
+    for (minor, unit) in minors {
+        if minor < -ROUNDING * unit * size {
+            return Err(ControlError::NotDefinite { what, minor });
+        }
+    }
+    Ok(())
+}
