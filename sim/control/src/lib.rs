@@ -5,7 +5,8 @@
 //! inertial, R that of the reference; `omega_br` is the angular velocity of B relative to R.
 //!
 //! - [`Motion`], [`Reference`], [`Tracking`]: what is measured, what is wanted, and the difference;
-//! - [`Law`]: from these to the torque on the spacecraft; [`MrpFeedback`];
+//! - [`Law`]: from these to the torque on the spacecraft: [`MrpFeedback`],
+//!   [`QuaternionFeedback`], [`RateDamping`];
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -16,7 +17,10 @@ extern crate std;
 mod law;
 mod model;
 
-pub use law::mrp::{Gyroscopic, MrpFeedback, MrpGains};
+pub use law::damping::RateDamping;
+pub use law::gyroscopic::Gyroscopic;
+pub use law::mrp::{MrpFeedback, MrpGains};
+pub use law::quaternion::QuaternionFeedback;
 pub use law::{Law, Sample};
 pub use model::error::ControlError;
 pub use model::motion::{Motion, Reference, Tracking};

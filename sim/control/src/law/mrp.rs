@@ -15,21 +15,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::law::gyroscopic::Gyroscopic;
 use crate::law::{Law, Sample};
-use crate::model::error::ControlError;
+use crate::model::error::{self, ControlError};
 use crate::model::motion::Tracking;
-
-/// What the law adds for the gyroscopic torque `-omega_bn x H`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Gyroscopic {
-    /// The whole: `omega_bn x H`. The closed loop is linear in `omega_br`.
-    #[default]
-    Whole,
-    /// `(omega_rn - K_I z) x H`: as stable, and without a term quadratic in the rate of B where R rests and `K_I` is zero.
-    Reference,
-    /// Nothing: `V'` then has a term more, but for a reference at rest and `K_I` zero.
-    Nothing,
-}
 
 /// Gains of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,11 +68,11 @@ impl MrpFeedback {
         inertia: Matrix3<f64>,
         gyroscopic: Gyroscopic,
     ) -> Result<Self, ControlError> {
-        crate::model::error::positive("attitude gain", gains.attitude)?;
-        crate::model::error::not_negative("limit of the integral", gains.integral_limit)?;
-        crate::model::error::definite("rate gain", &(gains.rate + gains.rate.transpose()))?;
-        crate::model::error::semidefinite("integral gain", &gains.integral)?;
-        crate::model::error::semidefinite("inertia", &inertia)?;
+        error::positive("attitude gain", gains.attitude)?;
+        error::not_negative("limit of the integral", gains.integral_limit)?;
+        error::definite("rate gain", &(gains.rate + gains.rate.transpose()))?;
+        error::semidefinite("integral gain", &gains.integral)?;
+        error::semidefinite("inertia", &inertia)?;
         Ok(Self { gains, inertia, gyroscopic, integral: Vector3::zeros() })
     }
 
@@ -107,12 +96,8 @@ impl MrpFeedback {
         let error = Tracking::new(&sample.motion, &sample.reference);
         let turned = self.gains.integral * self.z(&error);
         let momentum = self.inertia * error.omega_bn + sample.momentum;
-        let gyroscopic = match self.gyroscopic {
-            Gyroscopic::Whole => error.omega_bn.cross(&momentum),
-            Gyroscopic::Reference => (error.omega_rn - turned).cross(&momentum),
-            Gyroscopic::Nothing => Vector3::zeros(),
-        };
-        self.inertia * error.feed_forward() + gyroscopic
+        self.inertia * error.feed_forward()
+            + self.gyroscopic.compensation(&error, &turned, &momentum)
             - error.sigma() * self.gains.attitude
             - self.gains.rate * (error.omega_br + turned)
             - sample.external

@@ -1,4 +1,4 @@
-//! The derivative of each law's Lyapunov function along the motion of a rigid body with momentum devices.
+//! MRP feedback: the derivative of its Lyapunov function along the motion of a rigid body with momentum devices.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_control::rotation::from_vector;
@@ -8,20 +8,10 @@ use precess_control::{
 use precess_dynamics::{Attitude as _, Mrp};
 
 use crate::random::Random;
+use crate::rigid_body::{definite, vector};
 
 /// Roundings of a sum of thirty terms, in units of the sum of their magnitudes.
 const ROUNDING: f64 = 4e-15;
-
-fn vector(random: &mut Random, size: f64) -> Vector3<f64> {
-    Vector3::from_fn(|_, _| size * random.signed())
-}
-
-/// A symmetric, positive definite matrix.
-fn definite(random: &mut Random, size: f64) -> Matrix3<f64> {
-    let root = Matrix3::from_fn(|_, _| random.signed());
-    let sum = (root * root.transpose() + Matrix3::identity() * 0.3) * size;
-    (sum + sum.transpose()) / 2.0
-}
 
 struct Case {
     sample: Sample,

@@ -1,4 +1,8 @@
 //! Laws in closed loop with a rigid body: Lyapunov's functions, and exact solutions of sampled loops.
 
+mod eigen_axis;
 mod lyapunov;
+mod lyapunov_of_quaternions;
 mod random;
+mod rigid_body;
+mod sampled_loop;
