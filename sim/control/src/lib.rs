@@ -7,6 +7,7 @@
 //! - [`Motion`], [`Reference`], [`Tracking`]: what is measured, what is wanted, and the difference;
 //! - [`Law`]: from these to the torque on the spacecraft: [`MrpFeedback`],
 //!   [`QuaternionFeedback`], [`RateDamping`];
+//! - [`Guidance`]: references at a time: [`Hold`], [`Slew`], [`Turning`], [`AttitudeTable`];
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -14,8 +15,11 @@
 #[cfg(test)]
 extern crate std;
 
+extern crate alloc;
+
 mod law;
 mod model;
+mod reference;
 
 pub use law::damping::RateDamping;
 pub use law::gyroscopic::Gyroscopic;
@@ -25,3 +29,8 @@ pub use law::{Law, Sample};
 pub use model::error::ControlError;
 pub use model::motion::{Motion, Reference, Tracking};
 pub use model::rotation;
+pub use reference::Guidance;
+pub use reference::profile::{Profile, ProfilePoint, TurnLimits};
+pub use reference::slew::Slew;
+pub use reference::table::{AttitudeRow, AttitudeTable};
+pub use reference::turning::{Hold, Turning};

@@ -247,6 +247,7 @@ pub(crate) const SUITES: &[Suite] = &[
     // What a sampled controller is made of.
     always("precess-control", "lib", &[SOLVER, &["sim/control"]]),
     always("precess-control", "laws", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "references", &[SOLVER, &["sim/control"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),

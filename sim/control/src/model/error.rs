@@ -3,6 +3,7 @@
 use core::fmt;
 
 use nalgebra::Matrix3;
+use precess_dynamics::{Attitude as _, Quaternion};
 
 /// A parameter that is not in its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +38,25 @@ pub enum ControlError {
         /// The one below it.
         lower: f64,
     },
+    /// A quaternion has no length, or one that is not finite.
+    NotAnAttitude {
+        /// Which.
+        what: &'static str,
+    },
+    /// A table has no rows.
+    NoRows,
+    /// The time of a row, counted from zero, is not above that of the row before.
+    NotIncreasing {
+        /// Which row.
+        row: usize,
+        /// Its time, s.
+        time: f64,
+    },
+    /// From the row before to this one, counted from zero, the frame turns by more than half a turn.
+    TooCoarse {
+        /// Which row.
+        row: usize,
+    },
     /// A symmetric matrix is not positive definite.
     NotDefinite {
         /// Which.
@@ -59,6 +79,19 @@ impl fmt::Display for ControlError {
             Self::NotSymmetric { what, upper, lower } => {
                 write!(to, "{what} is not symmetric: {upper} is opposite {lower}")
             }
+            Self::NotAnAttitude { what } => {
+                write!(to, "{what} is no attitude: its length is zero or not finite")
+            }
+            Self::NoRows => write!(to, "the table has no rows"),
+            Self::NotIncreasing { row, time } => {
+                write!(to, "time {time} of row {row} is not above that of the row before")
+            }
+            Self::TooCoarse { row } => {
+                write!(
+                    to,
+                    "between row {row} and the row before are more than half a turn; add rows"
+                )
+            }
             Self::NotDefinite { what, minor } => {
                 write!(to, "{what} is not positive definite: a minor is {minor}")
             }
@@ -77,6 +110,23 @@ pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), ControlError>
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), ControlError> {
     let sound = value > 0.0 && value.is_finite();
     if sound { Ok(()) } else { Err(ControlError::NotPositive { what, value }) }
+}
+
+/// Rejects a limit that is zero, negative or NaN; an infinite one is none.
+pub(crate) fn limit(what: &'static str, value: f64) -> Result<(), ControlError> {
+    if value > 0.0 { Ok(()) } else { Err(ControlError::NotPositive { what, value }) }
+}
+
+/// The quaternion by unit length.
+pub(crate) fn attitude(
+    what: &'static str,
+    quaternion: &Quaternion,
+) -> Result<Quaternion, ControlError> {
+    if quaternion.is_valid() {
+        Ok(quaternion.normalised())
+    } else {
+        Err(ControlError::NotAnAttitude { what })
+    }
 }
 
 /// Rejects what is negative or not finite.
