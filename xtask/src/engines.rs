@@ -12,8 +12,8 @@ use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated
-/// platforms; pyYeti, of structures; Basilisk's law, of steering.
-const SCRIPTS: [&str; 8] = [
+/// platforms; pyYeti, of structures; Basilisk's law, of steering; `SciPy`, of filters.
+const SCRIPTS: [&str; 9] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -22,6 +22,7 @@ const SCRIPTS: [&str; 8] = [
     "tests/engines/isolated.py",
     "tests/engines/structures.py",
     "tests/engines/steering.py",
+    "tests/engines/filters.py",
 ];
 
 /// What draws more spacecraft.

@@ -8,6 +8,7 @@
 //! - [`Law`]: from these to the torque on the spacecraft: [`MrpFeedback`],
 //!   [`QuaternionFeedback`], [`RateDamping`];
 //! - [`Guidance`]: references at a time: [`Hold`], [`Slew`], [`Turning`], [`AttitudeTable`];
+//! - [`AnalogSection`], [`Section`], [`Filter`]: filters of second order, made discrete;
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -17,10 +18,14 @@ extern crate std;
 
 extern crate alloc;
 
+mod filter;
 mod law;
 mod model;
 mod reference;
 
+pub use filter::analog::{AnalogSection, Discretisation};
+pub use filter::cascade::Filter;
+pub use filter::section::Section;
 pub use law::damping::RateDamping;
 pub use law::gyroscopic::Gyroscopic;
 pub use law::mrp::{MrpFeedback, MrpGains};

@@ -43,6 +43,20 @@ pub enum ControlError {
         /// Which.
         what: &'static str,
     },
+    /// A filter has a pole that is not stable: the lower two coefficients of its denominator.
+    Unstable {
+        /// Of the power below the highest.
+        first: f64,
+        /// Of the lowest power.
+        second: f64,
+    },
+    /// A frequency is not below half of the sampling rate.
+    AboveNyquist {
+        /// It, rad/s.
+        frequency: f64,
+        /// Half of the sampling rate, rad/s.
+        nyquist: f64,
+    },
     /// A table has no rows.
     NoRows,
     /// The time of a row, counted from zero, is not above that of the row before.
@@ -82,6 +96,16 @@ impl fmt::Display for ControlError {
             Self::NotAnAttitude { what } => {
                 write!(to, "{what} is no attitude: its length is zero or not finite")
             }
+            Self::Unstable { first, second } => {
+                write!(
+                    to,
+                    "a filter whose denominator ends in {first}, {second} has a pole that is not stable"
+                )
+            }
+            Self::AboveNyquist { frequency, nyquist } => write!(
+                to,
+                "{frequency} rad/s is not below half of the sampling rate, {nyquist} rad/s"
+            ),
             Self::NoRows => write!(to, "the table has no rows"),
             Self::NotIncreasing { row, time } => {
                 write!(to, "time {time} of row {row} is not above that of the row before")
