@@ -9,6 +9,8 @@
 //!   [`QuaternionFeedback`], [`RateDamping`];
 //! - [`Guidance`]: references at a time: [`Hold`], [`Slew`], [`Turning`], [`AttitudeTable`];
 //! - [`AnalogSection`], [`Section`], [`Filter`]: filters of second order, made discrete;
+//! - [`Gyro`], [`StarTracker`], [`Accelerometer`], [`Quantum`] (of tachometers and encoders), [`DelayLine`]: sensors, with
+//!   [`Noise`] by a seed;
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -22,6 +24,7 @@ mod filter;
 mod law;
 mod model;
 mod reference;
+mod sensor;
 
 pub use filter::analog::{AnalogSection, Discretisation};
 pub use filter::cascade::Filter;
@@ -39,3 +42,9 @@ pub use reference::profile::{Profile, ProfilePoint, TurnLimits};
 pub use reference::slew::Slew;
 pub use reference::table::{AttitudeRow, AttitudeTable};
 pub use reference::turning::{Hold, Turning};
+pub use sensor::accelerometer::{Accelerometer, AccelerometerParameters};
+pub use sensor::delay::DelayLine;
+pub use sensor::gyro::{Gyro, GyroOutput, GyroParameters};
+pub use sensor::noise::Noise;
+pub use sensor::quantum::Quantum;
+pub use sensor::star_tracker::StarTracker;

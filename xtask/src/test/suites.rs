@@ -249,6 +249,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-control", "filters", &[ENGINES, &["sim/control"]]),
     always("precess-control", "laws", &[SOLVER, &["sim/control"]]),
     always("precess-control", "references", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "sensors", &[SOLVER, &["sim/control"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),

@@ -57,6 +57,13 @@ pub enum ControlError {
         /// Half of the sampling rate, rad/s.
         nyquist: f64,
     },
+    /// A latency has more periods than there is room for.
+    TooLong {
+        /// Latency in periods.
+        periods: f64,
+        /// The longest.
+        longest: f64,
+    },
     /// A table has no rows.
     NoRows,
     /// The time of a row, counted from zero, is not above that of the row before.
@@ -106,6 +113,9 @@ impl fmt::Display for ControlError {
                 to,
                 "{frequency} rad/s is not below half of the sampling rate, {nyquist} rad/s"
             ),
+            Self::TooLong { periods, longest } => {
+                write!(to, "a latency of {periods} periods is above {longest}")
+            }
             Self::NoRows => write!(to, "the table has no rows"),
             Self::NotIncreasing { row, time } => {
                 write!(to, "time {time} of row {row} is not above that of the row before")
