@@ -12,8 +12,8 @@ use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated
-/// platforms; pyYeti, of structures; Basilisk's law, of steering; `SciPy`, of filters.
-const SCRIPTS: [&str; 9] = [
+/// platforms; pyYeti, of structures; Basilisk's law, of steering, and its law and servo over a run; `SciPy`, of filters.
+const SCRIPTS: [&str; 10] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -23,6 +23,7 @@ const SCRIPTS: [&str; 9] = [
     "tests/engines/structures.py",
     "tests/engines/steering.py",
     "tests/engines/filters.py",
+    "tests/engines/steered.py",
 ];
 
 /// What draws more spacecraft.

@@ -76,7 +76,8 @@ pub struct Allocation<T, const N: usize> {
 }
 
 /// Weights for gimbals and wheels together: wheels help near singular poses of the gimbals, `wheel exp(-mu measure)`, of
-/// which [`Dual`](crate::Dual) numbers keep no derivative. Schaub, Vadali, Junkins (1998).
+/// which [`Dual`](crate::Dual) numbers keep no derivative. Schaub, Vadali, Junkins (1998), whose measure is
+/// [`SteeringMatrix::measure`] of a matrix in which the gimbals only are commanded, with the mean momentum of a wheel.
 #[must_use]
 pub fn steering_weights<T: Scalar, const N: usize>(
     steered: &[Steered; N],

@@ -4,5 +4,6 @@ mod basilisk;
 mod laws;
 mod pyramid;
 mod servo;
+mod steered;
 mod terms;
 mod wheels;
