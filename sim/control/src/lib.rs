@@ -11,6 +11,7 @@
 //! - [`AnalogSection`], [`Section`], [`Filter`]: filters of second order, made discrete;
 //! - [`Gyro`], [`StarTracker`], [`Accelerometer`], [`Quantum`] (of tachometers and encoders), [`DelayLine`]: sensors, with
 //!   [`Noise`] by a seed;
+//! - [`SampledPlant`], [`Feedback`], [`SampledLoop`]: a linear loop with hold and delay, its margins and poles;
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -22,6 +23,7 @@ extern crate alloc;
 
 mod filter;
 mod law;
+mod linear;
 mod model;
 mod reference;
 mod sensor;
@@ -34,6 +36,10 @@ pub use law::gyroscopic::Gyroscopic;
 pub use law::mrp::{MrpFeedback, MrpGains};
 pub use law::quaternion::QuaternionFeedback;
 pub use law::{Law, Sample};
+pub use linear::feedback::Feedback;
+pub use linear::margins::{AtFrequency, AxisMargins, delay_margin};
+pub use linear::plant::{Plant, SampledPlant, Sampling};
+pub use linear::sampled_loop::{LoopResponse, SampledLoop};
 pub use model::error::ControlError;
 pub use model::motion::{Motion, Reference, Tracking};
 pub use model::rotation;

@@ -78,6 +78,29 @@ pub enum ControlError {
         /// Which row.
         row: usize,
     },
+    /// A number of rows or columns is not that of what it is multiplied with.
+    Count {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there must be.
+        wanted: usize,
+    },
+    /// It is outside its bounds, infinite or NaN.
+    NotWithin {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least and the largest.
+        bounds: (f64, f64),
+    },
+    /// An iteration did not converge.
+    NotConverged {
+        /// Of what.
+        what: &'static str,
+    },
     /// A symmetric matrix is not positive definite.
     NotDefinite {
         /// Which.
@@ -126,6 +149,13 @@ impl fmt::Display for ControlError {
                     "between row {row} and the row before are more than half a turn; add rows"
                 )
             }
+            Self::Count { what, found, wanted } => {
+                write!(to, "{what}: {found}; there must be {wanted}")
+            }
+            Self::NotWithin { what, value, bounds: (least, largest) } => {
+                write!(to, "{what} is {value}; it must be from {least} to {largest}")
+            }
+            Self::NotConverged { what } => write!(to, "{what} did not converge"),
             Self::NotDefinite { what, minor } => {
                 write!(to, "{what} is not positive definite: a minor is {minor}")
             }
@@ -138,6 +168,21 @@ impl core::error::Error for ControlError {}
 /// Rejects what is not finite.
 pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), ControlError> {
     if value.is_finite() { Ok(()) } else { Err(ControlError::NotFinite { what, value }) }
+}
+
+/// Rejects a number of rows or columns that does not agree.
+pub(crate) fn count(what: &'static str, found: usize, wanted: usize) -> Result<(), ControlError> {
+    if found == wanted { Ok(()) } else { Err(ControlError::Count { what, found, wanted }) }
+}
+
+/// Rejects what is outside its bounds.
+pub(crate) fn within(
+    what: &'static str,
+    value: f64,
+    bounds: (f64, f64),
+) -> Result<(), ControlError> {
+    let sound = value >= bounds.0 && value <= bounds.1;
+    if sound { Ok(()) } else { Err(ControlError::NotWithin { what, value, bounds }) }
 }
 
 /// Rejects what is not positive and finite.

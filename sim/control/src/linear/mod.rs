@@ -1,0 +1,10 @@
+//! The linear loop: a [`SampledPlant`] behind hold and delay, a [`Feedback`], and what the [`SampledLoop`] of both is worth.
+
+mod eigenvalues;
+pub(crate) mod feedback;
+mod frequencies;
+pub(crate) mod margins;
+pub(crate) mod plant;
+pub(crate) mod sampled_loop;
+#[cfg(test)]
+mod tests;

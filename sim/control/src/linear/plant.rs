@@ -1,0 +1,205 @@
+//! [`SampledPlant`]: a linear plant behind a zero-order hold and a delay, exactly discretised.
+//!
+//! ```text
+//! x' = A x + B u(t)      y_k = C x(t_k)      u(t) = u_k for t_k + delay <= t < t_k+1 + delay      t_k = k T
+//! delay = m T + r, 0 <= r < T:
+//! x_k+1 = Phi x_k + Gamma_0 u_k-m + Gamma_1 u_k-m-1
+//! Phi = e^(A T)      Gamma_0 = int_0^(T-r) e^(A s) ds B      Gamma_1 = e^(A (T-r)) int_0^r e^(A s) ds B
+//! ```
+//!
+//! Astrom, Wittenmark, *Computer-Controlled Systems*, 3rd edition, 2.3 and 3.2. Samples see the plant before the command that
+//! acts at their time.
+
+use nalgebra::{Complex, DMatrix};
+
+use crate::model::error::{self, ControlError};
+
+/// A linear plant in continuous time, `x' = A x + B u`, `y = C x`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plant {
+    /// `A`, 1/s.
+    pub a: DMatrix<f64>,
+    /// `B`, from inputs.
+    pub b: DMatrix<f64>,
+    /// `C`, to what is measured.
+    pub c: DMatrix<f64>,
+}
+
+/// How often a controller samples, and when its command acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// `T`, time between samples, s.
+    pub period: f64,
+    /// From a sample to the time at which its command acts, s.
+    pub delay: f64,
+}
+
+/// The plant as a sampled controller sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledPlant {
+    sampling: Sampling,
+    phi: DMatrix<f64>,
+    /// Of the newer of the two commands that act between samples.
+    gamma_0: DMatrix<f64>,
+    /// Of the older.
+    gamma_1: DMatrix<f64>,
+    c: DMatrix<f64>,
+    /// `m`, whole periods of delay.
+    periods: usize,
+}
+
+/// The longest delay, in periods: commands that wait are states.
+const MAX_PERIODS: f64 = 32.0;
+
+impl SampledPlant {
+    /// Discretises a plant.
+    ///
+    /// # Errors
+    ///
+    /// A period that is not positive; a delay that is negative or longer than 32 periods; matrices whose shapes do not agree,
+    /// or with numbers that are not finite, before or after discretisation.
+    pub fn new(plant: &Plant, sampling: Sampling) -> Result<Self, ControlError> {
+        let Plant { a, b, c } = plant;
+        let n = a.nrows();
+        for (what, found, wanted) in [
+            ("columns of A", a.ncols(), n),
+            ("rows of B", b.nrows(), n),
+            ("columns of C", c.ncols(), n),
+        ] {
+            error::count(what, found, wanted)?;
+        }
+        for (what, matrix) in [("A", a), ("B", b), ("C", c)] {
+            matrix.iter().try_for_each(|element| error::finite(what, *element))?;
+        }
+        let Sampling { period, delay } = sampling;
+        error::positive("period", period)?;
+        error::within("delay", delay, (0.0, MAX_PERIODS * period))?;
+        let mut periods = libm::floor(delay / period);
+        let mut rest = delay - periods * period;
+        // By rounding of the product.
+        if rest < 0.0 {
+            rest = 0.0;
+        } else if rest >= period {
+            periods += 1.0;
+            rest = 0.0;
+        }
+        let (before, held) = integrated(a, b, rest);
+        let (after, gamma_0) = integrated(a, b, period - rest);
+        let (phi, gamma_1) = (&after * before, after * held);
+        let numbers = phi.iter().chain(&gamma_0).chain(&gamma_1);
+        numbers.copied().try_for_each(|element| error::finite("sampled plant", element))?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number from 0 to 32"
+        )]
+        let periods = periods as usize;
+        Ok(Self { sampling, phi, gamma_0, gamma_1, c: c.clone(), periods })
+    }
+
+    /// Period and delay.
+    #[must_use]
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
+    /// How many inputs.
+    #[must_use]
+    pub fn inputs(&self) -> usize {
+        self.gamma_0.ncols()
+    }
+
+    /// How many measured outputs.
+    #[must_use]
+    pub fn outputs(&self) -> usize {
+        self.c.nrows()
+    }
+
+    /// `G(z) = C (z 1 - Phi)^-1 (Gamma_0 z^-m + Gamma_1 z^(-m-1))`; none at a pole.
+    #[must_use]
+    pub fn transfer(&self, z: Complex<f64>) -> Option<DMatrix<Complex<f64>>> {
+        let complex = |m: &DMatrix<f64>| m.map(|element| Complex::new(element, 0.0));
+        let mut resolvent = -complex(&self.phi);
+        for k in 0..resolvent.nrows() {
+            resolvent[(k, k)] += z;
+        }
+        let late = z.inv();
+        let mut right = complex(&self.gamma_0) + complex(&self.gamma_1) * late;
+        for _ in 0..self.periods {
+            right *= late;
+        }
+        Some(complex(&self.c) * resolvent.lu().solve(&right)?)
+    }
+
+    /// One equation for the plant and the commands that wait: `x = [plant; u_k-1; ..; u_k-m-1]`, `x_k+1 = F x_k + G u_k`,
+    /// `y_k = H x_k`.
+    #[must_use]
+    pub fn with_waiting(&self) -> [DMatrix<f64>; 3] {
+        let (n, inputs) = (self.phi.nrows(), self.inputs());
+        let waiting = self.periods.saturating_add(1);
+        let size = n.saturating_add(waiting.saturating_mul(inputs));
+        let block = |number: usize| n.saturating_add(number.saturating_mul(inputs));
+        let mut f = DMatrix::zeros(size, size);
+        let mut g = DMatrix::zeros(size, inputs);
+        let mut h = DMatrix::zeros(self.outputs(), size);
+        f.view_mut((0, 0), (n, n)).copy_from(&self.phi);
+        f.view_mut((0, block(self.periods)), (n, inputs)).copy_from(&self.gamma_1);
+        match self.periods.checked_sub(1) {
+            None => g.view_mut((0, 0), (n, inputs)).copy_from(&self.gamma_0),
+            Some(last) => {
+                f.view_mut((0, block(last)), (n, inputs)).copy_from(&self.gamma_0);
+            }
+        }
+        g.view_mut((n, 0), (inputs, inputs)).fill_with_identity();
+        for number in 1..waiting {
+            let (to, from) = (block(number), block(number.saturating_sub(1)));
+            f.view_mut((to, from), (inputs, inputs)).fill_with_identity();
+        }
+        h.view_mut((0, 0), (self.outputs(), n)).copy_from(&self.c);
+        [f, g, h]
+    }
+
+    /// `Phi`.
+    pub(crate) fn phi(&self) -> &DMatrix<f64> {
+        &self.phi
+    }
+}
+
+/// `e^(A t)` and `int_0^t e^(A s) ds B`, blocks of the exponential of `[A B; 0 0] t` (Van Loan 1978).
+fn integrated(a: &DMatrix<f64>, b: &DMatrix<f64>, t: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (n, inputs) = b.shape();
+    let size = n.saturating_add(inputs);
+    let mut both = DMatrix::zeros(size, size);
+    both.view_mut((0, 0), (n, n)).copy_from(a);
+    both.view_mut((0, n), (n, inputs)).copy_from(b);
+    let exponential = exponential(&(both * t));
+    (
+        exponential.view((0, 0), (n, n)).into_owned(),
+        exponential.view((0, n), (n, inputs)).into_owned(),
+    )
+}
+
+/// `e^M`: the series of `e^(M 2^-n)`, whose norm is at most a quarter, squared n times. (That of nalgebra needs the standard
+/// library.)
+fn exponential(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    /// The next term is below 4^-16 / 16!, 1e-23.
+    const TERMS: u32 = 15;
+    let size = matrix.nrows();
+    let norm = matrix.row_iter().map(|row| row.lp_norm(1)).fold(0.0, libm::fmax);
+    let (mut scaled, mut squarings) = (norm, 0_u32);
+    while scaled > 0.25 && squarings < 1100 {
+        scaled *= 0.5;
+        squarings += 1;
+    }
+    let mut step = matrix.clone();
+    (0..squarings).for_each(|_| step *= 0.5);
+    let unit = DMatrix::identity(size, size);
+    let mut sum = unit.clone();
+    for term in (1..=TERMS).rev() {
+        sum = &unit + &step * sum / f64::from(term);
+    }
+    for _ in 0..squarings {
+        sum = &sum * &sum;
+    }
+    sum
+}
