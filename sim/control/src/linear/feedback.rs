@@ -2,6 +2,7 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use crate::filter::section::Section;
 use crate::model::error::{self, ControlError};
 
 /// `w_k+1 = A w_k + B y_k`, `u_k = C w_k + D y_k`: what is commanded from what is measured, of a negative feedback with its sign.
@@ -41,6 +42,22 @@ impl Feedback {
             return Self::gain(d);
         }
         Self { a: DMatrix::identity(n, n), b, c, d }
+    }
+
+    /// A filter of second order on each of some signals.
+    #[must_use]
+    pub fn section(section: &Section, signals: usize) -> Self {
+        let ([b0, b1, b2], [a1, a2]) = (section.numerator(), section.denominator());
+        let unit = DMatrix::identity(signals, signals);
+        let of = |rows: usize, columns: usize, elements: &[f64]| {
+            unit.kronecker(&DMatrix::from_row_slice(rows, columns, elements))
+        };
+        Self {
+            a: of(2, 2, &[-a1, 1.0, -a2, 0.0]),
+            b: of(2, 1, &[b1 - a1 * b0, b2 - a2 * b0]),
+            c: of(1, 2, &[1.0, 0.0]),
+            d: unit * b0,
+        }
     }
 
     /// `C (z 1 - A)^-1 B + D`; none at a pole.

@@ -6,7 +6,7 @@ use std::vec;
 
 use nalgebra::{Complex, ComplexField as _, DMatrix};
 
-use crate::{Feedback, Plant, SampledLoop, SampledPlant, Sampling, delay_margin};
+use crate::{Feedback, Plant, SampledLoop, SampledPlant, Sampling, Section, delay_margin};
 
 /// Closed forms of a few operations, and bisection to rounding: what the issue of margins asks for.
 const CLOSED_FORM: f64 = 1e-9;
@@ -140,6 +140,21 @@ fn feedback_in_series_multiplies() {
     let z = Complex::new(0.3, 0.8);
     let at = |of: &Feedback| of.transfer(z).expect("no pole")[(0, 0)];
     assert!((at(&both) - at(&first) * at(&second)).modulus() < RESPONSE);
+}
+
+#[test]
+fn a_section_has_its_transfer_function_on_each_signal() {
+    let (b, a) = ([0.4, -0.3, 0.2], [-1.1, 0.6]);
+    let feedback = Feedback::section(&Section::new(b, a).expect("a section"), 2);
+    let z = Complex::new(0.6, 0.7);
+    let late = z.inv();
+    let polynomial = |[c0, c1, c2]: [f64; 3]| late * late * c2 + late * c1 + c0;
+    let expected = polynomial(b) / polynomial([1.0, a[0], a[1]]);
+    let found = feedback.transfer(z).expect("no pole");
+    for (row, column) in [(0, 0), (1, 1), (0, 1)] {
+        let expected = if row == column { expected } else { Complex::new(0.0, 0.0) };
+        assert!((found[(row, column)] - expected).modulus() < RESPONSE);
+    }
 }
 
 #[test]
