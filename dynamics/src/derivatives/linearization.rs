@@ -5,15 +5,15 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::by_loads::{ByLoads, HubChange};
+use crate::derivatives::by_loads::ByLoads;
 use crate::derivatives::column::{Column, Outputs};
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
-use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
-use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::vec3::{Columns, Vec3, add, columns, components, cross, rotate_transposed};
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::components;
 use crate::sets::devices::Devices;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
@@ -147,36 +147,50 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         into.accelerations = self.checked(state, inputs, outputs)?;
         into.shape(self, inputs, outputs);
         let Linearization { accelerations, states, inputs: by_inputs, a, b, c, d, .. } = into;
+        let lists = (states.as_slice(), by_inputs.as_slice());
+        self.output_columns((state, inputs), accelerations, outputs, lists, [&mut *c, &mut *d])?;
+        let rows = Slopes::new(self, state, inputs, accelerations);
         let variables = states.iter().chain(&*by_inputs).copied();
         let slopes = [a, b].into_iter().flat_map(columns_of);
         let results = [c, d].into_iter().flat_map(columns_of);
-        let mut columns = slopes.zip(results);
+        let columns = variables.zip(slopes.zip(results));
+        for (number, (variable, (slopes, results))) in columns.enumerate() {
+            if !rows.fill(variable, results, slopes) {
+                return Err(DerivativeError::NotFinite { variable: number });
+            }
+        }
+        Ok(())
+    }
+
+    /// The derivatives of the outputs by states and inputs into their columns.
+    pub(super) fn output_columns<A: Attitude<D::Scalar>>(
+        &self,
+        (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
+        accelerations: &Accelerations<D, S>,
+        outputs: &Outputs<D::Scalar>,
+        (states, by_inputs): (&[Variable], &[Variable]),
+        into: [&mut DMatrix<D::Scalar>; 2],
+    ) -> Result<(), DerivativeError<D::Scalar>> {
+        let variables = states.iter().chain(by_inputs).copied();
+        let mut columns = into.into_iter().flat_map(columns_of);
         let emitted = if *outputs == Outputs::accelerations() {
             ByLoads::new(self, state, inputs, accelerations)
         } else {
             None
         };
         let Some(emitted) = emitted else {
-            self.derivatives(state, inputs, outputs, variables, |variable, column| {
-                let Some((slopes, results)) = columns.next() else { return };
-                for (to, of) in slopes.iter_mut().zip(&*states) {
-                    let element = column.element(*of, variable, &state.omega);
-                    *to = element.unwrap_or_else(zero);
-                }
-                results.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
+            self.derivatives(state, inputs, outputs, variables, |_, column| {
+                let column = columns.next().into_iter().flatten().zip(column.outputs());
+                column.for_each(|(to, from)| *to = from);
             })?;
             return Ok(());
         };
-        let fill = Fill::new(state, inputs, accelerations);
-        for (number, (variable, (slopes, results))) in variables.zip(columns).enumerate() {
-            let (of_hub, of_joints) = results.split_at_mut(results.len().min(6));
+        for (number, (variable, column)) in variables.zip(columns).enumerate() {
+            let (of_hub, of_joints) = column.split_at_mut(column.len().min(6));
             let hub = emitted.column(variable, of_joints);
             let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
             of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
-            fill.column(variable, &hub, of_joints, slopes);
-            // The other slopes are among these.
-            let of_slopes = slopes.get(..fill.of_hub).unwrap_or_default();
-            if !(are_finite(of_slopes) & are_finite(of_hub) & are_finite(of_joints)) {
+            if !(are_finite(of_hub) & are_finite(of_joints)) {
                 return Err(DerivativeError::NotFinite { variable: number });
             }
         }
@@ -263,7 +277,7 @@ fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
 }
 
 /// The columns of a matrix, empty where it has no rows.
-fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [T]> {
+pub(super) fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [T]> {
     let (rows, columns) = matrix.shape();
     let mut rest = matrix.as_mut_slice();
     (0..columns).map_while(move |_| {
@@ -271,68 +285,4 @@ fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [
         rest = others;
         Some(column)
     })
-}
-
-/// The elements of a column in the rows of the states, from those of the accelerations.
-struct Fill<T> {
-    bn: Columns<T>,
-    omega: Vec3<T>,
-    r_b_n_ddot: Vec3<T>,
-    /// Rows of the hub before those of the joints.
-    of_hub: usize,
-    /// The joints that are not locked.
-    moving: Vec<usize>,
-}
-
-impl<T: Scalar> Fill<T> {
-    fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureData>(
-        state: &State<D, A, S>,
-        inputs: &Inputs<D, S>,
-        accelerations: &Accelerations<D, S>,
-    ) -> Self {
-        let modes = inputs.modes.values().enumerate();
-        Self {
-            bn: columns(&state.attitude.dcm()),
-            omega: components(&state.omega),
-            r_b_n_ddot: components(&accelerations.r_b_n_ddot),
-            of_hub: if matches!(inputs.hub, HubMode::Fixed) { 0 } else { 12 },
-            moving: modes.filter(|(_, mode)| *mode != Mode::Locked).map(|(k, _)| k).collect(),
-        }
-    }
-
-    /// Into `slopes`, in the order of [`Spacecraft::state_variables`].
-    fn column(&self, by: Variable, hub: &HubChange<T>, joints: &[T], slopes: &mut [T]) {
-        let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
-        let Some((of_hub, of_joints)) = slopes.split_at_mut_checked(self.of_hub) else { return };
-        let (mut along_b, mut moves, mut turns) = (hub.r_b_n_ddot, [zero(); 3], [zero(); 3]);
-        match by {
-            Variable::Velocity(axis) => moves = unit(axis),
-            Variable::Attitude(axis) => {
-                along_b = add(along_b, cross(unit(axis), self.r_b_n_ddot));
-                turns = cross(unit(axis), self.omega);
-            }
-            Variable::Omega(axis) => turns = unit(axis),
-            _ => {}
-        }
-        let rows = [moves, turns, rotate_transposed(&self.bn, along_b), hub.omega_dot];
-        for (to, from) in of_hub.as_chunks_mut::<3>().0.iter_mut().zip(rows) {
-            *to = from;
-        }
-        let halves = of_joints.split_at_mut_checked(self.moving.len());
-        let Some((coordinates, rates)) = halves else { return };
-        if rates.len() == joints.len() {
-            rates.copy_from_slice(joints);
-        } else {
-            for (rate, joint) in rates.iter_mut().zip(&self.moving) {
-                *rate = joints.get(*joint).copied().unwrap_or_else(zero);
-            }
-        }
-        coordinates.fill(zero());
-        if let Variable::Rate(joint) = by
-            && let Some(place) = self.moving.iter().position(|moving| *moving == joint)
-            && let Some(coordinate) = coordinates.get_mut(place)
-        {
-            *coordinate = one();
-        }
-    }
 }

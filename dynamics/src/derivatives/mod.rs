@@ -25,6 +25,8 @@ pub(crate) mod parameters;
 mod point;
 mod products;
 #[cfg(feature = "alloc")]
+mod slopes;
+#[cfg(feature = "alloc")]
 pub(crate) mod step;
 pub(crate) mod structure;
 mod turned;
