@@ -10,7 +10,7 @@
 //!   wrenches applied to the bodies, exerted by parent bodies, and of a field; [`reference::boltzmann_hamel`], the same
 //!   once more from the kinetic energy only;
 //! - [`recursions`] in local frames, each emitted by its own name: `composite` (as `first_moment` and
-//!   `energy_momentum`), `axes`, `loads`, `external`, `gravity`;
+//!   `energy_momentum`), `axes`, `loads`, `load_derivatives`, `external`, `gravity`;
 //! - [`inward_pass`]: the device's share of the mass matrix from base parameters, from the tip to the hub. Below it: base
 //!   parameters, motion of the parent bodies, one joint, the first joint's origin, the last step to the hub. Emitted as
 //!   `eliminate` and `constant_share`;

@@ -2,17 +2,20 @@
 //!
 //! What the hub exerts on a device and what its motors exert depend on the device's own coordinates, rates and
 //! accelerations and on the hub's motion. By an angle it is cos ∂/∂sin - sin ∂/∂cos; by accelerations it is the mass
-//! matrix. The references are differentiated as sums over bodies along B, the statements in local frames.
+//! matrix. The references are differentiated so, as sums over bodies along B; the statements are a recursion in local
+//! frames, from the tip to the hub.
 
 use super::function::{along_joint, inputs};
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::chain::Chain;
+use crate::derivation::chain::wrench::Wrench;
 use crate::derivation::heading::Heading;
-use crate::derivation::recursions::loads::loads;
+use crate::derivation::recursions::load_derivatives::{LoadDerivatives, load_derivatives};
 use crate::derivation::reference::exerted;
 use crate::derivation::script::{Script, triple};
 use crate::graph::Expr;
 use crate::kinds::{Kind, Motion};
+use crate::space::Hub;
 
 /// What a derivative is taken by: its name and how.
 struct By<'g> {
@@ -26,15 +29,14 @@ struct By<'g> {
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;
     let mut script = Script::new(chain.graph);
-    loads(chain, &mut script);
+    let found = load_derivatives(chain, &mut script);
     let differentiated: Vec<_> = differentiated(kind);
-    let values: Vec<_> = differentiated.iter().map(|(_, load, _)| stated(&script, load)).collect();
     let variables = variables(chain);
-    for by in &variables {
+    for (by, values) in variables.iter().zip(stated(chain, &found)) {
         let heading = Heading::new(format!("By {}", by.name)).cited("from", "(16), (75)");
         script.section("by", heading.note(format!("per {}", by.unit)));
-        for ((name, ..), value) in differentiated.iter().zip(&values) {
-            script.name(derivative_name(name, &by.name), (by.derivative)(*value));
+        for ((name, ..), value) in differentiated.iter().zip(values) {
+            script.name(derivative_name(name, &by.name), value);
         }
     }
     Kernel {
@@ -76,10 +78,30 @@ fn differentiated(kind: &Kind) -> Vec<(String, String, String)> {
     list
 }
 
-fn stated<'g>(script: &Script<'g>, name: &str) -> Expr<'g> {
-    let mut statements = script.sections.iter().flat_map(|section| &section.statements);
-    let found = statements.find(|statement| statement.name == name);
-    found.map_or_else(|| panic!("`loads` states `{name}`"), |statement| statement.value)
+/// The derivatives by each of the variables, of what is differentiated.
+fn stated<'g>(chain: &Chain<'g>, found: &LoadDerivatives<'g>) -> Vec<Vec<Expr<'g>>> {
+    let moving = || (0..chain.links.len()).filter(|k| !chain.kind.links[*k].is_locked());
+    let driven = || (0..chain.links.len()).filter(|k| chain.kind.links[*k].is_driven());
+    let column = |load: &Wrench<'g, Hub>, motors: Vec<Expr<'g>>| {
+        let load = load.force.components().into_iter().chain(load.moment.components());
+        load.chain(motors).collect::<Vec<_>>()
+    };
+    let mut list = Vec::new();
+    for part in 0..3 {
+        list.extend(moving().map(|j| {
+            let motors = driven().map(|k| found.motors[k][j].each()[part]);
+            column(&found.by_joint[j].each()[part], motors.collect())
+        }));
+    }
+    for (part, loads) in [&found.by_omega, &found.by_omega_dot].into_iter().enumerate() {
+        list.extend(loads.iter().enumerate().map(|(axis, load)| {
+            column(
+                load,
+                driven().map(|k| found.motors_by_hub[k][part].components()[axis]).collect(),
+            )
+        }));
+    }
+    list
 }
 
 fn derivative_name(of: &str, by: &str) -> String {

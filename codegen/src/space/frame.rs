@@ -81,6 +81,12 @@ impl<'g, From: Frame, To: Frame> Turn<'g, From, To> {
         self.sin.is_zero()
     }
 
+    /// Its axis and the two after it, cyclically; sine and cosine.
+    #[must_use]
+    pub(crate) fn plane(self) -> ([usize; 3], [Expr<'g>; 2]) {
+        (self.axis.cycle(), [self.sin, self.cos])
+    }
+
     /// `d e / d angle`: through the sine and the cosine.
     #[must_use]
     pub fn partial(self, e: Expr<'g>) -> Expr<'g> {

@@ -153,11 +153,11 @@ fn every_mutant_beside_the_equations_of_motion_is_named() {
 }
 
 /// All of its mutants are put to the laws of physics by `cargo xtask mutate`. Every result is claimed, so that a mutant
-/// which fails no claim is the same function: terms that cancel, 26 of 9160.
+/// which fails no claim is the same function: terms that cancel, 2 of 3664.
 #[test]
 #[ignore = "long: `cargo xtask test --all`"]
 fn a_sample_of_statements_of_the_derivatives_is_named() {
-    let (mutants, named, same) = mutants_are_caught("load_derivatives", &["load_derivatives"], 300);
+    let (mutants, named, same) = mutants_are_caught("load_derivatives", &["load_derivatives"], 120);
     assert!(mutants > 15 && named + same == mutants, "{named} and {same} of {mutants}");
     assert!(10 * same <= mutants, "{same} of {mutants}");
 }

@@ -33,7 +33,7 @@ pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
 }
 
 /// Motions, with everything accelerating.
-fn outwards<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Vec<Motion<'g>> {
+pub(super) fn outwards<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Vec<Motion<'g>> {
     let motions = motions(chain, &Observer::accelerating(chain));
     for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions) {
         let (body, equations) = (&data.body, &data.body.equations);
