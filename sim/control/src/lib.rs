@@ -12,6 +12,7 @@
 //! - [`Gyro`], [`StarTracker`], [`Accelerometer`], [`Quantum`] (of tachometers and encoders), [`DelayLine`]: sensors, with
 //!   [`Noise`] by a seed;
 //! - [`SampledPlant`], [`Feedback`], [`SampledLoop`]: a linear loop with hold and delay, its margins and poles;
+//! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -21,6 +22,7 @@ extern crate std;
 
 extern crate alloc;
 
+mod estimator;
 mod filter;
 mod law;
 mod linear;
@@ -28,6 +30,8 @@ mod model;
 mod reference;
 mod sensor;
 
+pub use estimator::covariance::Covariance;
+pub use estimator::mekf::{Estimate, Mekf, MekfParameters};
 pub use filter::analog::{AnalogSection, Discretisation};
 pub use filter::cascade::Filter;
 pub use filter::section::Section;

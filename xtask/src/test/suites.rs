@@ -246,6 +246,7 @@ pub(crate) const SUITES: &[Suite] = &[
     all("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
     // What a sampled controller is made of.
     always("precess-control", "lib", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "estimator", &[SOLVER, &["sim/control"]]),
     always("precess-control", "filters", &[ENGINES, &["sim/control"]]),
     always("precess-control", "laws", &[SOLVER, &["sim/control"]]),
     always("precess-control", "references", &[SOLVER, &["sim/control"]]),

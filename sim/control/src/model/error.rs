@@ -64,6 +64,13 @@ pub enum ControlError {
         /// The longest.
         longest: f64,
     },
+    /// A measurement is older than the samples that an estimator has kept, or has more samples than may be kept.
+    TooOld {
+        /// Its age in samples.
+        age: usize,
+        /// How many samples there are.
+        kept: usize,
+    },
     /// A table has no rows.
     NoRows,
     /// The time of a row, counted from zero, is not above that of the row before.
@@ -138,6 +145,9 @@ impl fmt::Display for ControlError {
             ),
             Self::TooLong { periods, longest } => {
                 write!(to, "a latency of {periods} periods is above {longest}")
+            }
+            Self::TooOld { age, kept } => {
+                write!(to, "an age of {age} samples is above the {kept} that are kept")
             }
             Self::NoRows => write!(to, "the table has no rows"),
             Self::NotIncreasing { row, time } => {
