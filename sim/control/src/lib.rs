@@ -13,6 +13,7 @@
 //!   [`Noise`] by a seed;
 //! - [`SampledPlant`], [`Feedback`], [`SampledLoop`]: a linear loop with hold and delay, its margins and poles;
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
+//! - [`MomentumDumping`]: an external torque;
 //! - [`rotation`]: quaternions as turns one after another.
 
 #![no_std]
@@ -36,6 +37,7 @@ pub use filter::analog::{AnalogSection, Discretisation};
 pub use filter::cascade::Filter;
 pub use filter::section::Section;
 pub use law::damping::RateDamping;
+pub use law::dumping::MomentumDumping;
 pub use law::gyroscopic::Gyroscopic;
 pub use law::mrp::{MrpFeedback, MrpGains};
 pub use law::quaternion::QuaternionFeedback;

@@ -1,6 +1,7 @@
 //! Laws: from a [`Sample`] to the torque that is wanted on the spacecraft.
 
 pub(crate) mod damping;
+pub(crate) mod dumping;
 pub(crate) mod gyroscopic;
 pub(crate) mod mrp;
 pub(crate) mod quaternion;
