@@ -6,6 +6,8 @@
 //! filter turns by what it reads less the bias; at one of a star tracker the innovation is the rotation vector from the
 //! estimated attitude to the measured one.
 //!
+//! After an update the covariance is not turned by the correction, as in these sources: to first order it need not be.
+//!
 //! A measured attitude may arrive some samples of the gyro later: the filter keeps these samples, updates at the time of the
 //! measurement and turns by them anew. That is what it would have estimated, to the bit, had the measurement been there at once.
 

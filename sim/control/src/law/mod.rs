@@ -17,7 +17,8 @@ pub struct Sample {
     pub motion: Motion,
     /// What it is to follow.
     pub reference: Reference,
-    /// Angular momentum of the devices relative to the hub, expressed in B, N m s: `sum h_s` of wheels.
+    /// What the whole angular momentum about the centre of mass is above the law's inertia times the angular velocity,
+    /// expressed in B, N m s.
     pub momentum: Vector3<f64>,
     /// Known external torque about the centre of mass, expressed in B, N m.
     pub external: Vector3<f64>,

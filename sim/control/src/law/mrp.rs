@@ -56,7 +56,9 @@ pub struct MrpFeedback {
 }
 
 impl MrpFeedback {
-    /// With gains, and the inertia of the spacecraft about its centre of mass, devices locked, expressed in B, kg m².
+    /// With gains, and the inertia about the centre of mass that a commanded torque accelerates, expressed in B, kg m²:
+    /// `I`. Of wheels, whose motors exert that torque, it is that of the spacecraft with locked wheels less the wheels' own
+    /// about their axes, and [`Sample::momentum`] is then `h = sum J (spin + omega . s) s`.
     ///
     /// An inertia of zero leaves out all that is computed with it.
     ///

@@ -31,8 +31,8 @@ pub struct QuaternionFeedback {
 }
 
 impl QuaternionFeedback {
-    /// With `K`, N m, and `D`, N m s, and the inertia of the spacecraft about its centre of mass, devices locked, expressed in
-    /// B, kg m².
+    /// With `K`, N m, and `D`, N m s, and the inertia about the centre of mass that a commanded torque accelerates, expressed
+    /// in B, kg m² (as of [`MrpFeedback::new`](crate::MrpFeedback::new)).
     ///
     /// # Errors
     ///

@@ -7,3 +7,4 @@ mod lyapunov_of_quaternions;
 mod random;
 mod rigid_body;
 mod sampled_loop;
+mod wheels;
