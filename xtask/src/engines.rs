@@ -13,6 +13,7 @@ use xtask::skip::skip;
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated
 /// platforms; pyYeti, of structures; Basilisk's law, of steering, and its law and servo over a run; `SciPy`, of filters.
+/// platforms; pyYeti, of structures; Basilisk's laws, of steering and of attitude; `SciPy`, of filters.
 const SCRIPTS: [&str; 10] = [
     "tests/engines/store.py",
     KINDS,
@@ -24,6 +25,7 @@ const SCRIPTS: [&str; 10] = [
     "tests/engines/steering.py",
     "tests/engines/filters.py",
     "tests/engines/steered.py",
+    "tests/engines/mrp_feedback.py",
 ];
 
 /// What draws more spacecraft.

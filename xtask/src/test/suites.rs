@@ -248,7 +248,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-control", "lib", &[SOLVER, &["sim/control"]]),
     always("precess-control", "estimator", &[SOLVER, &["sim/control"]]),
     always("precess-control", "filters", &[ENGINES, &["sim/control"]]),
-    always("precess-control", "laws", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "laws", &[SOLVER, ENGINES, &["sim/control"]]),
     always("precess-control", "references", &[SOLVER, &["sim/control"]]),
     always("precess-control", "sensors", &[SOLVER, &["sim/control"]]),
     // The desktop tool.

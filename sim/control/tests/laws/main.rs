@@ -1,5 +1,6 @@
 //! Laws in closed loop with a rigid body: Lyapunov's functions, and exact solutions of sampled loops.
 
+mod basilisk;
 mod dumping;
 mod eigen_axis;
 mod lyapunov;
