@@ -15,6 +15,69 @@
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
 //! - [`MomentumDumping`]: an external torque;
 //! - [`rotation`]: quaternions as turns one after another.
+//!
+//! A slew, as a controller samples it: sensors, estimator, reference, law.
+//!
+//! ```
+//! use nalgebra::{Matrix3, Vector3};
+//! use precess_control::{
+//!     Covariance, Estimate, Guidance, Gyro, GyroOutput, GyroParameters, Law, Mekf, MekfParameters,
+//!     QuaternionFeedback, Sample, Slew, StarTracker, TurnLimits, rotation,
+//! };
+//! use precess_dynamics::{Attitude, Quaternion};
+//!
+//! const PERIOD: f64 = 0.1;
+//! let (walk, drift) = (1e-6, 1e-9);
+//! let mut gyro = Gyro::new(
+//!     &GyroParameters {
+//!         output: GyroOutput::Integrating,
+//!         period: PERIOD,
+//!         angle_random_walk: walk,
+//!         rate_random_walk: drift,
+//!         bias: Vector3::new(1e-5, 0.0, -1e-5),
+//!         quantum: 0.0,
+//!     },
+//!     1,
+//!     "gyro",
+//! )?;
+//! let start = Quaternion::identity();
+//! let mut star = StarTracker::new(start, Vector3::new(2e-5, 2e-5, 1e-4), 1, "star tracker")?;
+//! let mut filter = Mekf::new(
+//!     &MekfParameters {
+//!         period: PERIOD,
+//!         angle_random_walk: walk,
+//!         rate_random_walk: drift,
+//!         measured: star.covariance(),
+//!         longest_latency: 0,
+//!     },
+//!     &Estimate {
+//!         attitude: start,
+//!         bias: Vector3::zeros(),
+//!         covariance: Covariance::new(1e-4, 1e-5),
+//!     },
+//! )?;
+//! let end = rotation::from_vector(&Vector3::new(0.0, 0.0, 0.5));
+//! let limits = TurnLimits { rate: 0.02, acceleration: 2e-3, jerk: 1e-3 };
+//! let slew = Slew::new(0.0, start, end, &limits)?;
+//! let inertia = Matrix3::from_diagonal(&Vector3::new(900.0, 800.0, 600.0));
+//! let mut law = QuaternionFeedback::eigen_axis(0.5, 0.7, inertia)?;
+//!
+//! // The body turns about z only: its angle and rate, with the torque held.
+//! let (mut angle, mut rate) = (0.0, 0.0);
+//! let mut time = 0.0;
+//! while time < slew.end() + 20.0 {
+//!     let attitude = rotation::from_vector(&Vector3::new(0.0, 0.0, angle));
+//!     filter.update(&star.measure(&attitude), 0)?;
+//!     let sample = Sample::new(filter.motion(), slew.at(time));
+//!     let acceleration = law.torque(&sample).z / inertia.m33;
+//!     let turned = rate * PERIOD + 0.5 * acceleration * PERIOD * PERIOD;
+//!     (angle, rate) = (angle + turned, rate + acceleration * PERIOD);
+//!     time += PERIOD;
+//!     filter.propagate(&gyro.measure(&Vector3::new(0.0, 0.0, turned / PERIOD)));
+//! }
+//! assert!((angle - 0.5).abs() < 1e-4 && rate.abs() < 1e-4);
+//! # Ok::<(), precess_control::ControlError>(())
+//! ```
 
 #![no_std]
 
