@@ -283,7 +283,7 @@ fn slid<K: Kind>(joints: &K::Joints<K::Scalar>) -> Option<Vec3<K::Scalar>> {
 }
 
 /// The component of each wrench along its joint.
-fn along_joints<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
+pub(super) fn along_joints<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
     let mut components = K::all(zero());
     let joints = components.values_mut().zip(wrenches.values()).zip(K::JOINTS);
     for ((component, wrench), info) in joints {

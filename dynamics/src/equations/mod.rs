@@ -21,6 +21,7 @@ pub(crate) mod hub;
 pub(crate) mod joint_inputs;
 pub(crate) mod load_sums;
 pub(crate) mod mass_reduction;
+pub(crate) mod motor_torques;
 pub(crate) mod pivot_bound;
 #[cfg(feature = "lanes")]
 pub(crate) mod side_by_side;

@@ -18,7 +18,7 @@ use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{columns, components, sub};
+use crate::numbers::vec3::{Vec3, columns, components, sub};
 use crate::results::carried_loads::CarriedLoads;
 use crate::results::structure::StructureResults;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
@@ -130,6 +130,20 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
     }
 }
 
+/// What the devices of a rigid hub are in, and how it moves.
+pub(crate) fn base<D: Devices, S: StructureData>(
+    omega: Vec3<D::Scalar>,
+    accelerations: &Accelerations<D, S>,
+    field: Option<&Field<D::Scalar>>,
+) -> (Environment<D::Scalar>, HubAccelerations<D::Scalar>) {
+    let hub = HubAccelerations {
+        r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), at_b(field)),
+        omega_dot: components(&accelerations.omega_dot),
+    };
+    let central = field.and_then(|field| field.central);
+    (Environment { omega, central, impulse: false, reduction: None }, hub)
+}
+
 impl<D: Devices, S: StructureResults> Spacecraft<D, S> {
     /// The loads that these accelerations need: inverse dynamics.
     ///
@@ -192,14 +206,8 @@ impl<D: Devices, S: StructureResults> Spacecraft<D, S> {
         field: Option<&Field<D::Scalar>>,
         along: &Along<D::Scalar>,
     ) -> Weights<D> {
-        let omega = components(&state.omega);
-        let falling = at_b(field);
-        let hub = HubAccelerations {
-            r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), falling),
-            omega_dot: components(&accelerations.omega_dot),
-        };
-        let central = field.and_then(|field| field.central);
-        let environment = Environment { omega, central, impulse: false, reduction: None };
+        let (environment, hub) = base(components(&state.omega), accelerations, field);
+        let Environment { omega, central, .. } = environment;
         let given = inputs.of_joints();
         let mut devices = D::new_data(&self.devices, &data::Loads);
         let mut totals = LoadSums::none();

@@ -10,7 +10,7 @@ use crate::numbers::real::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SteeringError<T = f64> {
-    /// The length of the arrays is not the number of joints.
+    /// The arrays are shorter than there are joints.
     Joints {
         /// The number of joints of the spacecraft.
         expected: usize,

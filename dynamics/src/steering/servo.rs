@@ -2,14 +2,17 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
-use crate::equations::device_loads::LoadsOf;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::HubAccelerations;
 use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
-use crate::results::loads::LoadAxes;
-use crate::sets::bundle::Shared;
+use crate::numbers::vec3::{columns, components};
+use crate::results::loads::base;
+use crate::sets::bundle::{Bundle, Given, Shared};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::per_device as data;
@@ -43,7 +46,7 @@ pub struct ServoTorques<D: Devices, const N: usize> {
 
 impl<D: Devices> Spacecraft<D> {
     /// Motor torques for commands: rates of gimbals, accelerations of wheels. By an evaluation in which the commanded
-    /// joints have their accelerations prescribed, and the loads of its accelerations: coupling, imbalance, springs and
+    /// joints have their accelerations prescribed, and inverse dynamics of its accelerations: coupling, imbalance, springs and
     /// friction are compensated as far as the model has them.
     ///
     /// A commanded joint is prescribed whatever mode the inputs have for it: to apply its torque, drive it.
@@ -54,7 +57,7 @@ impl<D: Devices> Spacecraft<D> {
     /// # Errors
     ///
     /// [`SteeringError::Joints`], [`SteeringError::Platform`], [`SteeringError::Argument`], and those of
-    /// [`Self::accelerations`] and [`Self::loads`].
+    /// [`Self::accelerations`].
     pub fn servo<A: Attitude<D::Scalar>, const N: usize>(
         &self,
         servo: &Servo<D::Scalar, N>,
@@ -85,9 +88,22 @@ impl<D: Devices> Spacecraft<D> {
             }
         }
         let accelerations = self.accelerations(state, &prescribed)?;
-        let loads = self.loads(state, &prescribed, &accelerations, LoadAxes::Body)?;
-        let mut motors = Motors { joint: 0, device: 0, torques: [zero(); N] };
-        D::visit::<Shared<data::Loads>, _>(&self.devices, &loads.devices, &mut motors)?;
+        let bn = columns(&state.attitude.dcm());
+        let field = prescribed.gravity.field(&bn, &state.r_b_n);
+        let (environment, hub) = base(components(&state.omega), &accelerations, field.as_ref());
+        let mut motors = Motors {
+            environment: &environment,
+            hub: &hub,
+            joint: 0,
+            device: 0,
+            torques: [zero(); N],
+        };
+        let data = (&state.devices, prescribed.of_joints(), &accelerations.devices);
+        D::visit::<Moving, _>(&self.devices, data, &mut motors)?;
+        if let Some(joint) = motors.torques.iter().position(|torque| !torque.is_finite()) {
+            let failure = self.overflow(joint);
+            return Err(self.diagnosis(state, &prescribed, failure).into());
+        }
         let (mut torques, mut limited) = (motors.torques, 0);
         let given = inputs.motors.values();
         let joints = torques.iter_mut().zip(servo.limits).zip(servo.steered);
@@ -101,24 +117,40 @@ impl<D: Devices> Spacecraft<D> {
         }
         Ok(ServoTorques { torques, limited, accelerations })
     }
+
+    /// The error of a torque that is not finite.
+    fn overflow(&self, joint: usize) -> SolveError<D::Scalar> {
+        let what = self.joints().nth(joint).map_or(Quantity::HubLoad, |(device, info)| {
+            Quantity::Load { device, joint: info.body }
+        });
+        SolveError::Overflow { what }
+    }
 }
 
-/// Copies the motor torques of each device.
-struct Motors<T, const N: usize> {
+/// State, inputs and accelerations of the joints.
+type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
+
+/// The motor torques of each device.
+struct Motors<'a, T, const N: usize> {
+    environment: &'a Environment<T>,
+    hub: &'a HubAccelerations<T>,
     joint: usize,
     device: usize,
     torques: [T; N],
 }
 
-impl<T: Scalar, const N: usize> Visit<T, Shared<data::Loads>> for Motors<T, N> {
+impl<T: Scalar, const N: usize> Visit<T, Moving> for Motors<'_, T, N> {
     type Error = SteeringError<T>;
 
     fn visit<K: Kind<Scalar = T>>(
         &mut self,
-        _: &Device<K>,
-        loads: &LoadsOf<K>,
+        device: &Device<K>,
+        (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), SteeringError<T>> {
-        for motor in loads.motors.values() {
+        let bodies = given.bodies;
+        let torques =
+            device.motor_torques(joints, bodies, self.environment, self.hub, accelerations);
+        for motor in torques.values() {
             if let Some(torque) = self.torques.get_mut(self.joint) {
                 *torque = motor;
             }
@@ -131,7 +163,7 @@ impl<T: Scalar, const N: usize> Visit<T, Shared<data::Loads>> for Motors<T, N> {
     fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
         &mut self,
         _: &PreparedCarrying<C, D>,
-        _: &<Carrying<C, D> as DeviceSet>::Per<data::Loads>,
+        _: <Moving as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), SteeringError<T>> {
         Err(SteeringError::Platform { device: self.device })
     }

@@ -23,7 +23,7 @@ use crate::solve::state::State;
 use crate::steering::error::SteeringError;
 
 /// The moment about B that the hub exerts on all devices, term by term, expressed in B; the torque on the hub is the
-/// opposite. `N` is the number of joints, in the order of [`Spacecraft::joints`].
+/// opposite. `N` is the number of joints, in the order of [`Spacecraft::joints`], or more: the rest is zero.
 ///
 /// It is `sum by_rate q' + sum by_acceleration q'' + inertia omega' + first_moment x r_B'' + gyroscopic`, (75), without
 /// an approximation: imbalances, offsets and gimbal inertias are in it.
@@ -88,11 +88,12 @@ impl<T: Scalar, const N: usize> SteeringTerms<T, N> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// What the rates and the accelerations of all joints require about B.
+    /// What the rates and the accelerations of all joints require about B. `N` is the number of joints, or more where
+    /// their number is known only when the program runs: what is beyond the last joint is zero.
     ///
     /// # Errors
     ///
-    /// [`SteeringError::Joints`] where `N` is not the number of joints, [`SteeringError::Platform`], and the errors of
+    /// [`SteeringError::Joints`] where there are more than `N` joints, [`SteeringError::Platform`], and the errors of
     /// [`Self::momentum`].
     pub fn steering_terms<A: Attitude<D::Scalar>, const N: usize>(
         &self,
@@ -116,10 +117,10 @@ impl<D: Devices> Spacecraft<D> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Rejects arrays of another length than there are joints.
+    /// Rejects arrays that are shorter than there are joints.
     pub(super) fn reject_joints(&self, found: usize) -> Result<(), SteeringError<D::Scalar>> {
         let expected = D::list::<JointInfos>(&self.devices).count();
-        if expected == found { Ok(()) } else { Err(SteeringError::Joints { expected, found }) }
+        if expected <= found { Ok(()) } else { Err(SteeringError::Joints { expected, found }) }
     }
 }
 

@@ -1,9 +1,10 @@
 //! The servo: its torques give the commanded accelerations exactly; rates converge; limits hold.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
-    Inputs, Servo, Spacecraft, State, Steered, SteeringError, SteeringLaw, SteeringTerms,
+    Gravity, ImbalanceModel, Inputs, LoadAxes, Passive, ReactionWheel, Servo, Spacecraft, State,
+    Steered, SteeringError, SteeringLaw, SteeringTerms, Vscmg, Wrench, vscmg,
 };
 use precess_tests::case::Set;
 use precess_tests::random::{SEED, Sample};
@@ -28,6 +29,15 @@ fn torques_give_the_commanded_accelerations() {
             ([0.1, -0.2, 3.0, 0.3, 0.1, -2.0], [0.5, 0.0, 9.0, -0.5, 0.0, 9.0]);
         let found = craft.servo(&servo(), &case.state, &case.inputs, &commands, &forward).unwrap();
         assert_eq!(found.limited, 0);
+        // Those of the loads, bit by bit.
+        let loads = craft.loads(&case.state, &case.inputs, &found.accelerations, LoadAxes::Body);
+        let motors: Vec<f64> = loads
+            .unwrap()
+            .devices
+            .iter()
+            .flat_map(|of| of.motors.values().collect::<Vec<_>>())
+            .collect();
+        assert_eq!(found.torques.to_vec(), motors, "{sample}");
         let mut inputs = case.inputs;
         for (motor, torque) in inputs.motors.values_mut().zip(found.torques) {
             *motor = torque;
@@ -45,6 +55,45 @@ fn torques_give_the_commanded_accelerations() {
         for (found, expected) in solved.devices.values().zip(expected) {
             assert!((found - expected).abs() < 1e-7 * largest, "{sample}: {found} {expected}");
         }
+    }
+}
+
+/// A central field, wrenches on bodies, a lumped imbalance, springs and friction: the bits of the loads.
+#[test]
+fn torques_are_those_of_the_loads_whatever_acts() {
+    type Mixed = (Vscmg, ReactionWheel);
+    let inertia = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let mut devices = (Vscmg::bare_wheel(4.0, inertia), ReactionWheel::bare_wheel(4.0, inertia));
+    devices.0.passive =
+        vscmg::PerJoint::all(Passive { stiffness: 3.0, ..Passive::friction(0.1, 0.2, 0.3) });
+    (devices.1.d, devices.1.model) = (1e-4, ImbalanceModel::Lumped);
+    let craft = Spacecraft::new(&precess_tests::measured::hub(), &devices).unwrap();
+    let mut state: State<Mixed> = State::at_rest();
+    (state.r_b_n.x, state.omega.y) = (7e6, 0.1);
+    (state.devices.0.gamma, state.devices.0.gamma_dot, state.devices.0.spin) = (0.4, 0.3, 200.0);
+    (state.devices.1.theta, state.devices.1.spin) = (0.7, 300.0);
+    let steered = [Steered::Rate, Steered::Acceleration, Steered::Acceleration];
+    let servo = Servo { steered, gains: [5.0; 3], limits: [f64::INFINITY; 3] };
+    let mut inputs: Inputs<Mixed> = Inputs::none();
+    let mut before = [0.0; 3];
+    for acts in 0..3 {
+        if acts > 0 {
+            inputs.gravity = Gravity::Central { mu: 4e14 };
+        }
+        if acts > 1 {
+            let mut bodies = Inputs::no_wrenches_for(&craft);
+            for wrench in bodies.values_mut() {
+                *wrench = Wrench { force: Vector3::new(1.0, 2.0, 3.0), moment: Vector3::x() };
+            }
+            inputs.bodies = Some(bodies);
+        }
+        let found = craft.servo(&servo, &state, &inputs, &[0.1, 2.0, -3.0], &[0.0; 3]).unwrap();
+        let loads = craft.loads(&state, &inputs, &found.accelerations, LoadAxes::Body).unwrap();
+        let motors: Vec<f64> =
+            loads.devices.0.motors.values().chain(loads.devices.1.motors.values()).collect();
+        assert_eq!(found.torques.to_vec(), motors);
+        assert!(found.torques != before);
+        before = found.torques;
     }
 }
 

@@ -128,6 +128,13 @@ fn a_mixed_set_has_its_joints_in_order_and_another_number_is_an_error() {
     let refused = measured.craft.steering_terms::<_, 5>(&measured.state).unwrap_err();
     assert_eq!(refused, SteeringError::Joints { expected: 6, found: 5 });
     assert_eq!(refused.to_string(), "arrays of 5 for 6 joints; give one element per joint");
+    // Room for more joints: what is beyond the last one is zero.
+    let [exact, roomy] = [
+        measured.craft.steering_terms::<_, 6>(&measured.state).map(|of| of.by_rate.to_vec()),
+        measured.craft.steering_terms::<_, 9>(&measured.state).map(|of| of.by_rate.to_vec()),
+    ]
+    .map(Result::unwrap);
+    assert_eq!(roomy, [exact, vec![Vector3::zeros(); 3]].concat());
 }
 
 #[test]
