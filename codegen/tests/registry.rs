@@ -26,7 +26,7 @@ use Form::{C, Module, Type};
 /// Lists of all kinds that nothing emits, from the repository's root.
 const BY_HAND: [(&str, Form); 25] = [
     ("docs/guide.md", Type),
-    ("flight/capi/include/precess.h", C),
+    ("flight/capi/include/precess_constants.h", C),
     ("flight/capi/tests/layout.c", C),
     ("flight/firmware/library/src/lib.rs", Type),
     ("flight/firmware/src/bin/instructions.rs", Module),
@@ -99,7 +99,7 @@ fn lists_by_hand_name_every_kind() {
 fn c_gives_each_kind_its_number_and_no_other() {
     let expected: Vec<_> =
         REGISTRY.iter().map(|entry| format!("{} = {}", entry.c_name(), entry.number)).collect();
-    let header = read("flight/capi/include/precess.h");
+    let header = read("flight/capi/include/precess_constants.h");
     let lines = header.lines().map(str::trim).filter(|line| line.starts_with("PRECESS_KIND_"));
     let stated = |line: &str| line.split([',', '/']).next().unwrap_or(line).trim().to_owned();
     assert_eq!(lines.map(stated).collect::<Vec<_>>(), expected);

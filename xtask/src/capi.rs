@@ -18,8 +18,12 @@ use crate::skip::skip;
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
 /// The workspace of what is linked on board.
 pub const MANIFEST: &str = "flight/Cargo.toml";
-/// Its header.
-pub const HEADER: &str = "flight/capi/include/precess.h";
+/// Its headers: one that programs include, what it includes, and one of its own for steering.
+pub const HEADERS: [&str; 3] = [
+    "flight/capi/include/precess.h",
+    "flight/capi/include/precess_constants.h",
+    "flight/capi/include/precess_steering.h",
+];
 const LAYOUTS: [(&str, &str); 2] =
     [("layout", "flight/capi/tests/layout.c"), ("layout-v2", "flight/capi/tests/layout_v2.c")];
 /// A program of version 1 of the interface.
@@ -28,6 +32,9 @@ const PROGRAM: &[&str] = &["flight/capi/tests/abi.c"];
 const PROGRAM_2: &[&str] = &["flight/capi/tests/version2.c", "flight/capi/tests/version1.c"];
 /// A program of platforms, which version 2 has.
 const PLATFORMS: &[&str] = &["flight/capi/tests/platforms.c"];
+/// A program of steering: of version 1, and of 2.
+const STEERING: &[&str] = &["flight/capi/tests/steering.c"];
+const STEERING_VERSIONS: [&str; 2] = ["-DPRECESS_TABLE_VERSION=1", "-DPRECESS_TABLE_VERSION=2"];
 /// How the library is linked.
 pub const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
@@ -74,6 +81,7 @@ pub fn host() -> Result<(), String> {
     let host = built()?;
     host.exports()?;
     let (mut outputs, mut second, mut platforms) = (Vec::new(), Vec::new(), Vec::new());
+    let mut steering = Vec::new();
     for compiler in &COMPILERS {
         if !is_there(compiler.name) {
             skip(&format!("C interface by {}", compiler.name), compiler.install)?;
@@ -90,6 +98,11 @@ pub fn host() -> Result<(), String> {
         }
         let program = host.compile(compiler, "platforms", PLATFORMS, &["-O2", "-DHOSTED"], true)?;
         platforms.push((program.clone(), printed(&mut Command::new(&program))?));
+        for version in STEERING_VERSIONS {
+            let options = ["-O2", "-DHOSTED", version];
+            let program = host.compile(compiler, "steering", STEERING, &options, true)?;
+            steering.push((program.clone(), printed(&mut Command::new(&program))?));
+        }
         let first = host.guide()?;
         let first = host.compile(compiler, "first", &[&first], &["-O2"], true)?;
         printed(&mut Command::new(first))?;
@@ -104,10 +117,15 @@ pub fn host() -> Result<(), String> {
         second.push((program.clone(), printed(&mut Command::new(&program))?));
         let program = host.compile(gcc, "platforms", PLATFORMS, &options, true)?;
         platforms.push((program.clone(), printed(&mut Command::new(&program))?));
+        let program = host.compile(gcc, "steering", STEERING, &options, true)?;
+        steering.push((program.clone(), printed(&mut Command::new(&program))?));
     }
-    for (what, outputs) in
-        [("version 1", &outputs), ("version 2", &second), ("platforms", &platforms)]
-    {
+    for (what, outputs) in [
+        ("version 1", &outputs),
+        ("version 2", &second),
+        ("platforms", &platforms),
+        ("steering", &steering),
+    ] {
         same(outputs)?;
         let count = outputs.len();
         say!("{what}: {count} programs in C and C++ print the same bits");
@@ -152,7 +170,9 @@ impl Host {
         if !is_there("nm") {
             return skip("exports of the library", "apt-get install binutils");
         }
-        let header = read(&root().join(HEADER))?;
+        let headers: Result<Vec<String>, String> =
+            HEADERS.iter().map(|header| read(&root().join(header))).collect();
+        let header = headers?.concat();
         let declared: BTreeSet<_> = functions(&header).collect();
         let nm = |option: &str| {
             printed(Command::new("nm").args(["--dynamic", option]).arg(&self.shared))
@@ -162,7 +182,7 @@ impl Host {
             defined.lines().filter_map(|line| line.split(' ').nth(2)).collect();
         if let Some(name) = declared.symmetric_difference(&defined).next() {
             return Err(format!(
-                "{name} is in only one of {HEADER} and the library; add it to the other"
+                "{name} is in only one of the headers and the library; add it to the other"
             ));
         }
         let undefined = nm("--undefined-only")?;

@@ -116,6 +116,7 @@ fn report<D: Devices<Scalar = f64>>(
             joints.find(|(device, info)| Some(*device) == rejection.device && named(info))?;
         Some(info.index)
     });
+    let joint = rejection.joint_index.or(joint);
     let of_device = |device| craft.map_or(device, |craft| craft.entry_map.entry(device));
     let entry = rejection.entry.or(rejection.device.map(of_device));
     if let Some(fault) = fault {

@@ -2,7 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 
-use precess_dynamics::{ParameterError, Part, Quantity, SolveError};
+use precess_dynamics::{ParameterError, Part, Quantity, SolveError, SteeringError};
 
 use crate::memory::{self, Plain};
 
@@ -118,6 +118,15 @@ codes! {
     /// A matrix or strut of a suspension is out of range.
     Suspension = 28, c"PRECESS_ERROR_SUSPENSION",
         c"a matrix is not symmetric or not positive semidefinite, or a strut has no length, direction";
+    /// A number of a law or servo is out of range.
+    Command = 29, c"PRECESS_ERROR_COMMAND",
+        c"a weight, limit, lambda is below 0, reference not above 0, bounds out of order, dither 1/2 or more";
+    /// The commanded joints are singular.
+    NoTorque = 30, c"PRECESS_ERROR_NO_TORQUE",
+        c"the commanded joints give no torque along some direction; use PRECESS_INVERSE_ROBUST, or more joints";
+    /// A device that cannot be steered.
+    NoSteering = 31, c"PRECESS_ERROR_NO_STEERING",
+        c"a platform, or a panel that carries one, has no steering terms; steer devices on the hub";
 }
 
 /// Where a rejection comes from: `precess_fault`.
@@ -150,13 +159,16 @@ pub struct Rejection {
     /// Index of the entry, where it is known.
     pub(crate) entry: Option<usize>,
     pub(crate) joint: Option<&'static str>,
+    /// Index of the joint in its entry, where it is known.
+    pub(crate) joint_index: Option<usize>,
     pub(crate) value: f64,
     pub(crate) bound: f64,
 }
 
 impl From<Code> for Rejection {
     fn from(code: Code) -> Self {
-        Self { code, device: None, entry: None, joint: None, value: 0.0, bound: 0.0 }
+        let (value, bound) = (0.0, 0.0);
+        Self { code, device: None, entry: None, joint: None, joint_index: None, value, bound }
     }
 }
 
@@ -251,6 +263,22 @@ impl From<SolveError> for Rejection {
                 Self::valued(Code::Unstable, dt, longest).at(device, joint)
             }
             SolveError::Overflow { what } => Self::from(Code::Overflow).about(what),
+            _ => Code::Other.into(),
+        }
+    }
+}
+
+impl From<SteeringError> for Rejection {
+    fn from(error: SteeringError) -> Self {
+        match error {
+            SteeringError::Platform { device } => Self::from(Code::NoSteering).at(device, None),
+            SteeringError::Singular { pivot, bound } => Self::valued(Code::NoTorque, pivot, bound),
+            SteeringError::Argument { value, .. } if value.is_finite() => {
+                Self::valued(Code::Command, value, 0.0)
+            }
+            SteeringError::Argument { value, .. } => Self::valued(Code::NotFinite, value, 0.0),
+            SteeringError::Overflow => Code::Overflow.into(),
+            SteeringError::Solve(error) => error.into(),
             _ => Code::Other.into(),
         }
     }

@@ -10,8 +10,12 @@ use crate::evaluate::{accelerations_of, energy, momentum_of, step, stop};
 use crate::inputs::inputs_none;
 use crate::loads::loads_of;
 use crate::state::{state_at_rest, state_restore, state_save, state_wrap};
+use crate::steering::{allocate, servo_torques_of, steering_terms_of};
 use crate::table::{init_from_table, table_write};
-use crate::types::{Accelerations, Hub, Inputs, Loads, Momentum, Power, State};
+use crate::types::{
+    Accelerations, Allocation, Hub, Inputs, Loads, Momentum, Power, Servo, ServoTorques, State,
+    SteeringLaw, SteeringTerms,
+};
 use crate::version::EntryOf;
 
 #[cfg(test)]
@@ -153,6 +157,28 @@ versions! {
         inputs: *const Inputs<J>,
         axes: i32,
         out: *mut Loads<J>,
+        fault: *mut Fault,
+    );
+    steering_terms_of "precess_steering_terms_of" "precess_steering_terms_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        out: *mut SteeringTerms<J>,
+        fault: *mut Fault,
+    );
+    allocate "precess_allocate" "precess_allocate_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        law: *const SteeringLaw<J>,
+        torque: *const f64,
+        out: *mut Allocation<J>,
+        fault: *mut Fault,
+    );
+    servo_torques_of "precess_servo_torques_of" "precess_servo_torques_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        inputs: *const Inputs<J>,
+        servo: *const Servo<J>,
+        out: *mut ServoTorques<J>,
         fault: *mut Fault,
     );
 }

@@ -6,8 +6,8 @@ use core::mem::{offset_of, size_of};
 
 use crate::error::{Code, Fault};
 use crate::types::{
-    Accelerations, Body, Device, Entry, Hub, Inputs, Loads, Momentum, Passive, Power, State, Strut,
-    Suspension, Wrench,
+    Accelerations, Allocation, Body, Device, Entry, Hub, Inputs, Loads, Momentum, Passive, Power,
+    Servo, ServoTorques, State, SteeringLaw, SteeringTerms, Strut, Suspension, Wrench,
 };
 use crate::version::{EntryOf, Interface, Versions};
 
@@ -96,6 +96,17 @@ where
         "precess_momentum" Momentum: Momentum { linear angular }
         "precess_power" Power: Power { external hub gravity motors springs friction }
         "precess_loads" Loads: Loads<J> { hub mount joint motor }
+        "precess_steering_terms" SteeringTerms: SteeringTerms<J> {
+            by_rate by_acceleration momentum first_moment inertia gyroscopic
+        }
+        "precess_steering_law" SteeringLaw: SteeringLaw<J> {
+            weight lower upper reference lambda mu dither wheel_mu steered inverse bounded
+        }
+        "precess_allocation" Allocation: Allocation<J> {
+            command torque_error measure at_bound reserved
+        }
+        "precess_servo" Servo: Servo<J> { command feed_forward gain limit steered }
+        "precess_servo_torques" ServoTorques: ServoTorques<J> { motor limited reserved }
     }
     let version = crate::table::version(J);
     if version == 2 {
@@ -132,7 +143,7 @@ where
     } else {
         format!("#define PRECESS_TABLE_VERSION {version}\n")
     };
-    format!("{HEAD}\n{chosen}#include \"precess.h\"\n{IS}{}\n", lines.join("\n"))
+    format!("{HEAD}\n{chosen}#include \"precess_steering.h\"\n{IS}{}\n", lines.join("\n"))
 }
 
 fn settle<const J: usize>(path: &str)

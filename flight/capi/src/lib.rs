@@ -27,6 +27,7 @@ mod platform;
 mod pointers;
 mod rows;
 pub mod state;
+mod steering;
 pub mod table;
 pub mod types;
 mod version;

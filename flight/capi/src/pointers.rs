@@ -4,13 +4,16 @@
 //! The functions are those of the list in [`exports`](crate::exports) and the few of one version, held
 //! against the prototypes of the header.
 
+mod structures;
+
 use core::ffi::c_void;
 
+use self::structures::{law, servo, wheel};
 use crate::craft::{ALIGN, precess_joints, precess_mass};
 use crate::error::{Code, Fault, precess_error_text};
 use crate::exports;
 use crate::state::precess_state_length;
-use crate::types::{Body, Device, Entry, Hub, Inputs, State};
+use crate::types::{Entry, Hub, Inputs, State};
 use crate::version::{EntryOf, Interface, Versions};
 
 /// A function, called with arguments by their names.
@@ -189,16 +192,6 @@ fn bytes<T: Copy>(value: &T) -> Vec<u8> {
     unsafe { core::slice::from_raw_parts((&raw const *value).cast(), size_of::<T>()) }.to_vec()
 }
 
-/// A wheel of 3 kg.
-fn wheel<const J: usize>() -> Device<J> {
-    let mut device = Device { kind: 9, ..Device::EMPTY };
-    let diagonal = |[x, y, z]: [f64; 3]| [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z];
-    device.mount = diagonal([1.0; 3]);
-    let inertia = diagonal([0.02, 0.01, 0.01]);
-    device.bodies[0] = Body { mass: 3.0, origin: [0.1; 3], centre: [0.0; 3], inertia };
-    device
-}
-
 /// What the pointers of each name point to: a hub with a wheel that turns.
 fn contents<const J: usize>(calls: &[Call], entry: EntryOf<J>) -> Vec<(&'static str, Vec<u8>)>
 where
@@ -239,6 +232,9 @@ where
     let mut stopping = read::<Inputs<J>>(&contents[inputs].1);
     stopping.mode[0][0] = 2;
     contents.push(("stopping", bytes(&stopping)));
+    contents.push(("torque", bytes(&[1.0, 2.0, 3.0])));
+    contents.push(("law", bytes(&law::<J>())));
+    contents.push(("servo", bytes(&servo::<J>())));
     // A state saved: 13 numbers, and two of the wheel.
     let numbers = [moving.position, moving.velocity].concat().into_iter().chain(moving.attitude);
     let joint = [moving.coordinate[0][0], moving.rate[0][0]];
@@ -327,7 +323,10 @@ fn a_rejected_pointer_of_any_function_leaves_everything_as_it_was() {
 
 /// Names of the functions of the header, with those of the arguments that are pointers.
 fn prototypes() -> Vec<(String, Vec<String>)> {
-    let header = include_str!("../include/precess.h");
+    let header = concat!(
+        include_str!("../include/precess.h"),
+        include_str!("../include/precess_steering.h")
+    );
     let mut text = String::new();
     for (index, part) in header.split("/*").enumerate() {
         text += if index == 0 { part } else { part.split_once("*/").map_or("", |(_, code)| code) };
@@ -355,7 +354,7 @@ fn prototypes() -> Vec<(String, Vec<String>)> {
 #[test]
 fn every_function_of_the_header_is_checked_with_each_of_its_pointers() {
     let prototypes = prototypes();
-    assert!(prototypes.len() >= 20, "{prototypes:?}");
+    assert!(prototypes.len() >= 23, "{prototypes:?}");
     let [first, second] = [exports::first(), exports::second()];
     assert_eq!(first.len(), second.len());
     let contents = contents::<3>(&first, wheel());

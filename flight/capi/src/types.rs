@@ -216,6 +216,86 @@ structures! {
         /// N m or N.
         motor: PerJoint<f64, J>,
     }
+
+    /// `precess_steering_terms`.
+    SteeringTerms<J> {
+        /// N m s or N s.
+        by_rate: PerJoint<[f64; 3], J>,
+        /// kg m² or kg m.
+        by_acceleration: PerJoint<[f64; 3], J>,
+        /// About B, kg m²/s.
+        momentum: [f64; 3],
+        /// About B, kg m.
+        first_moment: [f64; 3],
+        /// About B, kg m².
+        inertia: [f64; 9],
+        /// N m.
+        gyroscopic: [f64; 3],
+    }
+
+    /// `precess_steering_law`.
+    SteeringLaw<J> {
+        /// How readily each joint moves.
+        weight: PerJoint<f64, J>,
+        /// rad/s or rad/s².
+        lower: PerJoint<f64, J>,
+        /// rad/s or rad/s².
+        upper: PerJoint<f64, J>,
+        /// kg m²/s.
+        reference: f64,
+        /// Of inverses but the exact one.
+        lambda: f64,
+        /// How fast it falls with the measure.
+        mu: f64,
+        /// Elements 23, 13, 12.
+        dither: [f64; 3],
+        /// How fast weights of accelerations fall with the measure.
+        wheel_mu: f64,
+        /// `PRECESS_STEER_`.
+        steered: PerJoint<i32, J>,
+        /// `PRECESS_INVERSE_`.
+        inverse: i32,
+        /// Whether the bounds are read: 0 or 1.
+        bounded: i32,
+    }
+
+    /// `precess_allocation`.
+    Allocation<J> {
+        /// rad/s or rad/s².
+        command: PerJoint<f64, J>,
+        /// N m.
+        torque_error: [f64; 3],
+        /// Of the joints whose rates are commanded.
+        measure: f64,
+        /// How many commands are.
+        at_bound: i32,
+        /// 0.
+        reserved: i32,
+    }
+
+    /// `precess_servo`.
+    Servo<J> {
+        /// rad/s or rad/s².
+        command: PerJoint<f64, J>,
+        /// rad/s².
+        feed_forward: PerJoint<f64, J>,
+        /// 1/s.
+        gain: PerJoint<f64, J>,
+        /// N m or N.
+        limit: PerJoint<f64, J>,
+        /// `PRECESS_STEER_`.
+        steered: PerJoint<i32, J>,
+    }
+
+    /// `precess_servo_torques`.
+    ServoTorques<J> {
+        /// N m or N.
+        motor: PerJoint<f64, J>,
+        /// How many are at their limit.
+        limited: i32,
+        /// 0.
+        reserved: i32,
+    }
 }
 
 impl Wrench {

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "precess.h"
+#include "precess_steering.h"
 
 #ifdef __cplusplus
 #define IS(what, number) static_assert((what) == (number), #what)
@@ -65,6 +65,9 @@ IS(PRECESS_ERROR_UNSTABLE, 25);
 IS(PRECESS_ERROR_MANY_JOINTS, 26);
 IS(PRECESS_ERROR_NO_PLATFORM, 27);
 IS(PRECESS_ERROR_SUSPENSION, 28);
+IS(PRECESS_ERROR_COMMAND, 29);
+IS(PRECESS_ERROR_NO_TORQUE, 30);
+IS(PRECESS_ERROR_NO_STEERING, 31);
 IS(sizeof(precess_fault), 32);
 IS(offsetof(precess_fault, code), 0);
 IS(offsetof(precess_fault, device), 4);
@@ -137,3 +140,38 @@ IS(offsetof(precess_loads, hub), 0);
 IS(offsetof(precess_loads, mount), 48);
 IS(offsetof(precess_loads, joint), 432);
 IS(offsetof(precess_loads, motor), 1584);
+IS(sizeof(precess_steering_terms), 1296);
+IS(offsetof(precess_steering_terms, by_rate), 0);
+IS(offsetof(precess_steering_terms, by_acceleration), 576);
+IS(offsetof(precess_steering_terms, momentum), 1152);
+IS(offsetof(precess_steering_terms, first_moment), 1176);
+IS(offsetof(precess_steering_terms, inertia), 1200);
+IS(offsetof(precess_steering_terms, gyroscopic), 1272);
+IS(sizeof(precess_steering_law), 736);
+IS(offsetof(precess_steering_law, weight), 0);
+IS(offsetof(precess_steering_law, lower), 192);
+IS(offsetof(precess_steering_law, upper), 384);
+IS(offsetof(precess_steering_law, reference), 576);
+IS(offsetof(precess_steering_law, lambda), 584);
+IS(offsetof(precess_steering_law, mu), 592);
+IS(offsetof(precess_steering_law, dither), 600);
+IS(offsetof(precess_steering_law, wheel_mu), 624);
+IS(offsetof(precess_steering_law, steered), 632);
+IS(offsetof(precess_steering_law, inverse), 728);
+IS(offsetof(precess_steering_law, bounded), 732);
+IS(sizeof(precess_allocation), 232);
+IS(offsetof(precess_allocation, command), 0);
+IS(offsetof(precess_allocation, torque_error), 192);
+IS(offsetof(precess_allocation, measure), 216);
+IS(offsetof(precess_allocation, at_bound), 224);
+IS(offsetof(precess_allocation, reserved), 228);
+IS(sizeof(precess_servo), 864);
+IS(offsetof(precess_servo, command), 0);
+IS(offsetof(precess_servo, feed_forward), 192);
+IS(offsetof(precess_servo, gain), 384);
+IS(offsetof(precess_servo, limit), 576);
+IS(offsetof(precess_servo, steered), 768);
+IS(sizeof(precess_servo_torques), 200);
+IS(offsetof(precess_servo_torques, motor), 0);
+IS(offsetof(precess_servo_torques, limited), 192);
+IS(offsetof(precess_servo_torques, reserved), 196);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #define PRECESS_TABLE_VERSION 2
-#include "precess.h"
+#include "precess_steering.h"
 
 #ifdef __cplusplus
 #define IS(what, number) static_assert((what) == (number), #what)
@@ -66,6 +66,9 @@ IS(PRECESS_ERROR_UNSTABLE, 25);
 IS(PRECESS_ERROR_MANY_JOINTS, 26);
 IS(PRECESS_ERROR_NO_PLATFORM, 27);
 IS(PRECESS_ERROR_SUSPENSION, 28);
+IS(PRECESS_ERROR_COMMAND, 29);
+IS(PRECESS_ERROR_NO_TORQUE, 30);
+IS(PRECESS_ERROR_NO_STEERING, 31);
 IS(sizeof(precess_fault), 32);
 IS(offsetof(precess_fault, code), 0);
 IS(offsetof(precess_fault, device), 4);
@@ -138,6 +141,41 @@ IS(offsetof(precess_loads, hub), 0);
 IS(offsetof(precess_loads, mount), 48);
 IS(offsetof(precess_loads, joint), 432);
 IS(offsetof(precess_loads, motor), 3120);
+IS(sizeof(precess_steering_terms), 2832);
+IS(offsetof(precess_steering_terms, by_rate), 0);
+IS(offsetof(precess_steering_terms, by_acceleration), 1344);
+IS(offsetof(precess_steering_terms, momentum), 2688);
+IS(offsetof(precess_steering_terms, first_moment), 2712);
+IS(offsetof(precess_steering_terms, inertia), 2736);
+IS(offsetof(precess_steering_terms, gyroscopic), 2808);
+IS(sizeof(precess_steering_law), 1632);
+IS(offsetof(precess_steering_law, weight), 0);
+IS(offsetof(precess_steering_law, lower), 448);
+IS(offsetof(precess_steering_law, upper), 896);
+IS(offsetof(precess_steering_law, reference), 1344);
+IS(offsetof(precess_steering_law, lambda), 1352);
+IS(offsetof(precess_steering_law, mu), 1360);
+IS(offsetof(precess_steering_law, dither), 1368);
+IS(offsetof(precess_steering_law, wheel_mu), 1392);
+IS(offsetof(precess_steering_law, steered), 1400);
+IS(offsetof(precess_steering_law, inverse), 1624);
+IS(offsetof(precess_steering_law, bounded), 1628);
+IS(sizeof(precess_allocation), 488);
+IS(offsetof(precess_allocation, command), 0);
+IS(offsetof(precess_allocation, torque_error), 448);
+IS(offsetof(precess_allocation, measure), 472);
+IS(offsetof(precess_allocation, at_bound), 480);
+IS(offsetof(precess_allocation, reserved), 484);
+IS(sizeof(precess_servo), 2016);
+IS(offsetof(precess_servo, command), 0);
+IS(offsetof(precess_servo, feed_forward), 448);
+IS(offsetof(precess_servo, gain), 896);
+IS(offsetof(precess_servo, limit), 1344);
+IS(offsetof(precess_servo, steered), 1792);
+IS(sizeof(precess_servo_torques), 456);
+IS(offsetof(precess_servo_torques, motor), 0);
+IS(offsetof(precess_servo_torques, limited), 448);
+IS(offsetof(precess_servo_torques, reserved), 452);
 IS(offsetof(precess_device, on), 1256);
 IS(offsetof(precess_device, reserved), 1260);
 IS(offsetof(precess_device, suspension), 1264);

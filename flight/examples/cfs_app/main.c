@@ -1,5 +1,5 @@
 /* The ground and the scheduler, on this machine: ten seconds of the app, with a table, commands, and
- * what goes wrong. Prints telemetry; exits with 1 unless all is as it must be. */
+ * what goes wrong; forty more in which it points. Prints telemetry; exits with 1 unless all is as it must be. */
 
 #include <stdio.h>
 #include <string.h>
@@ -72,6 +72,65 @@ static void send(int32_t expected, uint32_t device, uint32_t joint, int32_t mode
     }
 }
 
+/* Points back to where it started, by the gimbals and the wheel of the DGVSCMG and by the other wheel. */
+static int point(void)
+{
+    static dyn_pointing_command command;
+    static const uint32_t joints[4][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 0}};
+    const dyn_housekeeping *telemetry = &app.telemetry;
+    int k, cycle;
+    command.attitude[0] = 1.0;
+    command.stiffness = 60.0;
+    command.damping = 380.0;
+    command.gain = 20.0;
+    command.limit = 5.0;
+    command.law.reference = 2.0;
+    command.law.bounded = 1;
+    for (k = 0; k < 4; k++) {
+        uint32_t device = joints[k][0], joint = joints[k][1];
+        int is_gimbal = device == 0 && joint < 2;
+        command.law.steered[device][joint] = is_gimbal ? PRECESS_STEER_RATE : PRECESS_STEER_ACCELERATION;
+        command.law.weight[device][joint] = is_gimbal ? 1.0 : 100.0;
+        command.law.upper[device][joint] = is_gimbal ? 0.5 : 20.0;
+        command.law.lower[device][joint] = -command.law.upper[device][joint];
+    }
+    command.law.weight[0][1] = -1.0;
+    if (dyn_app_point(&app, &command) != PRECESS_ERROR_COMMAND || telemetry->fault_joint != 1) {
+        printf("a weight below zero: not rejected as it must be\n");
+        return 1;
+    }
+    command.law.weight[0][1] = 1.0;
+    if (dyn_app_point(&app, &command) != PRECESS_OK) {
+        printf("pointing rejected: %s\n", precess_error_name(telemetry->last_error));
+        return 1;
+    }
+    for (cycle = 0; cycle < 400; cycle++) {
+        if (dyn_app_wake_up(&app) != PRECESS_OK) {
+            printf("sample rejected: %s\n", precess_error_name(telemetry->last_error));
+            return 1;
+        }
+        if (cycle % 80 == 79) {
+            printf("%4.1f s  omega %+.2e %+.2e %+.2e rad/s  axis %+.2e %+.2e %+.2e  torque %+.2e %+.2e %+.2e N m\n",
+                   10.0 + 0.1 * (cycle + 1), telemetry->omega[0], telemetry->omega[1], telemetry->omega[2],
+                   app.state.attitude[1], app.state.attitude[2], app.state.attitude[3], telemetry->torque[0],
+                   telemetry->torque[1], telemetry->torque[2]);
+        }
+    }
+    fprintf(stderr, "pointing: residuals %.1e J, %.1e kg m^2/s, %u commands at their bounds\n",
+            telemetry->energy_residual, telemetry->momentum_residual, (unsigned)telemetry->at_bound);
+    for (k = 0; k < 3; k++) {
+        double angle = 2.0 * app.state.attitude[1 + k], bound = 1e-5;
+        if (angle > bound || angle < -bound) {
+            printf("axis %d is off by %.1e rad\n", k, angle);
+            return 1;
+        }
+    }
+    return telemetry->energy_residual < ENERGY_BOUND && telemetry->energy_residual > -ENERGY_BOUND &&
+                   telemetry->momentum_residual < MOMENTUM_BOUND
+               ? 0
+               : 1;
+}
+
 int main(void)
 {
     const dyn_housekeeping *telemetry = &app.telemetry;
@@ -114,10 +173,14 @@ int main(void)
     fprintf(stderr, "residuals %.1e J, %.1e kg m^2/s\n", telemetry->energy_residual,
             telemetry->momentum_residual);
 
+    if (point() != 0) {
+        return 1;
+    }
+
     /* A table that was damaged in transmission changes nothing. */
     table[500] ^= 0x40;
     if (dyn_app_load(&app, table, length) != PRECESS_ERROR_TABLE_CHECKSUM || telemetry->tables != 1 ||
-        dyn_app_wake_up(&app) != PRECESS_OK || telemetry->wake_ups != 101) {
+        dyn_app_wake_up(&app) != PRECESS_OK || telemetry->wake_ups != 501) {
         printf("damaged table: not rejected as it must be\n");
         return 1;
     }

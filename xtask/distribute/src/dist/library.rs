@@ -8,7 +8,7 @@ use super::archive::{Entry, pack};
 use super::build::Stage;
 use super::licences;
 use super::sources::entry;
-use xtask::capi::{GUIDE, HEADER, MANIFEST};
+use xtask::capi::{GUIDE, HEADERS, MANIFEST};
 use xtask::run::{output, run_there};
 
 /// Files of `pkg-config` and `CMake`, with `@VERSION@` and `@SONAME@` to be filled in.
@@ -43,13 +43,16 @@ pub(super) fn package(stage: &Stage) -> Result<Package, String> {
         Entry::file("lib/libprecess.a", read(&release.join("libprecess.a"))?),
         Entry::file(format!("lib/{soname}"), read(&release.join("libprecess.so"))?),
         Entry::link("lib/libprecess.so", &soname),
-        Entry::file("include/precess.h", read(&stage.sources.join(HEADER))?),
         Entry::file("share/doc/precess/README.md", read(&stage.sources.join(GUIDE))?),
         Entry::file(
             "share/doc/precess/LICENSES-OF-OTHERS",
             licences::of_others(stage, MANIFEST, "precess-capi")?,
         ),
     ];
+    for header in HEADERS {
+        let (_, name) = header.rsplit_once('/').ok_or("a header without a folder")?;
+        entries.push(Entry::file(format!("include/{name}"), read(&stage.sources.join(header))?));
+    }
     for name in ["LICENSE-APACHE", "LICENSE-MIT"] {
         let mut licence = entry(&stage.sources, name)?;
         licence.path = format!("share/doc/precess/{name}");
