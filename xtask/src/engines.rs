@@ -11,10 +11,9 @@ use xtask::run::{root, run, target};
 use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
-/// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated
-/// platforms; pyYeti, of structures; Basilisk's law, of steering, and its law and servo over a run; `SciPy`, of filters.
-/// platforms; pyYeti, of structures; Basilisk's laws, of steering and of attitude; `SciPy`, of filters.
-const SCRIPTS: [&str; 10] = [
+/// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated platforms; pyYeti, of structures; Basilisk's
+/// laws, of steering and of attitude, and its law and servo over a run; `SciPy`, of filters.
+const SCRIPTS: [&str; 11] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
