@@ -50,12 +50,8 @@ pub(crate) fn inverse_jacobian(phi: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<
     let p2 = phi.norm_squared();
     let [(a, _), (b, _)] = coefficients(p2);
     // sin p / p = 1 - p² B and (1 + cos p) / sin p = sin p / (1 - cos p).
-    let c = if p2 > 1e-2 { (1.0 - (1.0 - p2 * b) / (2.0 * a)) / p2 } else { small(p2) };
+    // What rounding the difference leaves in C is multiplied by p² again.
+    let c = if p2 > 1e-8 { (1.0 - (1.0 - p2 * b) / (2.0 * a)) / p2 } else { 1.0 / 12.0 };
     let once = phi.cross(v);
     v + once * 0.5 + phi.cross(&once) * c
-}
-
-/// C of a small p: its series.
-fn small(p2: f64) -> f64 {
-    1.0 / 12.0 + p2 * (1.0 / 720.0 + p2 * (1.0 / 30_240.0 + p2 * (1.0 / 1_209_600.0)))
 }

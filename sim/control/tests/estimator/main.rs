@@ -2,4 +2,5 @@
 
 mod normalised_error;
 mod steady_state;
+mod transition;
 mod truth;

@@ -39,6 +39,8 @@ fn cases() -> Vec<Case> {
         case(1.0, [0.04, 0.5, 1.0], 25.4, 0.04, 0.2),
         // And an angle for which it is not reached.
         case(0.002, [0.04, 0.5, 1.0], 0.4, 0.01, 0.1),
+        // Both limits, the acceleration's just before the rate's: 0.5 s, 0.1 s and 0.5 s up.
+        case(0.9, [0.3, 0.5, 1.0], 4.1, 0.3, 0.5),
         // Without limit on jerk: trapezoid, triangle.
         case(4.0, [1.0, 0.5, NONE], 6.0, 1.0, 0.5),
         case(0.5, [1.0, 0.5, NONE], 2.0, 0.5, 0.5),

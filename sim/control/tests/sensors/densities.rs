@@ -93,14 +93,17 @@ fn rate_random_walk_has_the_stated_slope() {
 /// Of an integrating gyro the Allan variance is `s_v² / tau + s_u² tau / 3`, at any tau (Farrenkopf's model is exact).
 #[test]
 fn allan_variances_are_those_of_both_walks() {
-    let (angle, rate) = (1e-5, 4e-6);
+    assert_allan(1e-5, 4e-6, &[1, 20, 100]);
+    assert_allan(0.0, 4e-6, &[1, 2, 20]);
+}
+
+fn assert_allan(angle: f64, rate: f64, averages: &[usize]) {
     let gyro = parameters(GyroOutput::Integrating, angle, rate);
-    let samples = at_rest(&gyro, 100_000);
-    for averaged in [1, 4, 20, 100] {
+    let samples = at_rest(&gyro, 50_000);
+    for averaged in averages.iter().copied() {
         let tau = gyro.period * count(averaged);
         let stated = angle * angle / tau + rate * rate * tau / 3.0;
-        let mut sum = 0.0;
-        let mut pairs = 0;
+        let (mut sum, mut pairs) = (0.0, 0);
         for axis in &samples {
             let means: Vec<f64> = axis
                 .chunks_exact(averaged)
@@ -112,10 +115,7 @@ fn allan_variances_are_those_of_both_walks() {
         let found = sum / count(pairs);
         // Squares of normal differences, which share a mean with their neighbour: 3 / n of white noise, less else.
         let deviation = (3.0 / count(pairs)).sqrt();
-        println!(
-            "tau {tau} s: {:.4} of the stated, one deviation is {deviation:.4}",
-            found / stated
-        );
+        println!("tau {tau} s: {:.4} of the stated, one deviation {deviation:.4}", found / stated);
         assert!(
             (found / stated - 1.0).abs() < DEVIATIONS * deviation,
             "{tau} {found:e} {stated:e}"

@@ -77,7 +77,7 @@ fn readings_arrive_a_latency_later_and_the_newest_only() {
     assert_eq!(line.newest(2.06), None);
     // A latency of whole periods, whose sum with a time rounds up.
     let mut whole = DelayLine::new(0.3, 0.1).unwrap();
-    whole.put(0.3, ());
+    whole.put(0.1 + 0.2, ());
     assert!(whole.newest(0.6).is_some());
     // Without latency a reading is there at once.
     let mut none = DelayLine::new(0.0, 0.1).unwrap();
