@@ -83,8 +83,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The spacecraft linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: [`Self::derivatives`] computes the same columns, and can do so without a
-    /// heap. Of accelerations only, of a rigid hub without platforms, lumped imbalance, wrenches on bodies and a central
-    /// field, they are `-M⁻¹` times the emitted derivatives of the loads, several times faster and rounded elsewhere.
+    /// heap. Of accelerations only, of a rigid hub without platforms, they are `-M⁻¹` times the emitted derivatives of the
+    /// loads, several times faster and rounded elsewhere.
     ///
     /// # Errors
     ///

@@ -2,8 +2,10 @@
 
 use alloc::vec::Vec;
 
+use crate::derivatives::applied_columns::{Applied, by_wrenches};
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
+use crate::equations::gravity::Central;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
 use crate::isolation::carrier::Carrier;
@@ -11,7 +13,7 @@ use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kind, LoadColumn};
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed};
 use crate::sets::bundle::{Bundle, Given, Shared};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
@@ -58,7 +60,7 @@ impl<T: Scalar> Load<T> {
     }
 
     /// Adds a multiple.
-    fn add(&mut self, factor: T, other: &Self) {
+    pub(super) fn add(&mut self, factor: T, other: &Self) {
         for (to, from) in self.hub.iter_mut().zip(&other.hub) {
             *to = *to + factor * *from;
         }
@@ -80,7 +82,16 @@ impl<T: Scalar> Load<T> {
     }
 }
 
-/// A device has no emitted derivatives: a platform, the lumped model.
+impl<T: Scalar> LoadColumns<T> {
+    /// Adds what acts from outside, which hub and motors exert less.
+    fn add_applied(&mut self, applied: &Applied<T>) {
+        let columns = self.coordinates.iter_mut().chain(&mut self.rates);
+        let more = applied.coordinates.iter().chain(&applied.rates);
+        columns.zip(more).for_each(|(to, from)| to.add(one(), from));
+    }
+}
+
+/// A device has no emitted derivatives: a platform.
 #[derive(Debug)]
 pub(super) struct NotEmitted;
 
@@ -89,7 +100,13 @@ pub(super) struct EachDevice<T> {
     pub(super) omega: Vec3<T>,
     /// As seen from a frame that falls with the field.
     pub(super) hub: HubAccelerations<T>,
+    /// The gradient of a central field.
+    pub(super) field: Option<Central<T>>,
     pub(super) found: Vec<LoadColumns<T>>,
+    /// What acts on each device from outside.
+    pub(super) applied: Vec<Option<Applied<T>>>,
+    /// Of each joint, by the wrench on its child body; none where there are no wrenches on bodies.
+    pub(super) by_wrenches: Vec<[Load<T>; 6]>,
 }
 
 /// State, inputs and accelerations of the joints.
@@ -103,9 +120,6 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
-        if device.lumped.is_some() {
-            return Err(NotEmitted);
-        }
         let within = |v| rotate_transposed(&device.mount, v);
         let HubAccelerations { r_b_n_ddot, omega_dot } = self.hub;
         let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
@@ -153,6 +167,14 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
                 }
             }
         }
+        let applied = Applied::new(device, joints, given.bodies, self.field.as_ref());
+        if let Some(applied) = &applied {
+            columns.add_applied(applied);
+        }
+        if given.bodies.is_some() {
+            self.by_wrenches.extend(by_wrenches(device, joints));
+        }
+        self.applied.push(applied);
         self.found.push(columns);
         Ok(())
     }

@@ -7,12 +7,16 @@
 //! emitted derivatives of the loads (`load_columns`) and the mass matrix (`mass_system`).
 
 #[cfg(feature = "alloc")]
+mod applied_columns;
+#[cfg(feature = "alloc")]
 mod by_loads;
 pub(crate) mod column;
 mod elimination;
 pub(crate) mod error;
 pub(crate) mod evaluation;
 mod joint_order;
+#[cfg(feature = "alloc")]
+mod field_columns;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
 #[cfg(feature = "alloc")]

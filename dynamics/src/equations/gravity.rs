@@ -143,6 +143,25 @@ impl<T: Real> Central<T> {
         (scale(-at_b, n), Self { gradient, n, potential, slope })
     }
 
+    /// The same with its change for the gradient, where the position from the centre changes by `e`:
+    /// `3 mu / R⁴ (e nᵀ + n eᵀ + (n . e) (1 - 5 n nᵀ))`.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn changed(&self, e: Vec3<T>) -> Self {
+        let (n, three) = (self.n, self.slope.like(3.0) * self.slope);
+        let along = three * dot(n, e);
+        let mixed = |i: usize, k: usize| three * (e[i] * n[k] + n[i] * e[k]);
+        let of_both = Symmetric {
+            xx: mixed(0, 0),
+            xy: mixed(0, 1),
+            xz: mixed(0, 2),
+            yy: mixed(1, 1),
+            yz: mixed(1, 2),
+            zz: mixed(2, 2),
+        };
+        let of_n = Symmetric::dyad(n).scaled(along * n[0].like(-5.0));
+        Self { gradient: of_both.plus(of_n).plus(Symmetric::scalar(along)), ..*self }
+    }
+
     /// Expressed in the columns.
     #[inline(always)]
     pub(crate) fn turned(&self, axes: &Columns<T>) -> Self {

@@ -19,16 +19,6 @@ use crate::perturb::{changed, magnitude, size};
 /// How many spacecraft of each sort.
 const SPACECRAFT: u64 = 240;
 
-/// A spacecraft under what has emitted derivatives: no central field, no wrenches on bodies.
-fn drawn(mut of: Drawn) -> Drawn {
-    of.case.inputs.bodies = None;
-    if matches!(of.case.inputs.gravity, Gravity::Central { .. }) {
-        of.case.inputs.gravity = Gravity::Uniform(Vector3::new(3.0, -8.0, 2.0));
-        of.case.state.r_b_n = Vector3::new(20.0, -30.0, 10.0);
-    }
-    of
-}
-
 fn named<T: Scalar>(
     craft: &Spacecraft<List<T>>,
     hub: [Vector3<T>; 2],
@@ -88,7 +78,7 @@ fn emitted_derivatives_are_those_of_differences_in_double_double() {
     let (mut figures, mut emitted) = (Figures::default(), 0);
     let count = cases(SPACECRAFT);
     for seed in SEED..SEED + count {
-        let (blocks, other_bits) = blocks(&drawn(Drawn::new(seed)));
+        let (blocks, other_bits) = blocks(&Drawn::new(seed));
         emitted += u64::from(other_bits);
         let (error, name) =
             blocks.errors().fold((0.0, String::new()), |a, b| if b.0 > a.0 { b } else { a });
@@ -99,7 +89,8 @@ fn emitted_derivatives_are_those_of_differences_in_double_double() {
     }
     println!("worst {:.1e}, median {:.1e}", figures.worst(), figures.median());
     println!("{emitted} of {count} have other bits than dual numbers");
-    assert!(5 * emitted > 3 * count, "{emitted} of {count} by emitted derivatives");
+    // Others have no joint that is free, on a hub that is not.
+    assert!(10 * emitted > 9 * count, "{emitted} of {count} by emitted derivatives");
     assert!(figures.worst() <= WORST && figures.median() <= MEDIAN, "{figures:?}");
 }
 
@@ -110,7 +101,7 @@ const CHANGES: f64 = 1e-12;
 fn emitted_derivatives_of_wheels_on_bearings_are_exact_in_units_of_changes() {
     let mut figures = Figures::default();
     for seed in SEED..SEED + cases(SPACECRAFT / 3) {
-        let (blocks, _) = blocks(&drawn(Drawn::on_bearings(seed)));
+        let (blocks, _) = blocks(&Drawn::on_bearings(seed));
         figures.add(blocks.errors_of_changes().fold(0.0, |most, (error, _)| error.max(most)));
     }
     println!("worst {:.1e}, median {:.1e}", figures.worst(), figures.median());
@@ -120,7 +111,7 @@ fn emitted_derivatives_of_wheels_on_bearings_are_exact_in_units_of_changes() {
 #[test]
 fn a_prescribed_hub_in_a_uniform_field_turns_the_field_under_its_joints() {
     // Of a free hub the attitude moves no joint; of a prescribed one it does.
-    let mut of = (SEED..SEED + SPACECRAFT).map(|seed| drawn(Drawn::new(seed))).find(|of| {
+    let mut of = (SEED..SEED + SPACECRAFT).map(|seed| Drawn::new(seed)).find(|of| {
         matches!(of.case.inputs.hub, HubMode::Prescribed { .. })
             && matches!(of.case.inputs.gravity, Gravity::Uniform(_))
             && of.case.inputs.modes.values().any(|mode| mode == Mode::Driven)
@@ -141,8 +132,9 @@ fn a_prescribed_hub_in_a_uniform_field_turns_the_field_under_its_joints() {
 
 #[test]
 fn what_does_not_move_has_matrices_without_rows() {
-    let mut of = drawn(Drawn::new(SEED));
+    let mut of = Drawn::new(SEED);
     of.case.inputs.hub = HubMode::Fixed;
+    of.case.inputs.bodies = None;
     of.case.state.r_b_n_dot = Vector3::zeros();
     of.case.state.omega = Vector3::zeros();
     of.case.inputs.modes.values_mut().for_each(|mode| *mode = Mode::Locked);
@@ -165,13 +157,15 @@ fn what_does_not_move_has_matrices_without_rows() {
 fn kept_matrices_become_those_of_another_spacecraft() {
     // Other sizes, other modes, with and without a hub that moves; by emitted derivatives and by dual numbers.
     let wanted = Outputs::accelerations();
+    let others = Outputs { momentum: Some(About::InertialOrigin), ..wanted };
     let mut kept = None;
     for seed in SEED..SEED + 24 {
-        for case in [Drawn::new(seed), drawn(Drawn::new(seed))].map(|of| of.case::<f64>()) {
+        for outputs in [wanted, others] {
+            let case = Drawn::new(seed).case::<f64>();
             let craft = case.craft();
-            let expected = craft.linearize(&case.state, &case.inputs, &wanted).unwrap();
+            let expected = craft.linearize(&case.state, &case.inputs, &outputs).unwrap();
             let kept = kept.get_or_insert_with(|| expected.clone());
-            craft.linearize_into(&case.state, &case.inputs, &wanted, kept).unwrap();
+            craft.linearize_into(&case.state, &case.inputs, &outputs, kept).unwrap();
             assert!(*kept == expected, "{seed:#x}");
         }
     }
