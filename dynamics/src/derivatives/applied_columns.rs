@@ -9,6 +9,7 @@
 use crate::derivatives::load_columns::Load;
 use crate::equations::device::Device;
 use crate::equations::gravity::{Central, gradient};
+use crate::isolation::motion::Spatial;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{JointInfo, Kind, Lumped, Wrenches};
 use crate::model::wrench::Wrench;
@@ -16,7 +17,7 @@ use crate::numbers::dual::Dual;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, two, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Vec3, components, cross, vector};
+use crate::numbers::vec3::{Vec3, components, cross, vector, zeros};
 
 /// How many coordinates one evaluation of `gravity` is differentiated by.
 const WIDTH: usize = 4;
@@ -27,6 +28,8 @@ type ByCoordinates<T> = Dual<T, WIDTH>;
 /// What acts on one device, as loads that hub and motors exert less: expressed in B, about B.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Applied<T> {
+    /// What acts, force and moment.
+    pub(super) hub: Spatial<T>,
     /// By the joints' coordinates.
     pub(super) coordinates: [Load<T>; MAX_JOINTS],
     /// By the joints' rates.
@@ -61,6 +64,7 @@ impl<T: Scalar> Applied<T> {
         let no_wrenches = || K::all(Wrench::none());
         let no_loads = [Load::none(); MAX_JOINTS];
         let mut found = Self {
+            hub: [zeros(); 2],
             coordinates: no_loads,
             rates: no_loads,
             position: [Load::none(); 3],
@@ -79,6 +83,8 @@ impl<T: Scalar> Applied<T> {
             }
         }
         let carried = device.carried(&pose, &wrenches);
+        let hub = carried.hub.turned(&device.mount);
+        found.hub = [components(&hub.force), components(&hub.moment)];
         let outboard = carried.joints.values().zip(K::JOINTS);
         for (joint, (to, (outboard, info))) in
             found.coordinates.iter_mut().zip(outboard).enumerate()

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::by_loads::ByLoads;
 use crate::derivatives::column::{Column, Outputs};
+use crate::derivatives::emitted::Emitted;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
@@ -83,8 +83,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The spacecraft linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: [`Self::derivatives`] computes the same columns, and can do so without a
-    /// heap. Of accelerations only, of a rigid hub without platforms, they are `-M⁻¹` times the emitted derivatives of the
-    /// loads, several times faster and rounded elsewhere.
+    /// heap. Of accelerations only, of a rigid hub, they are `-M⁻¹` times the emitted derivatives of the loads, several
+    /// times faster and rounded elsewhere.
     ///
     /// # Errors
     ///
@@ -174,7 +174,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let variables = states.iter().chain(by_inputs).copied();
         let mut columns = into.into_iter().flat_map(columns_of);
         let emitted = if *outputs == Outputs::accelerations() {
-            ByLoads::new(self, state, inputs, accelerations)
+            Emitted::new(self, state, inputs, accelerations)
         } else {
             None
         };

@@ -3,20 +3,28 @@
 //!
 //! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
-//! step. `products` has the derivatives along a direction and of a weighted sum, without matrices. Of a rigid hub's accelerations `linearization` needs no dual numbers: `by_loads` has the columns from the
-//! emitted derivatives of the loads (`load_columns`) and the mass matrix (`mass_system`).
+//! step. `products` has the derivatives along a direction and of a weighted sum, without matrices. Of accelerations
+//! `linearization` needs no dual numbers: `by_loads` has the columns of a rigid hub from the emitted derivatives of the
+//! loads (`load_columns`), from what acts from outside (`applied_columns`) and the mass matrix (`mass_system`);
+//! `by_tree` has them where carriers stand between hub and devices (`base_motion`, `tree_members`, `tree_system`).
 
 #[cfg(feature = "alloc")]
 mod applied_columns;
 #[cfg(feature = "alloc")]
+mod base_motion;
+#[cfg(feature = "alloc")]
 mod by_loads;
+#[cfg(feature = "alloc")]
+mod by_tree;
 pub(crate) mod column;
 mod elimination;
+#[cfg(feature = "alloc")]
+mod emitted;
 pub(crate) mod error;
 pub(crate) mod evaluation;
-mod joint_order;
 #[cfg(feature = "alloc")]
 mod field_columns;
+mod joint_order;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
 #[cfg(feature = "alloc")]
@@ -33,6 +41,12 @@ mod slopes;
 #[cfg(feature = "alloc")]
 pub(crate) mod step;
 pub(crate) mod structure;
+#[cfg(feature = "alloc")]
+mod tree_mass;
+#[cfg(feature = "alloc")]
+mod tree_members;
+#[cfg(feature = "alloc")]
+mod tree_system;
 mod turned;
 pub(crate) mod variable;
 mod with_numbers;

@@ -49,6 +49,9 @@ pub trait Carrier: Kind {
         base: Spatial<Self::Scalar>,
         joints: &Self::Accelerations<Self::Scalar>,
     ) -> Spatial<Self::Scalar>;
+    /// The directions of its joints' accelerations, carrier axes; zero after the last.
+    #[doc(hidden)]
+    fn directions(moving: &Self::Moving) -> [Spatial<Self::Scalar>; 6];
     /// Its joints eliminated, with what it carries in the assembly.
     #[doc(hidden)]
     fn eliminate_with(
@@ -78,6 +81,12 @@ pub trait Carrier: Kind {
         pose: &Self::Pose<Self::Scalar>,
         joints: &Self::Joints<Self::Scalar>,
     ) -> Forces<Self::Scalar>;
+    /// How these forces change with coordinates and with rates, each by columns.
+    #[doc(hidden)]
+    fn force_slopes(
+        suspension: &Self::Suspension,
+        joints: &Self::Joints<Self::Scalar>,
+    ) -> [[Six<Self::Scalar>; 6]; 2];
     /// Diagonals, damping and stiffness, that bound it.
     #[doc(hidden)]
     fn diagonals(
@@ -116,6 +125,10 @@ impl<T: Scalar> Carrier for Platform<T> {
         moving.acceleration(base, joints.array())
     }
 
+    fn directions(moving: &Moving<T, 6>) -> [Spatial<T>; 6] {
+        moving.directions
+    }
+
     fn eliminate_with(
         moving: &Moving<T, 6>,
         field: Vec3<T>,
@@ -143,6 +156,10 @@ impl<T: Scalar> Carrier for Platform<T> {
         joints: &Self::Joints<T>,
     ) -> Forces<T> {
         suspension.forces(pose, joints)
+    }
+
+    fn force_slopes(suspension: &Suspension<T>, joints: &Self::Joints<T>) -> [[Six<T>; 6]; 2] {
+        suspension.slopes(joints)
     }
 
     fn diagonals(suspension: &Suspension<T>, pose: Option<&Self::Pose<T>>) -> [Six<T>; 2] {

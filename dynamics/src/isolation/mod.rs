@@ -17,3 +17,4 @@ pub(crate) mod panel;
 pub(crate) mod parameters;
 pub(crate) mod records;
 pub(crate) mod suspension;
+mod suspension_slopes;

@@ -304,6 +304,11 @@ impl<T: Scalar> Carrier for CarryingPanel<T> {
         moving.acceleration(base, [joints.phi_ddot])
     }
 
+    fn directions(Moving { directions: [turn], .. }: &Moving<T, 1>) -> [Spatial<T>; 6] {
+        let none = [[zero(); 3]; 2];
+        [*turn, none, none, none, none, none]
+    }
+
     fn eliminate_with(
         moving: &Moving<T, 1>,
         field: Vec3<T>,
@@ -328,6 +333,10 @@ impl<T: Scalar> Carrier for CarryingPanel<T> {
 
     fn forces((): &(), _: &Trig<T>, _: &Joints<T>) -> Forces<T> {
         Forces::none()
+    }
+
+    fn force_slopes((): &(), _: &Joints<T>) -> [[Six<T>; 6]; 2] {
+        [[[zero(); 6]; 6]; 2]
     }
 
     fn diagonals((): &(), _: Option<&Trig<T>>) -> [Six<T>; 2] {

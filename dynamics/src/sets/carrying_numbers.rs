@@ -76,7 +76,7 @@ impl<T: Scalar> CarrierNumbers for CarryingPanel<T> {
 
 impl<T: Scalar> Suspension<T> {
     /// Each number converted.
-    fn map<U: Scalar>(&self, number: impl Fn(T) -> U + Copy) -> Suspension<U> {
+    pub(crate) fn map<U: Scalar>(&self, number: impl Fn(T) -> U + Copy) -> Suspension<U> {
         let coupled = self.coupled.map(|of| Coupled {
             stiffness: of.stiffness.map(number),
             rest: of.rest.map(number),

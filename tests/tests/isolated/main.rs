@@ -1,6 +1,7 @@
 //! Isolated platforms and rows of panels against a tree of bodies by Newton and Euler, known answers, conservation.
 
 mod craft;
+mod derivatives;
 mod energies;
 mod engine;
 mod equations;
