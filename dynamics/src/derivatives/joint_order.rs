@@ -56,7 +56,7 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
             {
                 (*coordinate, *rate) = (*q, *q_dot);
             }
-            if is_input(mode, info.driven)
+            if is_input(&mode, info.driven)
                 && let Some(motor) = motors.next()
             {
                 *driven = *motor;
@@ -96,7 +96,7 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
             {
                 (*q, *q_dot) = (coordinate, rate);
             }
-            if is_input(mode, info.driven)
+            if is_input(&mode, info.driven)
                 && let Some(motor) = motors.next()
             {
                 *motor = driven;
@@ -111,7 +111,7 @@ fn of_hub<D: Devices, S: StructureDerivatives>(inputs: &Inputs<D, S>) -> (usize,
 }
 
 /// Whether a joint has an input.
-fn is_input<T>(mode: Mode<T>, driven: bool) -> bool {
+fn is_input<T>(mode: &Mode<T>, driven: bool) -> bool {
     match mode {
         Mode::Driven => true,
         Mode::Prescribed(_) => driven,

@@ -27,6 +27,8 @@ pub(super) struct NotEmitted;
 pub(super) struct HubMotion<T> {
     pub(super) omega: Vec3<T>,
     pub(super) accelerations: HubAccelerations<T>,
+    /// The field.
+    pub(super) gravity: Vec3<T>,
 }
 
 impl<T: Scalar> HubMotion<T> {

@@ -39,6 +39,10 @@ mod products;
 #[cfg(feature = "alloc")]
 mod slopes;
 #[cfg(feature = "alloc")]
+mod stage_chain;
+#[cfg(feature = "alloc")]
+mod stage_product;
+#[cfg(feature = "alloc")]
 pub(crate) mod step;
 pub(crate) mod structure;
 #[cfg(feature = "alloc")]

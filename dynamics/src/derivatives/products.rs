@@ -17,7 +17,7 @@ use crate::equations::system::Solution;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Vec3, add, components, cross, sub, vector, zeros};
+use crate::numbers::vec3::{add, components, cross, sub, vector, zeros};
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::sets::with_numbers::WithNumbers;
@@ -155,7 +155,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         accelerations: &Accelerations<D, S>,
         direction: (&[D::Scalar], &[D::Scalar]),
     ) -> Option<Accelerations<D, S>> {
-        let (motion, gravity) = self.motion(state, inputs, accelerations)?;
+        let motion = self.motion(state, inputs, accelerations)?;
         let mut joints = D::new_data(&self.devices, &data::Joints);
         let mut along = self.no_accelerations();
         let hub = self.scattered(inputs, direction, &mut joints, &mut along.devices);
@@ -171,17 +171,14 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         );
         D::visit::<Directed, _>(&self.devices, data, &mut visitor).ok()?;
         // The hub falls with the field, which turns in B.
-        let field = cross(gravity, attitude);
+        let field = cross(motion.gravity, attitude);
         let [first, second] = given;
-        let (loads, given) = match inputs.hub {
-            HubMode::Free => {
-                let [force, moment] = visitor.hub;
-                ([sub(first, force), sub(second, moment)], None)
-            }
-            _ => {
-                let given = Solution { r_b_n_ddot: sub(first, field), omega_dot: second };
-                ([zeros(); 2], Some(given))
-            }
+        let (loads, given) = if inputs.hub == HubMode::Free {
+            let [force, moment] = visitor.hub;
+            ([sub(first, force), sub(second, moment)], None)
+        } else {
+            let given = Solution { r_b_n_ddot: sub(first, field), omega_dot: second };
+            ([zeros(); 2], Some(given))
         };
         let at = (&state.devices, inputs);
         let hub = self.mass_solution(at, loads, given, &mut along.devices).ok()?;
@@ -199,7 +196,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         weights: &Accelerations<D, S>,
         gradient: Gradient<'_, D::Scalar>,
     ) -> Option<()> {
-        let (motion, gravity) = self.motion(state, inputs, accelerations)?;
+        let motion = self.motion(state, inputs, accelerations)?;
         let free = matches!(inputs.hub, HubMode::Free);
         let of_hub = [components(&weights.r_b_n_ddot), components(&weights.omega_dot)];
         let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
@@ -230,7 +227,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let [on_b, _] = of_hub;
         let falls = if free { on_b } else { sub(on_b, visitor.by_hub[0]) };
         let of = HubGradient {
-            attitude: cross(falls, gravity),
+            attitude: cross(falls, motion.gravity),
             omega: visitor.by_omega,
             given: if free { hub } else { visitor.by_hub },
         };
@@ -238,14 +235,14 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         Some(())
     }
 
-    /// How the hub moves as the kernels need it, and the field, B axes; none where what acts has no emitted derivatives:
+    /// How the hub moves as the kernels need it; none where what acts has no emitted derivatives:
     /// a flexible structure, wrenches on bodies, a central field.
     fn motion<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
-    ) -> Option<(HubMotion<D::Scalar>, Vec3<D::Scalar>)> {
+    ) -> Option<HubMotion<D::Scalar>> {
         let central = matches!(inputs.gravity, Gravity::Central { .. });
         let deforms = S::modes(self) > 0 || S::mounts(self) > 0;
         if central || deforms || inputs.bodies.is_some() {
@@ -257,7 +254,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), gravity),
             omega_dot: components(&accelerations.omega_dot),
         };
-        Some((HubMotion { omega, accelerations }, gravity))
+        Some(HubMotion { omega, accelerations, gravity })
     }
 }
 
@@ -274,6 +271,6 @@ fn same_length<T>(expected: usize, found: usize) -> Result<(), DerivativeError<T
 }
 
 fn check_finite<T: Scalar>(mut numbers: impl Iterator<Item = T>) -> Result<(), DerivativeError<T>> {
-    let finite = numbers.all(|number| number.is_finite());
+    let finite = numbers.all(Scalar::is_finite);
     if finite { Ok(()) } else { Err(DerivativeError::NotFiniteProduct) }
 }

@@ -1,24 +1,27 @@
 //! [`Spacecraft::linearize_step`]: derivatives of a step of RK4, by the chain rule through its stages.
 //!
-//! Each stage has the exact derivatives of its accelerations. A change of the attitude is carried as
-//! a change of the quaternion, in which the step adds its slopes, and returned as a small rotation.
+//! Each stage has the exact derivatives of its accelerations, through which [`StageChain`] carries the changes.
 
 use alloc::vec::Vec;
 
-use nalgebra::{DMatrix, Matrix4xX};
+use nalgebra::DMatrix;
 
-use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
+use crate::attitude::parameterisation::Attitude;
+use crate::attitude::quaternion::{Quaternion, rate};
 use crate::derivatives::column::Outputs;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::parameters::ParameterVariable;
+use crate::derivatives::slopes::Slopes;
+use crate::derivatives::stage_chain::{StageChain, StageDerivatives, numbers};
 use crate::derivatives::structure::StructureDerivatives;
-use crate::derivatives::variable::{Axis, Variable};
+use crate::derivatives::variable::Variable;
+use crate::model::mode::HubMode;
 use crate::model::parameters::Hub;
-use crate::numbers::vec3::{Vec3, components};
+use crate::numbers::vec3::components;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
-use crate::solve::state::State;
+use crate::solve::state::{Accelerations, State};
 use crate::solve::structure::{Rigid, StructureData};
 
 /// A step of RK4 linearised about a state and inputs:
@@ -49,20 +52,18 @@ pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Ri
     pub b: DMatrix<f64>,
 }
 
-/// A stage: derivatives of the slopes of its states by its states, and by what is held.
-struct Slopes {
-    by_states: DMatrix<f64>,
-    by_held: DMatrix<f64>,
-}
-
-/// The state after a step, and a change of it for each column.
-type Stepped<D, S> = (State<D, Quaternion, S>, DMatrix<f64>);
+/// Of what is held, at a stage with its accelerations: the derivatives of accelerations by states and by it.
+type ByHeld<'a, D, S> = &'a mut dyn FnMut(
+    &State<D, Quaternion, S>,
+    &Accelerations<D, S>,
+    [&mut DMatrix<f64>; 2],
+) -> Result<(), DerivativeError<f64>>;
 
 impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
     /// The step of [`Self::step`] linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: the derivatives of the step, not those of the motion that
-    /// it approximates. Costs four times [`Self::linearize`].
+    /// it approximates. Costs about five times [`Self::linearize`].
     ///
     /// # Errors
     ///
@@ -76,73 +77,57 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let states: Vec<_> = self.state_variables(inputs).collect();
         let by_inputs: Vec<_> = self.input_variables(inputs).collect();
         let (rows, held) = (states.len(), by_inputs.len());
-        let start = DMatrix::identity(rows, rows.saturating_add(held));
+        let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
         let none = Outputs::accelerations();
-        let slopes = |stage: &State<D, Quaternion, S>| {
-            let found = self.linearize(stage, inputs, &none)?;
-            let mut by_held = DMatrix::zeros(rows, rows.saturating_add(held));
-            by_held.columns_mut(rows, held).copy_from(&found.b);
-            Ok(Slopes { by_states: found.a, by_held })
+        let lists = (states.as_slice(), by_inputs.as_slice());
+        let mut derivatives = |stage: &_, found: &_, into: [&mut DMatrix<f64>; 2]| {
+            self.output_columns((stage, inputs), found, &none, lists, into)
         };
-        let (state, found) = self.chained(state, inputs, dt, &states, start, slopes)?;
-        let (a, b) = (found.columns(0, rows).into_owned(), found.columns(rows, held).into_owned());
+        let into = [&mut a, &mut b];
+        let state = self.chained((state, inputs), dt, into, &mut derivatives)?;
         Ok(StepLinearization { state, states, inputs: by_inputs, a, b })
     }
 
-    /// The state after a step, and how a change of the state before it and of what is held is carried
-    /// through: `start` has the change of each column, `slopes` its slope at a stage.
+    /// The state after a step; its derivatives by the state before it, where those have columns, and by what is
+    /// held are written.
     fn chained(
         &self,
-        state: &State<D, Quaternion, S>,
-        inputs: &Inputs<D, S>,
+        (state, inputs): (&State<D, Quaternion, S>, &Inputs<D, S>),
         dt: f64,
-        states: &[Variable],
-        start: DMatrix<f64>,
-        slopes: impl Fn(&State<D, Quaternion, S>) -> Result<Slopes, DerivativeError<f64>>,
-    ) -> Result<Stepped<D, S>, DerivativeError<f64>> {
+        [a, b]: [&mut DMatrix<f64>; 2],
+        derivatives: ByHeld<'_, D, S>,
+    ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
         let mut stages = Vec::with_capacity(4);
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
-            stages.push((weight, stage.clone()));
-            self.solve(stage, inputs, found, stiffness)
+            self.solve(stage, inputs, found, stiffness)?;
+            stages.push((weight, stage.clone(), found.clone()));
+            Ok(())
         })?;
-        let attitude = Place::of(states, Variable::Attitude(Axis::X));
-        let omega = Place::of(states, Variable::Omega(Axis::X));
+        let accelerations = self.joints().count().saturating_add(S::modes(self)).saturating_add(6);
+        let mut by_states = DMatrix::zeros(accelerations, b.nrows());
+        let mut by_held = DMatrix::zeros(accelerations, b.ncols());
+        let hub = !matches!(inputs.hub, HubMode::Fixed);
         let first =
-            stages.first().map_or([1.0, 0.0, 0.0, 0.0], |(_, stage)| numbers(stage.attitude));
-        let mut turn = Matrix4xX::zeros(start.ncols());
-        for (mut to, from) in turn.column_iter_mut().zip(start.column_iter()) {
-            to.copy_from_slice(&rate(first, attitude.take(from.as_slice())));
-        }
-        let (begin, turn_begin) = (start.clone(), turn.clone());
-        let (mut sum, mut turn_sum, mut last) = (start.clone(), turn.clone(), first);
-        let mut now = start;
+            stages.first().map_or_else(Quaternion::identity, |(_, stage, _)| stage.attitude);
+        let mut last = numbers(first);
+        let mut chain = StageChain::new([b.nrows(), a.ncols(), b.ncols()], first, hub);
         // The last stage leads to no other.
         let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
-        for ((weight, stage), offset) in stages.iter().zip(offsets) {
-            let Slopes { by_states, by_held } = slopes(stage)?;
-            let q = numbers(stage.attitude);
-            let mut turn_slope = Matrix4xX::zeros(now.ncols());
-            let columns = now.column_iter_mut().zip(turn.column_iter());
-            for ((mut now, turn), mut slope) in columns.zip(turn_slope.column_iter_mut()) {
-                let [turn] = turn.into_owned().data.0;
-                attitude.put(now.as_mut_slice(), rotation(q, turn));
-                // Of q' = rate(q, omega), which is linear in both.
-                let [by_turn, by_omega] =
-                    [rate(turn, components(&stage.omega)), rate(q, omega.take(now.as_slice()))];
-                slope.copy_from_slice(&plus(by_turn, 1.0, by_omega));
-            }
-            let slope = by_states * &now + by_held;
-            sum += &slope * *weight;
-            turn_sum += &turn_slope * *weight;
-            now = &begin + slope * offset;
-            turn = &turn_begin + turn_slope * offset;
-            last = plus(last, *weight, rate(q, components(&stage.omega)));
+        for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
+            derivatives(stage, found, [&mut by_states, &mut by_held])?;
+            let slopes = Slopes::new(self, stage, inputs, found);
+            let at = StageDerivatives {
+                attitude: stage.attitude,
+                slopes,
+                by_states: &by_states,
+                by_held: &by_held,
+            };
+            chain.stage(&at, [*weight, offset]);
+            let turns = rate(numbers(stage.attitude), components(&stage.omega));
+            last.iter_mut().zip(turns).for_each(|(to, from)| *to += weight * from);
         }
-        for (mut sum, turn) in sum.column_iter_mut().zip(turn_sum.column_iter()) {
-            let [turn] = turn.into_owned().data.0;
-            attitude.put(sum.as_mut_slice(), rotation(last, turn));
-        }
-        Ok((next, sum))
+        chain.finish(last, hub, [a, b]);
+        Ok(next)
     }
 }
 
@@ -162,73 +147,29 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
     ) -> Result<DMatrix<f64>, DerivativeError<f64>> {
         let craft = Self::new(hub, devices)?;
         let states: Vec<_> = craft.state_variables(inputs).collect();
-        let start = DMatrix::zeros(states.len(), variables.len());
+        let (mut a, mut b) =
+            (DMatrix::zeros(states.len(), 0), DMatrix::zeros(states.len(), variables.len()));
         let none = Outputs::accelerations();
-        let slopes = |stage: &State<D, Quaternion>| {
-            let by_states = craft.linearize(stage, inputs, &none)?.a;
-            let mut by_held = DMatrix::zeros(states.len(), variables.len());
-            let by = variables.iter().copied();
-            let at = (stage, inputs);
-            let mut columns = by_held.column_iter_mut();
-            Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
-                let Some(mut slopes) = columns.next() else { return };
-                for (to, of) in slopes.iter_mut().zip(&states) {
-                    // By what is no state.
-                    *to = column.element(*of, Variable::Mu, &stage.omega).unwrap_or_default();
-                }
-            })?;
-            Ok(Slopes { by_states, by_held })
-        };
-        craft.chained(state, inputs, dt, &states, start, slopes).map(|(_, found)| found)
+        let mut derivatives =
+            |stage: &_, found: &_, [by_states, by_held]: [&mut DMatrix<f64>; 2]| {
+                let at = (stage, inputs);
+                let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
+                craft.output_columns(
+                    at,
+                    found,
+                    &none,
+                    (&states, &[]),
+                    [by_states, &mut no_inputs],
+                )?;
+                let by = variables.iter().copied();
+                let mut columns = by_held.column_iter_mut();
+                Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
+                    let Some(mut to) = columns.next() else { return };
+                    to.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
+                })?;
+                Ok(())
+            };
+        craft.chained((state, inputs), dt, [&mut a, &mut b], &mut derivatives)?;
+        Ok(b)
     }
-}
-
-/// Where three rows of a column are; nowhere where the hub is fixed.
-struct Place(Option<usize>);
-
-impl Place {
-    /// Those of a variable along X, Y and Z.
-    fn of(states: &[Variable], first: Variable) -> Self {
-        Self(states.iter().position(|variable| *variable == first))
-    }
-
-    /// The three numbers, zero where they are nowhere.
-    fn take(&self, column: &[f64]) -> Vec3<f64> {
-        let place = self.0.and_then(|first| column.get(first..)?.first_chunk());
-        place.copied().unwrap_or_default()
-    }
-
-    /// Replaces the three numbers.
-    fn put(&self, column: &mut [f64], rows: Vec3<f64>) {
-        let place = self.0.and_then(|first| column.get_mut(first..)?.first_chunk_mut());
-        if let Some(to) = place {
-            *to = rows;
-        }
-    }
-}
-
-/// The small rotation about the axes of B that a change of a quaternion of any length is:
-/// `2 q* dq / |q|²`, its vector.
-fn rotation(q: [f64; 4], by: [f64; 4]) -> Vec3<f64> {
-    let ([q0, q1, q2, q3], [b0, b1, b2, b3]) = (q, by);
-    let scale = 2.0 / norm_squared(q);
-    [
-        scale * (q0 * b1 - b0 * q1 - (q2 * b3 - q3 * b2)),
-        scale * (q0 * b2 - b0 * q2 - (q3 * b1 - q1 * b3)),
-        scale * (q0 * b3 - b0 * q3 - (q1 * b2 - q2 * b1)),
-    ]
-}
-
-/// The numbers of a quaternion, scalar first.
-fn numbers(Quaternion { q0, q1, q2, q3 }: Quaternion) -> [f64; 4] {
-    [q0, q1, q2, q3]
-}
-
-/// `a + weight b`.
-fn plus(a: [f64; 4], weight: f64, b: [f64; 4]) -> [f64; 4] {
-    let mut sum = a;
-    for (to, from) in sum.iter_mut().zip(b) {
-        *to += weight * from;
-    }
-    sum
 }

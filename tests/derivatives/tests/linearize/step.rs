@@ -25,7 +25,11 @@ fn spacecraft() -> (Hub, Set) {
     (hub, (slosh, wheel))
 }
 
-fn start() -> (State<Set>, Inputs<Set>) {
+/// By dual numbers, and by emitted derivatives.
+const FIELDS: [Gravity; 3] =
+    [Gravity::Central { mu: 40.0 }, Gravity::Uniform(Vector3::new(3.0, -8.0, 2.0)), Gravity::None];
+
+fn start(gravity: Gravity) -> (State<Set>, Inputs<Set>) {
     let mut state: State<Set> = State::at_rest();
     state.r_b_n = Vector3::new(3.0, 4.0, -12.0);
     state.r_b_n_dot = Vector3::new(0.3, -0.1, 0.2);
@@ -34,7 +38,7 @@ fn start() -> (State<Set>, Inputs<Set>) {
     (state.devices.0.x, state.devices.0.x_dot) = (0.05, -0.3);
     state.devices.1.spin = 30.0;
     let mut inputs: Inputs<Set> = Inputs::none();
-    inputs.gravity = Gravity::Central { mu: 40.0 };
+    inputs.gravity = gravity;
     inputs.force = Vector3::new(1.0, -2.0, 0.5);
     inputs.motors.1.u_w = 0.3;
     (state, inputs)
@@ -52,10 +56,10 @@ fn product<T: precess_dynamics::Scalar>(a: [T; 4], b: [T; 4]) -> [T; 4] {
 
 /// The state after the step, with its derivatives by: a turn about x, omega.y, x and x' of the
 /// slosh mass, the force along x, the wheel's motor.
-fn over_dual_numbers() -> State<Dualed> {
+fn over_dual_numbers(gravity: Gravity) -> State<Dualed> {
     let (hub, devices) = spacecraft();
     let craft = Spacecraft::new(&hub, &devices).unwrap().with_numbers(Number::constant);
-    let (of, acting) = start();
+    let (of, acting) = start(gravity);
     let constant = |v: Vector3<f64>| v.map(Number::constant);
     let mut state: State<Dualed> = State::at_rest();
     (state.r_b_n, state.r_b_n_dot) = (constant(of.r_b_n), constant(of.r_b_n_dot));
@@ -71,7 +75,11 @@ fn over_dual_numbers() -> State<Dualed> {
     state.devices.0.x_dot = Number::variable(of.devices.0.x_dot, 3);
     state.devices.1.spin = Number::constant(of.devices.1.spin);
     let mut inputs: Inputs<Dualed> = Inputs::none();
-    inputs.gravity = Gravity::Central { mu: Number::constant(40.0) };
+    inputs.gravity = match gravity {
+        Gravity::None => Gravity::None,
+        Gravity::Uniform(g) => Gravity::Uniform(constant(g)),
+        Gravity::Central { mu } => Gravity::Central { mu: Number::constant(mu) },
+    };
     inputs.force = constant(acting.force);
     inputs.force.x = Number::variable(acting.force.x, 4);
     inputs.motors.1.u_w = Number::variable(acting.motors.1.u_w, 5);
@@ -105,12 +113,16 @@ fn row(state: &State<Dualed>, variable: Variable, number: usize) -> f64 {
 
 #[test]
 fn linearised_step_is_that_of_dual_numbers() {
+    FIELDS.into_iter().for_each(compare_with_dual_numbers);
+}
+
+fn compare_with_dual_numbers(gravity: Gravity) {
     let (hub, devices) = spacecraft();
     let craft = Spacecraft::new(&hub, &devices).unwrap();
-    let (state, inputs) = start();
+    let (state, inputs) = start(gravity);
     let found = craft.linearize_step(&state, &inputs, DT).unwrap();
     assert_eq!(found.state, craft.step(&state, &inputs, DT).unwrap());
-    let expected = over_dual_numbers();
+    let expected = over_dual_numbers(gravity);
     let by = [
         Variable::Attitude(Axis::X),
         Variable::Omega(Axis::Y),
@@ -140,7 +152,7 @@ fn linearised_step_is_that_of_dual_numbers() {
 #[test]
 fn step_by_a_parameter_is_the_difference_of_steps() {
     let (hub, devices) = spacecraft();
-    let (state, inputs) = start();
+    let (state, inputs) = start(Gravity::Central { mu: 40.0 });
     let variable = ParameterVariable::Device { device: 1, name: "d", component: Component::Number };
     let at = (&state, &inputs);
     let found =
