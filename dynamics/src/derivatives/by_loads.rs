@@ -78,14 +78,7 @@ impl<T: Scalar> ByLoads<T> {
         };
         let bn = columns(&state.attitude.dcm());
         let field = start.environment.central;
-        let mut each = EachDevice {
-            omega,
-            hub,
-            field,
-            found: Vec::new(),
-            applied: Vec::new(),
-            by_wrenches: Vec::new(),
-        };
+        let mut each = EachDevice::new(omega, hub, field);
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let of_field = FieldColumns::new(&inputs.gravity, bn, &state.r_b_n).zip(field);

@@ -109,6 +109,12 @@ pub(super) struct EachDevice<T> {
     pub(super) by_wrenches: Vec<[Load<T>; 6]>,
 }
 
+impl<T> EachDevice<T> {
+    pub(super) fn new(omega: Vec3<T>, hub: HubAccelerations<T>, field: Option<Central<T>>) -> Self {
+        Self { omega, hub, field, found: Vec::new(), applied: Vec::new(), by_wrenches: Vec::new() }
+    }
+}
+
 /// State, inputs and accelerations of the joints.
 pub(super) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
 

@@ -7,6 +7,8 @@
 //! `linearization` needs no dual numbers: `by_loads` has the columns of a rigid hub from the emitted derivatives of the
 //! loads (`load_columns`), from what acts from outside (`applied_columns`) and the mass matrix (`mass_system`);
 //! `by_tree` has them where carriers stand between hub and devices (`base_motion`, `tree_members`, `tree_system`).
+//! Neither does [`parameters`]: `parameter_loads` has the loads of one device change with its bodies (`device_motion`,
+//! `rigid_body`).
 
 #[cfg(feature = "alloc")]
 mod applied_columns;
@@ -17,6 +19,8 @@ mod by_loads;
 #[cfg(feature = "alloc")]
 mod by_tree;
 pub(crate) mod column;
+#[cfg(feature = "alloc")]
+mod device_motion;
 mod elimination;
 #[cfg(feature = "alloc")]
 mod emitted;
@@ -33,9 +37,14 @@ mod load_products;
 mod mass_solution;
 #[cfg(feature = "alloc")]
 mod mass_system;
+mod parameter_change;
+#[cfg(feature = "alloc")]
+mod parameter_loads;
 pub(crate) mod parameters;
 mod point;
 mod products;
+#[cfg(feature = "alloc")]
+mod rigid_body;
 #[cfg(feature = "alloc")]
 mod slopes;
 #[cfg(feature = "alloc")]

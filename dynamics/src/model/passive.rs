@@ -110,6 +110,31 @@ impl<T: Scalar> Passive<T> {
         self.viscous + self.coulomb * first * second * (q_c * q_c * share * share.sqrt())
     }
 
+    /// How torque or force of spring and friction change where these parameters do, at a coordinate and a rate.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn torque_by(&self, [coordinate, rate]: [T; 2], change: &Self) -> T {
+        let mut sum = zero();
+        // Product by product: what does not change may meet an infinite one.
+        let mut add = |change: T, factor: T| {
+            if !change.vanishes() {
+                sum = sum + change * factor;
+            }
+        };
+        add(change.stiffness, self.rest - coordinate);
+        add(change.rest, self.stiffness);
+        add(change.viscous, -rate);
+        let is_dry = !self.coulomb.vanishes();
+        if !change.coulomb.vanishes() || (is_dry && !change.coulomb_rate.vanishes()) {
+            let (first, second) = reciprocal_in_two(rate.abs().max(self.coulomb_rate));
+            let (q, q_c) = (rate * first * second, self.coulomb_rate * first * second);
+            let slope = q * (q * q + q_c * q_c).sqrt().recip();
+            add(change.coulomb, -slope);
+            let share = q_c * (q * q + q_c * q_c).recip();
+            add(change.coulomb_rate, self.coulomb * first * second * slope * share);
+        }
+        sum
+    }
+
     /// Energy of the spring, J.
     pub(crate) fn potential(&self, coordinate: T) -> T {
         let stretch = coordinate - self.rest;
@@ -154,5 +179,25 @@ mod tests {
         assert_eq!(Passive { viscous: 3.0, ..dry }.damping(0.0), 2003.0);
         let viscous = Passive::friction(0.5, 0.0, 0.0);
         assert_eq!(viscous.of_friction(3.0), -1.5);
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn torque_changes_with_parameters_as_differences_do() {
+        let all = Passive { rest: 0.3, stiffness: 4.0, ..Passive::friction(0.7, 2.0, 0.5) };
+        let state = [1.1, -0.8];
+        let torque = |of: &Passive| of.of_spring(state[0]) + of.of_friction(state[1]);
+        for name in Passive::<f64>::PARAMETERS.iter().map(|(name, _)| name) {
+            let [mut up, mut down, mut change] = [all, all, Passive::none()];
+            *up.parameter_mut(name).unwrap() += 1e-5;
+            *down.parameter_mut(name).unwrap() -= 1e-5;
+            *change.parameter_mut(name).unwrap() = 1.0;
+            let expected = (torque(&up) - torque(&down)) / 2e-5;
+            let found = all.torque_by(state, &change);
+            assert!((found - expected).abs() < 1e-9, "{name}: {found} is not {expected}");
+        }
+        // Where friction is not dry, the rate below which it fades does nothing.
+        let by_rate = Passive { coulomb_rate: 1.0, ..Passive::none() };
+        assert_eq!(Passive::friction(0.7, 0.0, 0.0).torque_by([0.0; 2], &by_rate), 0.0);
     }
 }

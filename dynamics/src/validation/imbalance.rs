@@ -101,6 +101,17 @@ impl<T: Scalar> WheelImbalance<T> {
     /// [`ImbalanceError`] names a quantity that is not finite, a mass that is not above zero, or an
     /// imbalance beyond the largest number.
     pub fn lumped(&self, m_w: T) -> Result<Imbalance<T>, ImbalanceError<T>> {
+        let (u_s, u_d, [cosine, sine]) = self.polar(m_w)?;
+        let phase = if u_d == zero() { zero() } else { angle(cosine, sine) };
+        Ok(Imbalance { u_s, u_d, phase })
+    }
+
+    /// `U_s`, `U_d`, and cosine and sine of the phase as [`Self::lumped`] counts it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::lumped`].
+    pub(crate) fn polar(&self, m_w: T) -> Result<(T, T, [T; 2]), ImbalanceError<T>> {
         let Self { d, j_12, j_13 } = *self;
         check_finite(ImbalanceQuantity::Offset, d)?;
         check_finite(ImbalanceQuantity::J12, j_12)?;
@@ -110,7 +121,7 @@ impl<T: Scalar> WheelImbalance<T> {
         let u_s = check_result(ImbalanceQuantity::Static, m_w * d.abs())?;
         let largest = j_12.abs().max(j_13.abs());
         if largest == zero() {
-            return Ok(Imbalance { u_s, u_d: zero(), phase: zero() });
+            return Ok((u_s, zero(), [one(), zero()]));
         }
         // The torque along the force and a quarter turn ahead of it, the larger of size one.
         let (first, second) = reciprocal_in_two(largest);
@@ -119,7 +130,7 @@ impl<T: Scalar> WheelImbalance<T> {
         let ahead = zero::<T>() - sense * j_12 * first * second;
         let size = (along * along + ahead * ahead).sqrt();
         let u_d = check_result(ImbalanceQuantity::Dynamic, largest * size)?;
-        Ok(Imbalance { u_s, u_d, phase: angle(along, ahead) })
+        Ok((u_s, u_d, [along, ahead].map(|of| of * size.recip())))
     }
 }
 

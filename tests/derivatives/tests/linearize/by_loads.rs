@@ -19,7 +19,8 @@ use crate::perturb::{changed, magnitude, size};
 /// How many spacecraft of each sort.
 const SPACECRAFT: u64 = 240;
 
-fn named<T: Scalar>(
+/// Accelerations with the names of their blocks.
+pub(crate) fn named<T: Scalar>(
     craft: &Spacecraft<List<T>>,
     hub: [Vector3<T>; 2],
     joints: impl Iterator<Item = T>,
@@ -33,7 +34,8 @@ fn named<T: Scalar>(
     list
 }
 
-fn values<T: Scalar>(craft: &Spacecraft<List<T>>, case: &Case<T>) -> Named<T> {
+/// Those of a spacecraft.
+pub(crate) fn values<T: Scalar>(craft: &Spacecraft<List<T>>, case: &Case<T>) -> Named<T> {
     let found = craft.accelerations(&case.state, &case.inputs).expect("regular");
     named(craft, [found.r_b_n_ddot, found.omega_dot], found.devices.values())
 }

@@ -7,6 +7,7 @@ mod draw;
 mod figures;
 mod known;
 mod outputs;
+mod parameter_loads;
 mod parameters;
 mod perturb;
 mod products;

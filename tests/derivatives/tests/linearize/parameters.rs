@@ -22,7 +22,7 @@ use crate::outputs::{OUTPUTS, derivatives, values};
 pub(crate) const SPACECRAFT: u64 = 60;
 
 /// A parameter, with the names that it needs.
-type Owned = (String, Component);
+pub(crate) type Owned = (String, Component);
 
 /// The parameters of one device that are numbers, and whether it has an imbalance.
 fn parameters_of(device: &BuiltIn) -> (Vec<Owned>, bool) {
@@ -152,7 +152,7 @@ fn change_imbalance<K: Kind<Scalar = Wide>>(
 }
 
 /// The spacecraft with a parameter changed.
-fn changed(case: &Case<Wide>, variable: &ParameterVariable<'_>, by: Wide) -> Case<Wide> {
+pub(crate) fn changed(case: &Case<Wide>, variable: &ParameterVariable<'_>, by: Wide) -> Case<Wide> {
     use precess_dynamics::set::WithNumbers;
     let mut case = case.clone();
     match *variable {
@@ -179,7 +179,7 @@ fn changed(case: &Case<Wide>, variable: &ParameterVariable<'_>, by: Wide) -> Cas
 }
 
 /// The scale on which a parameter's effect changes: never so large that it changes its sign.
-fn size(case: &Case<f64>, variable: &ParameterVariable<'_>) -> f64 {
+pub(crate) fn size(case: &Case<f64>, variable: &ParameterVariable<'_>) -> f64 {
     match variable {
         ParameterVariable::Device { device, name, .. } => {
             match case.devices[*device].parameter(name) {
@@ -194,11 +194,13 @@ fn size(case: &Case<f64>, variable: &ParameterVariable<'_>) -> f64 {
     }
 }
 
-/// The worst block of a spacecraft; a block has one parameter.
-fn worst_block(drawn: &Drawn) -> (f64, String) {
-    let (case, wide) = (drawn.case::<f64>(), drawn.case::<Wide>());
-    let craft = case.craft();
-    let of_devices: Vec<_> = case.devices.iter().map(parameters_of).collect();
+/// The parameters of each device, with the names that they need.
+pub(crate) fn parameters(case: &Case<f64>) -> Vec<(Vec<Owned>, bool)> {
+    case.devices.iter().map(parameters_of).collect()
+}
+
+/// Those of the hub and of these devices.
+pub(crate) fn variables(of_devices: &[(Vec<Owned>, bool)]) -> Vec<ParameterVariable<'_>> {
     let mut variables = vec![ParameterVariable::HubMass];
     variables.extend(Axis::ALL.map(ParameterVariable::HubCentre));
     variables.extend(Axis::ALL.map(|axis| ParameterVariable::HubInertia(axis, axis)));
@@ -216,6 +218,33 @@ fn worst_block(drawn: &Drawn) -> (f64, String) {
             variables.push(ParameterVariable::Phase { device });
         }
     }
+    variables
+}
+
+/// The block of a parameter, and the size of a change of it.
+pub(crate) fn block(case: &Case<f64>, variable: &ParameterVariable<'_>) -> (String, f64) {
+    let kind = match *variable {
+        ParameterVariable::Device { device, name, .. } => format!("{device} {name}"),
+        ParameterVariable::MountRotation { device, .. } => format!("{device} mount"),
+        ParameterVariable::HubCentre(_) => "hub centre".to_owned(),
+        ParameterVariable::HubInertia(..) => "hub inertia".to_owned(),
+        other => format!("{other:?}"),
+    };
+    let large = match *variable {
+        ParameterVariable::HubMass => case.hub.m_b,
+        ParameterVariable::HubInertia(..) => case.hub.i_b_bc.amax(),
+        ParameterVariable::HubCentre(_) | ParameterVariable::MountRotation { .. } => 1.0,
+        other => size(case, &other),
+    };
+    (kind, large)
+}
+
+/// The worst block of a spacecraft; a block has one parameter.
+fn worst_block(drawn: &Drawn) -> (f64, String) {
+    let (case, wide) = (drawn.case::<f64>(), drawn.case::<Wide>());
+    let craft = case.craft();
+    let of_devices = parameters(&case);
+    let variables = variables(&of_devices);
     let mut blocks = Blocks::default();
     let mut given = Vec::new();
     let found = Spacecraft::parameter_derivatives(
@@ -231,19 +260,7 @@ fn worst_block(drawn: &Drawn) -> (f64, String) {
                 values(&case.craft(), &case)
             };
             let expected = difference(size(&case, &variable), of);
-            let kind = match variable {
-                ParameterVariable::Device { device, name, .. } => format!("{device} {name}"),
-                ParameterVariable::MountRotation { device, .. } => format!("{device} mount"),
-                ParameterVariable::HubCentre(_) => "hub centre".to_owned(),
-                ParameterVariable::HubInertia(..) => "hub inertia".to_owned(),
-                other => format!("{other:?}"),
-            };
-            let large = match variable {
-                ParameterVariable::HubMass => case.hub.m_b,
-                ParameterVariable::HubInertia(..) => case.hub.i_b_bc.amax(),
-                ParameterVariable::HubCentre(_) | ParameterVariable::MountRotation { .. } => 1.0,
-                other => size(&case, &other),
-            };
+            let (kind, large) = block(&case, &variable);
             blocks.add(&kind, large, &derivatives(&craft, case.inputs.hub, column), &expected);
         },
     );
