@@ -48,6 +48,7 @@
 pub mod campaign;
 #[cfg(feature = "tool")]
 pub mod command;
+pub mod control;
 pub mod disturbance;
 pub mod engine;
 pub mod evaluation;

@@ -8,10 +8,12 @@
 //! |---|---|
 //! | `craft` | [`Craft`]: a flexible structure, or a rigid hub as one without modes |
 //! | `derivatives` | derivatives by state, inputs and parameters |
+//! | `steering` | [`SteeringDevices`]: the steering terms of devices on the hub |
 //! | `tangent` | the set over dual numbers |
 
 mod craft;
 mod derivatives;
+mod steering;
 pub mod tangent;
 
 use precess_dynamics::{
@@ -26,6 +28,7 @@ pub use derivatives::{
     derivatives, linearize, linearize_rigid, linearize_step, parameter_derivatives,
     step_parameter_derivatives,
 };
+pub use steering::{SteeringDevices, SteeringSums};
 
 /// What stands on a platform: devices, and platforms that carry devices only.
 pub type Carried = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);

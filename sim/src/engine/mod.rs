@@ -8,6 +8,7 @@
 //! Memory does not grow with the length of a run: samples go to a recorder as they come, drifts are
 //! running maxima, and events beyond the first ten thousand are only counted.
 
+mod control;
 mod equations;
 mod error;
 mod events;

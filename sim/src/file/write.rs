@@ -5,6 +5,7 @@
 //! products of inertia, files of tables as they were named are not needed any more. A key that is
 //! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
 
+mod controller;
 mod source;
 pub(super) mod structure;
 
@@ -68,11 +69,15 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
     for of in &s.disturbances {
         source::write(out, s, of)?;
     }
+    for of in &s.controllers {
+        controller::write(out, s, of)?;
+    }
     for change in &s.changes {
         writeln!(out, "\n[[at]]\ntime = \"{:?} s\"", change.time)?;
         writeln!(out, "joint = {}", quoted(&joint_name(s, change.joint)))?;
         match &change.action {
             Action::Brake => writeln!(out, "brake = true")?,
+            Action::Release => writeln!(out, "controlled = true")?,
             Action::Drive(of) => drive(out, of, info(s, change.joint))?,
         }
     }

@@ -6,6 +6,7 @@
 //! since the start, are recorded only where they are selected. `time` always comes first; the others keep their order here,
 //! whatever the order of the selection.
 
+mod control;
 mod disturbances;
 mod friction;
 mod orbit;
@@ -15,6 +16,7 @@ mod structure;
 
 use precess_dynamics::kind::JointInfo;
 
+pub(crate) use control::ControlQuantity;
 pub(crate) use quantity::{Quantity, Source};
 
 use super::error::RecordError;
@@ -63,6 +65,7 @@ impl Columns {
         structure::columns(&mut columns, scenario);
         points::columns(&mut columns, scenario);
         disturbances::columns(&mut columns, scenario);
+        control::columns(&mut columns, scenario);
         totals(&mut columns);
         for (index, (name, member)) in scenario.members().enumerate() {
             of_mount(&mut columns, (index, name), member.on().and_then(|on| scenario.body_of(on)));

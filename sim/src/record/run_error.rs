@@ -5,6 +5,7 @@ use std::fmt;
 use precess_dynamics::{ModesError, ParameterError, SolveError};
 
 use super::error::RecordError;
+use crate::control::ControllerError;
 use crate::scenario::ScenarioError;
 use crate::units::Plain;
 
@@ -140,6 +141,20 @@ pub enum RunError {
         /// What it reports.
         fault: Fault,
     },
+    /// A controller does not answer a sample, or its commands cannot be computed.
+    Controller {
+        /// Simulated time, s.
+        time: f64,
+        /// Its name.
+        name: String,
+        /// Why.
+        source: ControllerError,
+    },
+    /// A program gives a controller of a name that the scenario does not have.
+    NoController {
+        /// The name.
+        name: String,
+    },
     /// The samples could not be recorded.
     Record(RecordError),
     /// An error of another process, which has passed on only its time and message.
@@ -192,6 +207,7 @@ impl RunError {
             | Self::StepTooSmall { time, .. }
             | Self::Stiff { time, .. }
             | Self::TooFast { time, .. }
+            | Self::Controller { time, .. }
             | Self::Integrator { time, .. } => Some(*time),
             Self::Elsewhere { time, .. } => *time,
             Self::Scenario(_)
@@ -199,6 +215,7 @@ impl RunError {
             | Self::Modes(_)
             | Self::BeyondStop { .. }
             | Self::Crossing { .. }
+            | Self::NoController { .. }
             | Self::Record(_) => None,
         }
     }
@@ -338,6 +355,10 @@ impl fmt::Display for RunError {
                 "the integrator stopped at t = {time} s: {fault}; this is a fault of the program",
                 time = Plain(*time)
             ),
+            Self::Controller { time, name, source } => {
+                write!(f, "at t = {time} s, controller `{name}`: {source}", time = Plain(*time))
+            }
+            Self::NoController { name } => write!(f, "no controller is named `{name}`"),
             Self::Record(error) => error.fmt(f),
             Self::Elsewhere { message, .. } => f.write_str(message),
         }
@@ -350,6 +371,7 @@ impl std::error::Error for RunError {
             Self::Parameters(source) => Some(source),
             Self::Modes(source) => Some(source),
             Self::Solve { source, .. } => Some(source),
+            Self::Controller { source, .. } => Some(source),
             Self::Record(source) => Some(source),
             _ => None,
         }

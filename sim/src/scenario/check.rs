@@ -115,6 +115,7 @@ impl Scenario {
         errors.extend(self.check_joints());
         errors.extend(self.check_points());
         errors.extend(self.check_friction());
+        errors.extend(self.check_controllers());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {
@@ -321,7 +322,7 @@ impl Scenario {
     pub(crate) fn profiles(&self) -> impl Iterator<Item = &Profile> {
         let changed = self.changes.iter().filter_map(|change| match &change.action {
             Action::Drive(drive) => Some(drive),
-            Action::Brake => None,
+            Action::Brake | Action::Release => None,
         });
         let of_drives = self.drives.iter().chain(changed).filter_map(Drive::profile);
         let of_wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.moment));

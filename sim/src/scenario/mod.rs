@@ -9,6 +9,8 @@
 
 mod body_point;
 mod check;
+mod control_law;
+mod controller;
 mod description;
 mod disturbances;
 mod friction;
@@ -32,6 +34,12 @@ use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Quaternion, Spacec
 
 pub use body_point::BodyPoint;
 pub use check::ScenarioError;
+pub(crate) use control_law::BuiltGuidance;
+pub use control_law::{AttitudeReference, ControlLaw};
+pub use controller::{
+    AllocationInverse, CommandedJoint, SampledController, ServoSettings, TorqueAllocation,
+};
+pub(crate) use controller::{COMMANDED_MAX, steered};
 pub use description::UndescribedError;
 pub use friction::{DryFriction, JointFriction};
 pub use mass::{MassMatrix, MassProperties};
@@ -94,6 +102,8 @@ pub struct Scenario {
     pub points: Vec<BodyPoint>,
     /// Empirical sources of force and torque.
     pub disturbances: Vec<Disturbance>,
+    /// Controllers that are computed at samples; a joint is commanded by at most one.
+    pub controllers: Vec<SampledController>,
     /// Changes of drives at times, in the order of time.
     pub changes: Vec<Change>,
     /// Crossings that end the run or are only noted.
@@ -199,6 +209,8 @@ pub enum Action {
     Drive(Drive),
     /// Stopped impulsively, as by a rigid brake, and locked; the loss is entered in the ledger.
     Brake,
+    /// Its controller commands it again, after a drive, a brake or an end stop took its place.
+    Release,
 }
 
 /// A recorded quantity that passes a value.

@@ -76,6 +76,8 @@ measures! {
     ANGULAR_RATE = "an angular rate", "rad/s", "rpm", [0 0 -1 1];
     /// Angular acceleration.
     ANGULAR_ACCELERATION = "an angular acceleration", "rad/s^2", "deg/s^2", [0 0 -2 1];
+    /// Angular jerk.
+    ANGULAR_JERK = "an angular jerk", "rad/s^3", "deg/s^3", [0 0 -3 1];
     /// Force.
     FORCE = "a force", "N", "mN", [1 1 -2 0];
     /// Torque.
@@ -90,6 +92,8 @@ measures! {
     DYNAMIC_IMBALANCE = "a dynamic imbalance", "kg m^2", "g cm^2", [2 1 0 0];
     /// Static imbalance; a first moment.
     STATIC_IMBALANCE = "a static imbalance", "kg m", "g cm", [1 1 0 0];
+    /// Reciprocal of an inertia.
+    INVERSE_INERTIA = "a reciprocal of an inertia", "1/(kg m^2)", "1/(kg m^2)", [-2 -1 0 0];
     /// Linear momentum.
     MOMENTUM = "a linear momentum", "kg m/s", "N s", [1 1 -1 0];
     /// Angular momentum.

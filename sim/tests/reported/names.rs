@@ -14,8 +14,8 @@ const SCENARIO: &str = "format = 1\n[hub]\nmass = \"50 kg\"\ninertia = \"9, 8, 7
     [output]\nrate = \"1 kHz\"\n[[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\n\
     imbalance.static = \"0.1 g cm\"\nwheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\", rate = \"3000 rpm\" }\n";
 
-/// Tables with a name, each with the key of its list: `@` is the name.
-const NAMED: [(&str, &str); 11] = [
+/// Tables with a name, each with the key of its list: `@` is the name, `#` the number of the table.
+const NAMED: [(&str, &str); 12] = [
     ("device", "name = @\nkind = \"slosh_mass\"\nslosh_mass.mass = \"1 kg\"\n"),
     ("platform", "name = @\nmass = \"1 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n"),
     (
@@ -31,6 +31,12 @@ const NAMED: [(&str, &str); 11] = [
     ("at", "name = @\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"\n"),
     ("wrench", "name = @\non = \"hub\"\nforce = \"0, 0, 1 mN\"\n"),
     ("point", "name = @\nposition = \"0, 0, 1 cm\"\n"),
+    (
+        "controller",
+        "name = @\nrate = \"20 Hz\"\ndevices = [\"own#\"]\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
+         [[device]]\nname = \"own#\"\nkind = \"balanced_reaction_wheel\"\n\
+         wheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }\n",
+    ),
     ("structure.node", "name = @\nposition = \"0, 0, 1 m\"\n"),
     ("structure.point", "name = @\nnode = \"tip\"\n"),
 ];
@@ -49,9 +55,10 @@ fn with_names(key: &str, table: &str, names: &[&str]) -> String {
     if key.starts_with("platform.") {
         text += PLATFORM;
     }
-    for name in names {
+    for (index, name) in names.iter().enumerate() {
         let quoted = serde_json::to_string(name).expect("a text");
-        text.extend(["[[", key, "]]\n", &table.replace('@', &quoted)]);
+        let numbered = table.replace('#', &index.to_string());
+        text.extend(["[[", key, "]]\n", &numbered.replace('@', &quoted)]);
     }
     text
 }

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 44] = [
+const OTHERS: [&str; 48] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -62,6 +62,19 @@ const OTHERS: [&str; 44] = [
     "[device.wheel.torque]\ntable = \"no.csv\"\ncolumn = \"u\"\nunit = \"N m\"\ninterpolation = \"hold\"",
     "[[device]]\nname = \"other\"\ncopy_of = \"rw\"\nturned_180_about = \"x\"",
     "power_limit = \"30 W\"\nrate_limit = \"6000 rpm\"",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\noffset = \"0 s\"\ndelay = \"1 ms\"\ndevices = [\"rw\"]\n\
+     law = { kind = \"mrp_feedback\", attitude_gain = \"1 N m\", rate_gain = \"1, 2, 3 N m s\", gyroscopic = \"nothing\" }\n\
+     reference = { kind = \"hold\", attitude = { mrp = [0, 0, 0] } }\n\
+     allocation = { inverse = \"generalised\", lambda = 0.1, dither_frequency = \"1 rad/s\" }\nservo = { gain = \"1 1/s\" }\n\
+     [[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ncontrolled = true",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\ndevices = \"rw\"\n\
+     law = { kind = \"quaternion_feedback\", attitude_gain = \"1 N m\", rate_gain = \"1 N m s\" }\n\
+     reference = { kind = \"slew\", turn = { axis = [0, 0, 1], angle = \"9 deg\" }, acceleration_limit = \"1 deg/s^2\" }",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"eigen_axis\", frequency = \"1 Hz\", damping_ratio = 0.7 }\n\
+     reference = { kind = \"turning\", angular_velocity = \"0, 1, 0 deg/s\" }",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
+     reference = { kind = \"orbit\" }\n[gravity]\ncentral = \"4e14 m^3/s^2\"\n\
+     [initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
      power_limit = \"30 W\"\nspeed_limit = \"1 m/s\"\n\

@@ -260,6 +260,7 @@ pub(crate) const SUITES: &[Suite] = &[
         "command",
         &[SOLVER, DESKTOP, &["sim/tests/command.rs", "sim/tests/shared", "tests/baked"]],
     ),
+    always("precess", "control", &[SOLVER, DESKTOP, &["sim/tests/control"]]),
     always("precess", "corpus", &[SOLVER, DESKTOP, &["sim/tests/corpus.rs", "sim/fuzz"]]),
     always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
     always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),

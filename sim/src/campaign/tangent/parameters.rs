@@ -40,6 +40,7 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
         (!scenario.stops.is_empty(), "end stops"),
         (!scenario.friction.is_empty(), "friction that sticks or quadratic drag"),
         (!scenario.crossings.is_empty(), "crossings"),
+        (!scenario.controllers.is_empty(), "controllers"),
         (!scenario.drives.iter().all(constant), "drives that vary over time"),
         (
             scenario.drives.iter().any(|drive| drive.limits().depend_on_rate()),

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
+use super::commands::HeldCommands;
 use super::disturbances::Disturbances;
 use super::friction::{Contact, Frictions};
 use super::kinematics::{Chain, axes};
@@ -31,6 +32,8 @@ pub(crate) struct SegmentInputs<'a> {
     driven: Vec<bool>,
     /// Which limit each motor is at.
     motors: Vec<MotorState>,
+    /// What controllers command.
+    pub(crate) held: HeldCommands,
     wrenches: Vec<WrenchOnBody<'a>>,
     disturbances: Disturbances<'a>,
     pub(crate) friction: Frictions<'a>,
@@ -84,6 +87,7 @@ impl<'a> SegmentInputs<'a> {
             drives: scenario.drives.iter().collect(),
             driven: joints.iter().map(|place| place.info.driven).collect(),
             motors: vec![MotorState::default(); joints.len()],
+            held: HeldCommands::new(scenario),
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
             friction: Frictions::new(scenario),
@@ -115,12 +119,19 @@ impl<'a> SegmentInputs<'a> {
         self.drives.get(joint).copied().unwrap_or(LOCKED)
     }
 
-    /// Replaces the drive of a joint.
+    /// Replaces the drive of a joint, and its controller where it has one.
     pub(crate) fn set_drive(&mut self, joint: usize, drive: &'a Drive) {
         if let Some(present) = self.drives.get_mut(joint) {
             *present = drive;
         }
+        self.held.set_replaced(joint, true);
         self.set_motor(joint, MotorState::Commanded);
+    }
+
+    /// Gives a joint back to its controller, with the drive that it had at the start.
+    pub(crate) fn release(&mut self, joint: usize, drive: &'a Drive) {
+        self.set_drive(joint, drive);
+        self.held.set_replaced(joint, false);
     }
 
     /// Which limit each motor is at.
@@ -135,12 +146,13 @@ impl<'a> SegmentInputs<'a> {
         }
     }
 
-    /// The torque of a joint's profile within the largest one, N m or N; zero of another drive.
+    /// The torque of a joint's profile or controller within the largest one, N m or N; zero of another drive.
     pub(crate) fn commanded(&self, joint: usize, time: f64) -> f64 {
         let time = time.clamp(self.start, self.end);
         match self.drive(joint) {
             drive @ Drive::Torque { profile, .. } => {
-                drive.limits().clipped(profile.at(time, time > self.start))
+                let of_profile = || profile.at(time, time > self.start);
+                drive.limits().clipped(self.held.torque(joint).unwrap_or_else(of_profile))
             }
             Drive::Acceleration(_) | Drive::Locked => 0.0,
         }
@@ -150,6 +162,7 @@ impl<'a> SegmentInputs<'a> {
     pub(crate) fn largest_torque(&self, joint: usize) -> f64 {
         let drive = self.drive(joint);
         let of_profile = drive.profile().map_or(0.0, Profile::bound);
+        let of_profile = self.held.torque(joint).map_or(of_profile, f64::abs);
         drive.limits().torque.map_or(of_profile, |limit| limit.abs().min(of_profile))
     }
 
@@ -281,16 +294,18 @@ impl<'a> SegmentInputs<'a> {
         let joints = inputs.motors.values_mut().zip(inputs.modes.values_mut());
         let drives = self.drives.iter().zip(&self.driven).zip(&self.motors);
         let of_states = state.devices.states();
-        for (((motor, mode), ((drive, driven), at_limit)), [_, rate]) in
-            joints.zip(drives).zip(of_states)
+        for (joint, (((motor, mode), ((drive, driven), at_limit)), [_, rate])) in
+            joints.zip(drives).zip(of_states).enumerate()
         {
             if !driven {
                 continue;
             }
+            let commanded =
+                |profile: &Profile| self.held.torque(joint).unwrap_or_else(|| at(profile));
             (*motor, *mode) = match drive {
-                Drive::Torque { profile, limit: None } => (at(profile), Mode::Driven),
+                Drive::Torque { profile, limit: None } => (commanded(profile), Mode::Driven),
                 Drive::Torque { profile, limit: Some(limits) } => {
-                    at_limit.acting(at(profile), limits, rate)
+                    at_limit.acting(commanded(profile), limits, rate)
                 }
                 Drive::Acceleration(profile) => (0.0, Mode::Prescribed(at(profile))),
                 Drive::Locked => (0.0, Mode::Locked),

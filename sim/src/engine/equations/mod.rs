@@ -1,6 +1,7 @@
 //! The equations of motion of a scenario, as an integrator evaluates them: the state as one flat vector, what acts on
 //! the spacecraft at a time, and the poses of its bodies.
 
+pub(super) mod commands;
 mod disturbances;
 pub(super) mod friction;
 pub(super) mod inputs;

@@ -107,7 +107,7 @@ impl<'a> Monitors<'a> {
         let stops: Vec<_> = scenario.stops.iter().collect();
         let changed = scenario.changes.iter().filter_map(|change| match &change.action {
             Action::Drive(drive) => Some(drive),
-            Action::Brake => None,
+            Action::Brake | Action::Release => None,
         });
         let mut drives = scenario.drives.iter().chain(changed);
         let motors = drives.any(|drive| drive.limits().depend_on_rate());

@@ -30,7 +30,7 @@ impl<'a> Segments<'a> {
         let mut ends: Vec<f64> = changes.iter().map(|change| change.time).collect();
         let changed = changes.iter().filter_map(|change| match &change.action {
             Action::Drive(drive) => Some(drive),
-            Action::Brake => None,
+            Action::Brake | Action::Release => None,
         });
         let mut limited = Vec::new();
         for drive in scenario.drives.iter().chain(changed) {

@@ -10,6 +10,7 @@ use precess_dynamics::{
     PointMotion, Quaternion, SolveError,
 };
 
+use super::control::ControlSample;
 use super::drift::energies;
 use super::member_loads::MemberLoads;
 use crate::disturbance::Six;
@@ -20,7 +21,7 @@ use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
 use crate::rotation::{inverse, product, to_vector};
-use crate::scenario::{BodyPoint, OrbitalFrame, Scenario, roll_pitch_yaw};
+use crate::scenario::{BodyPoint, BuiltGuidance, OrbitalFrame, Scenario, roll_pitch_yaw};
 use precess_craft::{CraftInputs, CraftState};
 
 /// The numbers of a sample, and what has to be computed for them.
@@ -43,6 +44,8 @@ pub(crate) struct SampleValues {
     points: Vec<Point>,
     /// Those of bodies; none where no column shows them.
     body_points: Vec<BodyPoint>,
+    /// References of controllers; none where no column shows what these do.
+    guidance: Vec<BuiltGuidance>,
 }
 
 /// A recorded point of the structure, and what is computed of it.
@@ -79,6 +82,8 @@ struct Computed<'a> {
     body_points: Vec<BodyPointMotion>,
     /// Force and moment of each disturbance.
     disturbances: Vec<Six<f64>>,
+    controls: Vec<ControlSample>,
+    system: &'a System<'a>,
 }
 
 impl SampleValues {
@@ -121,6 +126,12 @@ impl SampleValues {
             reference: numbers(&scenario.reference),
             points,
             body_points: if of_bodies { scenario.points.clone() } else { Vec::new() },
+            guidance: if any(Source::Control) {
+                // Of a checked scenario each is.
+                scenario.controllers.iter().filter_map(|of| of.reference.built().ok()).collect()
+            } else {
+                Vec::new()
+            },
             quantities,
         }
     }
@@ -215,6 +226,12 @@ impl SampleValues {
             } else {
                 Vec::new()
             },
+            controls: self
+                .guidance
+                .iter()
+                .map(|guidance| ControlSample::new(guidance, time, state))
+                .collect(),
+            system,
         };
         for (number, quantity) in self.numbers.iter_mut().zip(&self.quantities) {
             *number = computed.number(*quantity);
@@ -276,6 +293,10 @@ impl Computed<'_> {
             | Quantity::LoadMoment(..) => loads.and_then(|loads| loads.number(quantity)),
             Quantity::Disturbance(source, component) => {
                 self.disturbances.get(source).and_then(|of| of.get(component).copied())
+            }
+            Quantity::Control(controller, quantity) => {
+                let control = self.controls.get(controller);
+                control.and_then(|control| control.number(self.system, controller, quantity))
             }
             Quantity::ModalCoordinate(mode) => state.modal.eta.get(mode).copied(),
             Quantity::ModalRate(mode) => state.modal.eta_dot.get(mode).copied(),

@@ -15,10 +15,14 @@ impl Run<'_> {
     /// Applies what is due at the present time and begins the segment.
     pub(super) fn begin_segment(&mut self) -> Result<(), RunError> {
         loop {
-            let end = self.segments.end_after(self.time);
-            self.system.acting.begin(self.time, end);
+            let listed = self.segments.end_after(self.time);
+            self.system.acting.begin(self.time, listed);
             let released = self.bring_to_rest()?;
             self.apply_actions()?;
+            // What a sample commands may act after a delay, so this is known only now.
+            let end = self.controls.next_after(self.time).min(listed);
+            self.segment_end = end;
+            self.system.acting.begin(self.time, end);
             self.decide_friction(released)?;
             // Two times that differ by rounding are one.
             if same(self.time, end) {
@@ -67,6 +71,7 @@ impl Run<'_> {
                     self.note(self.time, text);
                 }
                 Action::Brake => brakes.push(change.joint),
+                Action::Release => self.release(change.joint),
             }
         }
         if !brakes.is_empty() {
@@ -75,7 +80,17 @@ impl Run<'_> {
             let names = names.collect::<Vec<_>>().join(", ");
             self.note(self.time, format!("{names}: braked, {lost} J lost"));
         }
+        self.controls.act(&mut self.system, self.time, &self.moment)?;
         self.settle_motors()
+    }
+
+    /// Gives a joint back to its controller.
+    fn release(&mut self, joint: usize) {
+        let Some(drive) = self.scenario.drives.get(joint) else { return };
+        self.system.acting.release(joint, drive);
+        let name = self.system.layout.joints.get(joint).map_or("", |place| &place.name);
+        let text = format!("{name}: commanded by its controller");
+        self.note(self.time, text);
     }
 
     /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
@@ -125,7 +140,7 @@ impl Run<'_> {
             Action::Drive(Drive::Torque { profile, .. } | Drive::Acceleration(profile)) => {
                 Profile::is_zero(profile)
             }
-            Action::Drive(Drive::Locked) | Action::Brake => false,
+            Action::Drive(Drive::Locked) | Action::Brake | Action::Release => false,
         };
         if place.info.driven || none {
             return Ok(());

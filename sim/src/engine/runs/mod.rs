@@ -16,6 +16,8 @@ use friction::Changed;
 pub use recorded::run;
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
+use crate::control::Controller;
+use crate::engine::control::Controls;
 use crate::engine::craft_of;
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::engine::equations::system::System;
@@ -36,6 +38,9 @@ pub struct Run<'a> {
     pub(super) system: System<'a>,
     pub(super) stepper: Stepper,
     segments: Segments<'a>,
+    controls: Controls<'a>,
+    /// The end of the present segment, s.
+    segment_end: f64,
     monitors: Monitors<'a>,
     conserved: Conserved,
     events: Vec<Event>,
@@ -90,6 +95,20 @@ impl<'a> Run<'a> {
         scenario: &'a Scenario,
         quantities: RunQuantities,
     ) -> Result<Self, RunError> {
+        Self::with_controllers(scenario, quantities, Vec::new())
+    }
+
+    /// As [`Self::with_quantities`], with controllers of a program in the place of the laws of the scenario's controllers of
+    /// these names.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`]; [`RunError::NoController`] of a name that no controller has.
+    pub fn with_controllers(
+        scenario: &'a Scenario,
+        quantities: RunQuantities,
+        controllers: Vec<(String, Box<dyn Controller>)>,
+    ) -> Result<Self, RunError> {
         let errors = scenario.check();
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
@@ -108,6 +127,8 @@ impl<'a> Run<'a> {
         let mut run = Self {
             stepper: Stepper::new(&system, scenario.settings.integrator, &moment),
             segments: Segments::new(scenario),
+            controls: Controls::new(scenario, controllers)?,
+            segment_end: 0.0,
             monitors: Monitors::new(scenario, &system, &moment)?,
             conserved: Conserved::new(scenario, &system),
             events: Vec::new(),
@@ -211,7 +232,7 @@ impl<'a> Run<'a> {
             self.at_boundary = true;
         } else {
             self.stepper.now(&self.system, &mut self.moment);
-            self.at_boundary = reached >= self.segments.end_after(self.time);
+            self.at_boundary = reached >= self.segment_end;
         }
         self.time = reached;
         self.enter()?;

@@ -84,6 +84,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
         wrenches: Vec::new(),
         points: Vec::new(),
         disturbances: Vec::new(),
+        controllers: Vec::new(),
         changes: Vec::new(),
         crossings: Vec::new(),
         settings: Settings { duration, integrator: DOP853 },

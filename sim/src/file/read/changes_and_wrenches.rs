@@ -17,7 +17,7 @@ use crate::scenario::{
 };
 use crate::units::{Measure, Plain};
 
-/// `[[at]]`: `time`, `joint`, and `brake = true`, `locked = true`, a `torque`, an `acceleration`;
+/// `[[at]]`: `time`, `joint`, and `brake = true`, `controlled = true`, `locked = true`, a `torque`, an `acceleration`;
 /// in the order of time.
 pub(super) fn changes(
     keys: &Keys<'_>,
@@ -44,19 +44,30 @@ fn change(keys: &Keys<'_>, joints: &Joints, duration: f64, folder: &Path) -> Opt
     }
     let joint = joint(keys, "joint", joints);
     let brake = keys.boolean("brake").unwrap_or(false);
+    let released = keys.boolean("controlled").unwrap_or(false);
     let info = joints.info(joint?)?;
     let given = ["torque", "force", "acceleration", "locked"].into_iter().find(|key| keys.has(key));
     let drive = drive(keys, info, &JointMeasures::of_joint(info), folder);
     keys.finish();
+    if brake && released {
+        let message = "a brake locks the joint, and a controller moves it";
+        keys.error("controlled", message, "keep one of them");
+        return None;
+    }
     let action = match (brake, given) {
         (true, None) => Action::Brake,
+        (false, None) if released => Action::Release,
+        (false, Some(key)) if released => {
+            keys.error(key, "a controller commands the joint", "remove `controlled`, or this");
+            return None;
+        }
         (true, Some(key)) => {
             keys.error(key, "a brake stops and locks the joint", "remove `brake`, or this");
             return None;
         }
         (false, Some(_)) => Action::Drive(drive?),
         (false, None) => {
-            let help = "give a `torque`, an `acceleration`, `locked = true` or `brake = true`";
+            let help = "give a `torque`, an `acceleration`, `locked = true`, `brake = true` or `controlled = true`";
             let message = format!("`{}` changes nothing", keys.path());
             keys.reports().borrow_mut().error(keys.span(), message, "", help);
             return None;

@@ -2,6 +2,7 @@
 
 mod changes_and_wrenches;
 mod check;
+mod controllers;
 pub(super) mod devices;
 mod hub;
 mod output;
@@ -212,6 +213,13 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         folder,
     };
     let disturbances = sources::sources(&keys, &known);
+    let known = controllers::ControllerContext {
+        devices: &devices,
+        attitude: reference,
+        position: initial.r_b_n,
+        velocity: initial.r_b_n_dot,
+    };
+    let controllers = controllers::controllers(&keys, &known);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = output::requirement::requirements(&keys, settings.as_ref());
@@ -243,6 +251,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         wrenches,
         points,
         disturbances,
+        controllers,
         changes,
         crossings,
         settings: settings?,

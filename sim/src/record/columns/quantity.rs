@@ -1,5 +1,7 @@
 //! [`Quantity`]: what a column shows.
 
+use super::control::ControlQuantity;
+
 /// What a column shows: of an axis 0 to 2, of a joint, device or platform by its number in the set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Quantity {
@@ -50,6 +52,8 @@ pub(crate) enum Quantity {
     BodyPointAcceleration(usize, usize),
     /// Of a disturbance: a component of force, 0 to 2, or moment, 3 to 5.
     Disturbance(usize, usize),
+    /// Of a controller.
+    Control(usize, ControlQuantity),
 }
 
 /// What a quantity is read from.
@@ -67,6 +71,8 @@ pub(crate) enum Source {
     PointMotion(usize),
     PointAcceleration(usize),
     Disturbances,
+    /// Reference of a controller, and what it computed last.
+    Control,
 }
 
 impl Quantity {
@@ -111,6 +117,7 @@ impl Quantity {
             | Self::PointOmega(point, _) => Source::PointMotion(point),
             Self::PointAcceleration(point, _) => Source::PointAcceleration(point),
             Self::Disturbance(..) => Source::Disturbances,
+            Self::Control(..) => Source::Control,
         }
     }
 

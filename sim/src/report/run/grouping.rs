@@ -21,7 +21,7 @@ use crate::scenario::Scenario;
 /// Colours and dashes of curves repeat after as many.
 const CURVES_MAX: usize = 8;
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 const TURNS: [&str; 3] = ["roll", "pitch", "yaw"];
 
 /// The charts of a header in the order of the page. Energy less work is a column after the last
@@ -76,20 +76,20 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
 }
 
 /// Where a column belongs.
-struct ChartColumn {
+pub(super) struct ChartColumn {
     /// Orders the charts.
-    key: (usize, usize),
-    part: Part,
-    slug: String,
-    title: String,
-    axis: &'static str,
-    family: &'static Family,
-    label: String,
-    departure: bool,
+    pub(super) key: (usize, usize),
+    pub(super) part: Part,
+    pub(super) slug: String,
+    pub(super) title: String,
+    pub(super) axis: &'static str,
+    pub(super) family: &'static Family,
+    pub(super) label: String,
+    pub(super) departure: bool,
 }
 
 /// The joints of a scenario: number and name of the device, and the joint.
-type Joints<'a> = [(usize, &'a str, &'static JointInfo)];
+pub(super) type Joints<'a> = [(usize, &'a str, &'static JointInfo)];
 
 /// The chart of every quantity; none of the time.
 fn found(
@@ -176,6 +176,9 @@ fn found(
         }
         Quantity::ModalRate(mode) => of_modes(16, "modal rates", unit::MODAL_RATE, "η′", mode),
         Quantity::Disturbance(source, component) => of_disturbance(source, component, column),
+        Quantity::Control(controller, quantity) => {
+            return super::control_charts::chart(controller, quantity, column, joints);
+        }
         Quantity::Energy => of_hub((20, 0), ENERGY, unit::ENERGY, ["ΔE", ""]),
         Quantity::Work => of_hub((20, 0), WORK, unit::ENERGY, ["W", ""]),
         Quantity::Lost => of_hub((20, 0), WORK, unit::ENERGY, ["losses", ""]),
@@ -362,16 +365,16 @@ fn split(chart: Chart) -> Vec<Chart> {
 }
 
 /// A device's name without what a label would take for an index.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.replace('_', " ")
 }
 
 /// A name for a file: lower case, digits, hyphens.
-fn hyphenated(name: &str) -> String {
+pub(super) fn hyphenated(name: &str) -> String {
     name.replace([' ', '_', '.'], "-")
 }
 
-fn capitalised(text: &str) -> String {
+pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -2,6 +2,7 @@
 
 pub(super) mod chart;
 mod chart_texts;
+mod control_charts;
 pub(super) mod extremes;
 pub(super) mod grouping;
 pub(super) mod limits;

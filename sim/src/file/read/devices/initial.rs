@@ -111,7 +111,7 @@ fn at_rest(devices: &[Device]) -> State<Set> {
 }
 
 /// The attitude of B with respect to N; nothing where it is wrong, which has been reported.
-fn attitude_of(keys: &Keys<'_>) -> Option<Quaternion> {
+pub(in crate::file::read) fn attitude_of(keys: &Keys<'_>) -> Option<Quaternion> {
     let ways: Vec<_> = WAYS.into_iter().filter(|way| keys.has(way)).collect();
     match ways.as_slice() {
         ["quaternion"] => quaternion(keys),
@@ -154,7 +154,7 @@ fn quaternion(keys: &Keys<'_>) -> Option<Quaternion> {
 }
 
 /// The attitude of axes whose columns are the new axes in the old ones.
-fn of_axes(axes: &Matrix3<f64>) -> Quaternion {
+pub(in crate::file::read) fn of_axes(axes: &Matrix3<f64>) -> Quaternion {
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes));
     let [q1, q2, q3, q0] = turn.coords.into();
     Quaternion { q0, q1, q2, q3 }.normalised()

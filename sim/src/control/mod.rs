@@ -1,0 +1,52 @@
+//! [`Controller`]: what a sampled controller of a run computes; a law of [`precess_control`], or one of a program.
+//!
+//! A run calls it once a sample, in the order of time, from the start of the run. Its answer is held until the next one
+//! acts: a torque on the spacecraft, which the run divides among the joints that the controller commands, or the torques
+//! of their motors.
+
+mod error;
+
+use nalgebra::Vector3;
+use precess_control::{Law, Sample};
+
+pub use error::ControllerError;
+
+/// What a controller reads at a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct ControllerSample<'a> {
+    /// Time of the sample, s.
+    pub time: f64,
+    /// Motion of the hub and what it is to follow; what a law reads.
+    pub of: Sample,
+    /// Coordinate and rate of each joint that it commands, rad and rad/s.
+    pub joints: &'a [[f64; 2]],
+}
+
+/// What a controller answers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Torque that the devices are to exert on the spacecraft about its centre of mass, expressed in B, N m: their
+    /// momentum relative to the hub changes by its opposite, as seen from B.
+    Torque(Vector3<f64>),
+    /// Torques of the motors of the joints that it commands, N m.
+    Motors(Vec<f64>),
+}
+
+/// A controller.
+pub trait Controller: Send {
+    /// Its answer to a sample.
+    ///
+    /// # Errors
+    ///
+    /// Why it has none: the run ends there, its result complete up to the sample.
+    fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError>;
+}
+
+/// A law as a controller.
+pub struct LawController(pub Box<dyn Law + Send>);
+
+impl Controller for LawController {
+    fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError> {
+        Ok(Command::Torque(self.0.torque(&sample.of)))
+    }
+}

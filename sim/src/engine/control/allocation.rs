@@ -1,0 +1,177 @@
+//! [`Allocator`]: from a torque on the spacecraft to rates of gimbals and accelerations of wheels.
+//!
+//! ```text
+//! Q x = -(u - omega x (I omega + h)) - drift
+//! ```
+//!
+//! u is the torque about the centre of mass that the devices exert by the change of their momentum relative to the hub as
+//! seen from B; `omega x (I omega + h)`, with inertia and relative momentum of the devices on the hub, is what they take
+//! by turning with the hub, which the law has as part of the whole spacecraft's. Columns and drift are those of
+//! [`SteeringMatrix`].
+
+use nalgebra::Vector3;
+use precess_craft::SteeringSums;
+use precess_dynamics::{
+    Dither, Inverse, Steered, SteeringError, SteeringLaw, SteeringMatrix, steering_weights,
+};
+
+use crate::scenario::{AllocationInverse, COMMANDED_MAX, MotorLimits, SampledController};
+
+/// A bound that no command reaches.
+const UNBOUNDED: f64 = 1e30;
+/// Phases of the dither's three elements, a quarter turn apart: they are not all zero at one time. rad.
+const PHASES: [f64; 3] = [0.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
+
+/// What a controller's torque is divided by.
+#[derive(Clone, Debug)]
+pub(super) struct Allocator {
+    /// The momentum that makes lambda and the measure dimensionless; of the first sample where none is stated, N m s.
+    reference: Option<f64>,
+}
+
+/// Commands of the joints of a controller.
+#[derive(Clone, Debug)]
+pub(super) struct Allocated {
+    /// Rates and accelerations; zero of a joint that is not available.
+    pub(super) commands: Vec<f64>,
+    pub(super) torque_error: Vector3<f64>,
+    pub(super) bounded: usize,
+    pub(super) measure: f64,
+}
+
+/// A joint of a controller, at a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Available {
+    pub(super) joint: usize,
+    pub(super) steered: Steered,
+    pub(super) limits: MotorLimits,
+    /// Whether nothing has taken the place of its controller.
+    pub(super) commanded: bool,
+}
+
+/// Joints beyond those of a controller are padded: nothing is commanded of them.
+type Padded<T> = [T; COMMANDED_MAX];
+
+impl Allocator {
+    pub(super) fn new(of: &SampledController) -> Self {
+        Self { reference: of.allocation.reference }
+    }
+
+    /// Commands for a torque, N m, B, at a time and terms of the devices on the hub.
+    pub(super) fn allocate(
+        &mut self,
+        of: &SampledController,
+        (time, torque): (f64, &Vector3<f64>),
+        (joints, rates, omega): (&[Available], &[f64], &Vector3<f64>),
+        sums: &SteeringSums,
+    ) -> Result<Allocated, SteeringError> {
+        let mut steered: Padded<Steered> = [Steered::Nothing; COMMANDED_MAX];
+        for (to, of) in steered.iter_mut().zip(joints).filter(|(_, of)| of.commanded) {
+            *to = of.steered;
+        }
+        let matrix = matrix(&steered, joints, rates, sums);
+        let reference = *self.reference.get_or_insert_with(|| largest(&matrix));
+        let settings = &of.allocation;
+        let has_gimbals = steered.contains(&Steered::Rate);
+        let weight = |of: Steered| match of {
+            Steered::Rate => settings.gimbal_weight,
+            Steered::Acceleration => settings.wheel_weight,
+            Steered::Nothing => 0.0,
+        };
+        // Of gimbals where there are any: wheels help where these are singular.
+        let counts = |of: Steered| if has_gimbals { of == Steered::Rate } else { weight(of) > 0.0 };
+        let measure = only(&matrix, &steered, counts).measure(reference);
+        let turning = omega.cross(&(sums.inertia * omega + sums.momentum));
+        let demand = torque - turning;
+        let matrix = only(&matrix, &steered, |of| weight(of) > 0.0);
+        let found = if settings.inverse == AllocationInverse::LeastLargest {
+            matrix.least_largest(&demand)?
+        } else {
+            let weights = [settings.gimbal_weight, settings.wheel_weight];
+            let law = SteeringLaw {
+                inverse: inverse(settings.inverse, time),
+                weights: steering_weights(&steered, weights, settings.wheel_mu, measure),
+                reference,
+            };
+            law.allocate_within(&matrix, &demand, &bounds(joints, &matrix))?
+        };
+        let commands = found.commands.into_iter().take(joints.len()).collect();
+        let (torque_error, bounded) = (found.torque_error, found.bounded);
+        Ok(Allocated { commands, torque_error, bounded, measure })
+    }
+}
+
+/// Columns of the commanded joints, and the drift of all others.
+fn matrix(
+    steered: &Padded<Steered>,
+    joints: &[Available],
+    rates: &[f64],
+    sums: &SteeringSums,
+) -> SteeringMatrix<f64, COMMANDED_MAX> {
+    let mut columns = [Vector3::zeros(); COMMANDED_MAX];
+    let mut drift = sums.gyroscopic;
+    for (by_rate, rate) in sums.by_rate.iter().zip(rates) {
+        drift += by_rate * *rate;
+    }
+    for ((column, steered), of) in columns.iter_mut().zip(steered).zip(joints) {
+        let by = |of_joints: &[Vector3<f64>]| of_joints.get(of.joint).copied().unwrap_or_default();
+        match steered {
+            Steered::Rate => {
+                *column = by(&sums.by_rate);
+                drift -= *column * rates.get(of.joint).copied().unwrap_or_default();
+            }
+            Steered::Acceleration => *column = by(&sums.by_acceleration),
+            Steered::Nothing => {}
+        }
+    }
+    SteeringMatrix { columns, drift }
+}
+
+/// The matrix with the columns of some joints only.
+fn only(
+    matrix: &SteeringMatrix<f64, COMMANDED_MAX>,
+    steered: &Padded<Steered>,
+    keep: impl Fn(Steered) -> bool,
+) -> SteeringMatrix<f64, COMMANDED_MAX> {
+    let mut kept = *matrix;
+    for (column, _) in kept.columns.iter_mut().zip(steered).filter(|(_, of)| !keep(**of)) {
+        *column = Vector3::zeros();
+    }
+    kept
+}
+
+/// The largest column: the momentum of a wheel for gimbals.
+fn largest(matrix: &SteeringMatrix<f64, COMMANDED_MAX>) -> f64 {
+    let sizes = matrix.columns.iter().map(|column| column.norm());
+    let largest = sizes.fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+fn inverse(of: AllocationInverse, time: f64) -> Inverse {
+    match of {
+        AllocationInverse::Exact | AllocationInverse::LeastLargest => Inverse::Exact,
+        AllocationInverse::SingularityRobust([lambda, mu]) => {
+            Inverse::SingularityRobust { lambda, mu }
+        }
+        AllocationInverse::Generalised([lambda, mu], [amplitude, frequency]) => {
+            let dither = Dither { amplitude, frequency, phases: PHASES }.at(time);
+            Inverse::Generalised { lambda, mu, dither }
+        }
+    }
+}
+
+/// Rates within those of the motors; accelerations within what their torques give the wheel with the hub held.
+fn bounds(joints: &[Available], matrix: &SteeringMatrix<f64, COMMANDED_MAX>) -> Padded<[f64; 2]> {
+    let mut bounds = [[-UNBOUNDED, UNBOUNDED]; COMMANDED_MAX];
+    for ((to, of), column) in bounds.iter_mut().zip(joints).zip(&matrix.columns) {
+        let most = match of.steered {
+            Steered::Rate => of.limits.rate,
+            Steered::Acceleration => of.limits.torque.map(|torque| torque.abs() / column.norm()),
+            Steered::Nothing => None,
+        };
+        if let Some(most) = most.filter(|most| *most < UNBOUNDED) {
+            *to = [-most, most];
+        }
+    }
+    bounds
+}

@@ -1,0 +1,307 @@
+//! [`Controls`]: the controllers of a run: when they sample, what they read, and when what they command acts.
+//!
+//! At one time, after the changes of `[[at]]` have been made: every controller that samples then reads the state and
+//! computes; then what is due acts, controller by controller in their order, and is held. That of a sample without delay
+//! is due at its own time. It is the same at the start of a run as at any other time.
+
+mod allocation;
+mod clock;
+mod servo;
+
+use std::collections::VecDeque;
+
+use nalgebra::Vector3;
+use precess_control::{Motion, Sample};
+use precess_craft::{SteeringDevices, SteeringSums};
+use precess_dynamics::JointStates;
+
+use super::equations::system::System;
+use super::integration::Moment;
+use crate::control::{Command, Controller, ControllerError, ControllerSample, LawController};
+use crate::record::RunError;
+use crate::scenario::{BuiltGuidance, SampledController, Scenario};
+use allocation::{Allocated, Allocator, Available};
+use clock::{Clock, reached};
+use servo::motor_torques;
+
+/// All controllers of a run.
+pub(crate) struct Controls<'a> {
+    each: Vec<Control<'a>>,
+    /// The devices on the hub.
+    steering: Option<SteeringDevices>,
+    duration: f64,
+}
+
+/// A controller in a run.
+struct Control<'a> {
+    of: &'a SampledController,
+    guidance: BuiltGuidance,
+    controller: Box<dyn Controller>,
+    allocator: Allocator,
+    samples: Clock,
+    /// When torques are computed from commands, beside the times at which these come to act.
+    ticks: Option<Clock>,
+    /// What is to act, and when.
+    pending: VecDeque<(f64, Pending)>,
+    /// Rates and accelerations in force, from which torques are computed at ticks.
+    present: Option<Vec<f64>>,
+    /// Whether there was a sample before.
+    sampled: bool,
+    /// Whether commands or torques were at a limit at the last one.
+    limited: bool,
+}
+
+/// What acts after a delay.
+enum Pending {
+    /// Torques of motors.
+    Torques(Vec<f64>),
+    /// Rates and accelerations, for the servo.
+    Commands(Vec<f64>),
+}
+
+impl<'a> Controls<'a> {
+    /// Those of a checked scenario; those of a program in the place of laws.
+    pub(crate) fn new(
+        scenario: &'a Scenario,
+        own: Vec<(String, Box<dyn Controller>)>,
+    ) -> Result<Self, RunError> {
+        let mut each = Vec::new();
+        for of in &scenario.controllers {
+            let failed = |error| {
+                let (name, source) = (of.name.clone(), ControllerError::Parameter(error));
+                RunError::Controller { time: 0.0, name, source }
+            };
+            let law = of.law.built(|| scenario.inertia_at_start()).map_err(failed)?;
+            each.push(Control {
+                of,
+                guidance: of.reference.built().map_err(failed)?,
+                controller: Box::new(LawController(law)),
+                allocator: Allocator::new(of),
+                samples: Clock::new(of.offset, of.rate),
+                ticks: of.servo.rate.map(|rate| Clock::new(of.offset, rate)),
+                pending: VecDeque::new(),
+                present: None,
+                sampled: false,
+                limited: false,
+            });
+        }
+        for (name, controller) in own {
+            let Some(control) = each.iter_mut().find(|control| control.of.name == name) else {
+                return Err(RunError::NoController { name });
+            };
+            control.controller = controller;
+        }
+        let steering = if each.is_empty() {
+            None
+        } else {
+            let (on_hub, ..) = &scenario.devices;
+            Some(SteeringDevices::new(on_hub).map_err(RunError::Parameters)?)
+        };
+        Ok(Self { each, steering, duration: scenario.settings.duration })
+    }
+
+    /// The next time after this one at which a controller samples or something comes to act, s; infinite where there is
+    /// none before the end of the run. What is due at this time has been done.
+    pub(crate) fn next_after(&self, time: f64) -> f64 {
+        let times = self.each.iter().flat_map(|control| {
+            let acting = control.pending.front().map(|(at, _)| *at);
+            let tick = control.ticks.as_ref().map(Clock::next);
+            [Some(control.samples.next()), acting, tick]
+        });
+        let coming = times.flatten().filter(|at| *at > time && *at < self.duration);
+        coming.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Does what is due at a time: samples, then what acts.
+    pub(crate) fn act(
+        &mut self,
+        system: &mut System<'_>,
+        time: f64,
+        moment: &Moment,
+    ) -> Result<(), RunError> {
+        let Some(steering) = &mut self.steering else { return Ok(()) };
+        for (index, control) in self.each.iter_mut().enumerate() {
+            if control.samples.due(time) {
+                control.sample(index, (system, time, moment), steering)?;
+            }
+        }
+        for (index, control) in self.each.iter_mut().enumerate() {
+            control.hold_due(index, system, time, moment)?;
+        }
+        Ok(())
+    }
+}
+
+impl Control<'_> {
+    fn error(&self, time: f64, source: ControllerError) -> RunError {
+        RunError::Controller { time, name: self.of.name.clone(), source }
+    }
+
+    /// Its joints as they are at present.
+    fn joints(&self, system: &System<'_>) -> Vec<Available> {
+        let joint = |of: &crate::scenario::CommandedJoint| Available {
+            joint: of.joint,
+            steered: of.steered,
+            limits: system.acting.drive(of.joint).limits(),
+            commanded: system.acting.held.torque(of.joint).is_some(),
+        };
+        self.of.joints.iter().map(joint).collect()
+    }
+
+    /// Reads the state, computes, and puts the answer off by the delay.
+    fn sample(
+        &mut self,
+        index: usize,
+        (system, time, moment): (&mut System<'_>, f64, &Moment),
+        steering: &mut SteeringDevices,
+    ) -> Result<(), RunError> {
+        let state = &moment.state;
+        let all: Vec<[f64; 2]> = state.devices.states().collect();
+        let sums = steering.terms(all.iter().copied(), &state.omega);
+        let sums = sums.map_err(|error| self.error(time, error.into()))?;
+        let elapsed = if self.sampled { 1.0 / self.of.rate } else { 0.0 };
+        let of = Sample {
+            motion: Motion { attitude: state.attitude, omega: state.omega },
+            reference: self.guidance.at(time),
+            momentum: sums.momentum,
+            external: Vector3::zeros(),
+            elapsed,
+            limited: self.limited,
+        };
+        let own: Vec<_> =
+            self.of.joints.iter().filter_map(|of| all.get(of.joint)).copied().collect();
+        let answered = self.controller.sample(&ControllerSample { time, of, joints: &own });
+        let answer = answered.and_then(|answer| checked(answer, own.len()));
+        let answer = answer.map_err(|error| self.error(time, error))?;
+        self.sampled = true;
+        let joints = self.joints(system);
+        let computed = match answer {
+            Command::Motors(torques) => {
+                self.limited = limited(&joints, &torques) > 0;
+                self.write(index, system, None, limited(&joints, &torques));
+                Pending::Torques(torques)
+            }
+            Command::Torque(torque) => {
+                let rates: Vec<f64> = all.iter().map(|[_, rate]| *rate).collect();
+                let at = (joints.as_slice(), rates.as_slice(), &state.omega);
+                self.commanded(index, (system, time, moment), (&torque, at), &sums)?
+            }
+        };
+        self.pending.push_back((time + self.of.delay, computed));
+        Ok(())
+    }
+
+    /// What joints and motors are to do for a torque on the spacecraft.
+    fn commanded(
+        &mut self,
+        index: usize,
+        (system, time, moment): (&mut System<'_>, f64, &Moment),
+        (torque, at): (&Vector3<f64>, (&[Available], &[f64], &Vector3<f64>)),
+        sums: &SteeringSums,
+    ) -> Result<Pending, RunError> {
+        let allocated = self.allocator.allocate(self.of, (time, torque), at, sums);
+        let allocated = allocated.map_err(|error| self.error(time, error.into()))?;
+        let joints = at.0;
+        let (pending, at_limit) = if self.ticks.is_some() {
+            (Pending::Commands(allocated.commands.clone()), 0)
+        } else {
+            let gain = self.of.servo.gain;
+            let of = motor_torques(system, (time, moment), joints, &allocated.commands, gain);
+            let torques = of.map_err(|source| RunError::solve(system, time, source))?;
+            let at_limit = limited(joints, &torques);
+            (Pending::Torques(torques), at_limit)
+        };
+        let at_limit = at_limit.max(allocated.bounded);
+        self.limited = at_limit > 0;
+        self.write(index, system, Some((torque, &allocated)), at_limit);
+        Ok(pending)
+    }
+
+    /// Writes what was computed for the columns; zero where a controller answers torques of motors.
+    fn write(
+        &self,
+        index: usize,
+        system: &mut System<'_>,
+        computed: Option<(&Vector3<f64>, &Allocated)>,
+        at_limit: usize,
+    ) {
+        let Some(values) = system.acting.held.values_mut(index) else { return };
+        #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
+        let count = at_limit as f64;
+        values.limited = count;
+        if let Some((torque, allocated)) = computed {
+            values.torque = (*torque).into();
+            values.torque_error = allocated.torque_error.into();
+            values.commands.clone_from(&allocated.commands);
+            values.measure = allocated.measure;
+        }
+    }
+
+    /// Holds what is due, and the torques of commands in force.
+    fn hold_due(
+        &mut self,
+        index: usize,
+        system: &mut System<'_>,
+        time: f64,
+        moment: &Moment,
+    ) -> Result<(), RunError> {
+        let mut computes = self.ticks.as_mut().is_some_and(|ticks| ticks.due(time));
+        while self.pending.front().is_some_and(|(at, _)| reached(*at, time)) {
+            match self.pending.pop_front() {
+                Some((_, Pending::Torques(torques))) => {
+                    self.present = None;
+                    hold(self.of, system, &torques);
+                }
+                Some((_, Pending::Commands(commands))) => {
+                    self.present = Some(commands);
+                    computes = true;
+                }
+                None => {}
+            }
+        }
+        let Some(commands) = self.present.as_ref().filter(|_| computes) else { return Ok(()) };
+        let joints = self.joints(system);
+        let torques = motor_torques(system, (time, moment), &joints, commands, self.of.servo.gain);
+        let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
+        let at_limit = limited(&joints, &torques);
+        self.limited |= at_limit > 0;
+        if let Some(values) = system.acting.held.values_mut(index) {
+            #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
+            let count = at_limit as f64;
+            values.limited = count;
+        }
+        hold(self.of, system, &torques);
+        Ok(())
+    }
+}
+
+/// Holds torques of the joints of a controller.
+fn hold(of: &SampledController, system: &mut System<'_>, torques: &[f64]) {
+    for (of, torque) in of.joints.iter().zip(torques) {
+        system.acting.held.hold(of.joint, *torque);
+    }
+}
+
+/// How many torques are beyond the largest of their motors.
+fn limited(joints: &[Available], torques: &[f64]) -> usize {
+    let beyond = |(of, torque): &(&Available, &f64)| {
+        of.commanded && of.limits.torque.is_some_and(|limit| torque.abs() > limit.abs())
+    };
+    joints.iter().zip(torques).filter(beyond).count()
+}
+
+/// An answer, where its numbers are finite and as many as there are joints.
+fn checked(answer: Command, count: usize) -> Result<Command, ControllerError> {
+    let numbers = match &answer {
+        Command::Torque(torque) => torque.as_slice(),
+        Command::Motors(torques) if torques.len() != count => {
+            return Err(ControllerError::Count { expected: count, found: torques.len() });
+        }
+        Command::Motors(torques) => torques,
+    };
+    let wrong = numbers.iter().enumerate().find(|(_, value)| !value.is_finite());
+    match wrong {
+        Some((index, value)) => Err(ControllerError::NotFinite { index, value: *value }),
+        None => Ok(answer),
+    }
+}

@@ -1,0 +1,383 @@
+//! `[[controller]]`: when it samples, what it commands, `law`, `reference`, `allocation` and `servo`.
+
+use nalgebra::{Matrix3, Vector3};
+use precess_control::{Gyroscopic, MrpGains, TurnLimits, rotation};
+use precess_dynamics::{Attitude as _, Quaternion, Steered};
+
+use super::devices::device::Device;
+use super::devices::inertia::{INERTIA_KEYS, inertia};
+use super::devices::initial::{attitude_of, of_axes};
+use crate::file::document::Value;
+use crate::file::keys::Keys;
+use crate::scenario::{
+    AllocationInverse, AttitudeReference, CommandedJoint, ControlLaw, OrbitalFrame,
+    SampledController, ServoSettings, TorqueAllocation, body_key, steered,
+};
+use crate::units::Measure;
+
+/// Rate feedback of the servo without a key, in samples.
+const SERVO_GAIN: f64 = 0.5;
+
+/// What the tables of controllers refer to.
+pub(super) struct ControllerContext<'a> {
+    pub(super) devices: &'a [Device],
+    /// The attitude at the start.
+    pub(super) attitude: Quaternion,
+    /// Position and velocity at the start, N, m and m/s.
+    pub(super) position: Vector3<f64>,
+    pub(super) velocity: Vector3<f64>,
+}
+
+/// All of a file.
+pub(super) fn controllers(
+    keys: &Keys<'_>,
+    known: &ControllerContext<'_>,
+) -> Vec<SampledController> {
+    keys.tables("controller").iter().filter_map(|keys| controller(keys, known)).collect()
+}
+
+fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledController> {
+    if !keys.has("name") {
+        keys.missing("name", "name = \"attitude\"");
+    }
+    let name = keys.text("name");
+    let rate = keys.required("rate", Measure::FREQUENCY);
+    let offset = keys.quantity("offset", Measure::TIME).unwrap_or(0.0);
+    let delay = keys.quantity("delay", Measure::TIME).unwrap_or(0.0);
+    let joints = commanded(keys, known.devices);
+    let law = required_table(keys, "law", "law = { kind = \"mrp_feedback\" }")
+        .and_then(|keys| law(&keys));
+    let empty = keys.empty();
+    let reference = keys.table_or("reference", &empty).and_then(|keys| reference(&keys, known));
+    let has_gimbals = joints.iter().flatten().any(|of| of.steered == Steered::Rate);
+    let allocation =
+        keys.table_or("allocation", &empty).and_then(|keys| allocation(&keys, has_gimbals));
+    let servo = keys.table_or("servo", &empty).map(|keys| {
+        let gain = keys.quantity("gain", Measure::FREQUENCY);
+        let own = keys.quantity("rate", Measure::FREQUENCY);
+        keys.finish();
+        (gain, own)
+    });
+    keys.finish();
+    let ((gain, servo_rate), rate) = (servo?, rate?);
+    let servo = ServoSettings {
+        gain: gain.unwrap_or(SERVO_GAIN * servo_rate.unwrap_or(rate)),
+        rate: servo_rate,
+    };
+    Some(SampledController {
+        name: name?.to_owned(),
+        rate,
+        offset,
+        delay,
+        joints: joints?,
+        law: law?,
+        reference: reference?,
+        allocation: allocation?,
+        servo,
+    })
+}
+
+fn required_table<'a>(keys: &Keys<'a>, key: &str, example: &str) -> Option<Keys<'a>> {
+    if !keys.has(key) {
+        keys.missing(key, example);
+    }
+    keys.table(key)
+}
+
+/// The gimbals and wheels of devices that have a motor.
+fn commanded(keys: &Keys<'_>, devices: &[Device]) -> Option<Vec<CommandedJoint>> {
+    let names = keys.texts("devices");
+    if keys.has("devices") && names.is_none() {
+        return None;
+    }
+    let mut joints = Vec::new();
+    let mut first = 0;
+    for device in devices {
+        let infos = device.joints();
+        let chosen = match &names {
+            Some(names) => names.contains(&device.name.as_str()),
+            None => device.on == "hub",
+        };
+        let own = infos.iter().enumerate().filter(|_| chosen);
+        let own = own.filter_map(|(k, info)| {
+            steered(info).map(|steered| CommandedJoint { joint: first + k, steered })
+        });
+        let before = joints.len();
+        joints.extend(own);
+        if names.is_some() && chosen && joints.len() == before {
+            let bodies: Vec<_> = infos.iter().map(body_key).collect();
+            let message = format!("`{}` has no gimbal and no wheel with a motor", device.name);
+            let help = format!("its bodies are {}; command other devices", bodies.join(", "));
+            keys.error("devices", message, &help);
+        }
+        first += infos.len();
+    }
+    for name in names.unwrap_or_default() {
+        if !devices.iter().any(|device| device.name == name) {
+            let known: Vec<_> = devices.iter().map(|device| device.name.as_str()).collect();
+            let help = match known.as_slice() {
+                [] => "there is no device".to_owned(),
+                known => format!("there are {}", known.join(", ")),
+            };
+            keys.error("devices", format!("no device is named `{name}`"), &help);
+        }
+    }
+    Some(joints)
+}
+
+/// Which law, by its word.
+#[derive(Clone, Copy)]
+enum LawKind {
+    Mrp,
+    Quaternion,
+    EigenAxis,
+    Damping,
+}
+
+fn law(keys: &Keys<'_>) -> Option<ControlLaw> {
+    let words = [
+        ("mrp_feedback", LawKind::Mrp),
+        ("quaternion_feedback", LawKind::Quaternion),
+        ("eigen_axis", LawKind::EigenAxis),
+        ("rate_damping", LawKind::Damping),
+    ];
+    let law = match kind(keys, &words, "mrp_feedback") {
+        Some(LawKind::Mrp) => mrp_feedback(keys),
+        Some(LawKind::Quaternion) => {
+            let attitude = required_diagonal(keys, "attitude_gain", Measure::TORQUE);
+            let rate = required_diagonal(keys, "rate_gain", Measure::ANGULAR_MOMENTUM);
+            let (tensor, gyroscopic) = (own_inertia(keys), gyroscopic(keys));
+            (|| {
+                let (attitude, rate, inertia) = (attitude?, rate?, tensor?);
+                Some(ControlLaw::QuaternionFeedback { attitude, rate, inertia, gyroscopic })
+            })()
+        }
+        Some(LawKind::EigenAxis) => {
+            let frequency = keys.required("frequency", Measure::FREQUENCY);
+            let damping_ratio = keys.required("damping_ratio", Measure::NUMBER);
+            let tensor = own_inertia(keys);
+            (|| {
+                let (frequency, damping_ratio, inertia) = (frequency?, damping_ratio?, tensor?);
+                Some(ControlLaw::EigenAxis { frequency, damping_ratio, inertia })
+            })()
+        }
+        Some(LawKind::Damping) => required_diagonal(keys, "rate_gain", Measure::ANGULAR_MOMENTUM)
+            .map(|rate| ControlLaw::RateDamping { rate }),
+        // Its keys are not known.
+        None => return None,
+    };
+    keys.finish();
+    law
+}
+
+fn mrp_feedback(keys: &Keys<'_>) -> Option<ControlLaw> {
+    let attitude = keys.required("attitude_gain", Measure::TORQUE);
+    let rate = required_diagonal(keys, "rate_gain", Measure::ANGULAR_MOMENTUM);
+    let integral = diagonal(keys, "integral_gain", Measure::INVERSE_INERTIA);
+    let limit = keys.quantity("integral_limit", Measure::ANGULAR_MOMENTUM);
+    if keys.has("integral_gain") && !keys.has("integral_limit") {
+        keys.missing("integral_limit", "integral_limit = \"1 N m s\"");
+    }
+    let (tensor, gyroscopic) = (own_inertia(keys), gyroscopic(keys));
+    let gains = MrpGains {
+        attitude: attitude?,
+        rate: rate?,
+        integral: integral.unwrap_or_else(Matrix3::zeros),
+        integral_limit: limit.unwrap_or(0.0),
+    };
+    Some(ControlLaw::MrpFeedback { gains, inertia: tensor?, gyroscopic })
+}
+
+/// An inertia, where one is stated; nothing where it is wrong.
+fn own_inertia(keys: &Keys<'_>) -> Option<Option<Matrix3<f64>>> {
+    let given = INERTIA_KEYS.into_iter().filter(|key| keys.has(key)).count() > 0;
+    if given { inertia(keys).map(Some) } else { Some(None) }
+}
+
+fn gyroscopic(keys: &Keys<'_>) -> Gyroscopic {
+    let words = [
+        ("whole", Gyroscopic::Whole),
+        ("reference", Gyroscopic::Reference),
+        ("nothing", Gyroscopic::Nothing),
+    ];
+    keys.choice("gyroscopic", &words).unwrap_or_default()
+}
+
+fn required_diagonal(keys: &Keys<'_>, key: &str, measure: Measure) -> Option<Matrix3<f64>> {
+    if !keys.has(key) {
+        keys.missing(key, &format!("{key} = \"10 {}\"", measure.usual));
+    }
+    diagonal(keys, key, measure)
+}
+
+fn kind<T: Copy>(keys: &Keys<'_>, of: &[(&str, T)], example: &str) -> Option<T> {
+    if !keys.has("kind") {
+        keys.missing("kind", &format!("kind = \"{example}\""));
+    }
+    keys.choice("kind", of)
+}
+
+/// A diagonal matrix: one number for all axes, or three.
+fn diagonal(keys: &Keys<'_>, key: &str, measure: Measure) -> Option<Matrix3<f64>> {
+    let node = keys.node(key)?;
+    let one = match &node.value {
+        Value::Text(text) => !text.contains(','),
+        Value::List(_) => false,
+        _ => true,
+    };
+    if one {
+        return keys.quantity(key, measure).map(Matrix3::from_diagonal_element);
+    }
+    keys.quantities::<3>(key, measure).map(|three| Matrix3::from_diagonal(&Vector3::from(three)))
+}
+
+/// Which reference, by its word.
+#[derive(Clone, Copy)]
+enum ReferenceKind {
+    Hold,
+    Slew,
+    Turning,
+    Orbit,
+}
+
+fn reference(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
+    let words = [
+        ("hold", ReferenceKind::Hold),
+        ("slew", ReferenceKind::Slew),
+        ("turning", ReferenceKind::Turning),
+        ("orbit", ReferenceKind::Orbit),
+    ];
+    let chosen = keys.choice("kind", &words);
+    if keys.has("kind") {
+        // The keys of another are not known.
+        chosen?;
+    }
+    let found = match chosen.unwrap_or(ReferenceKind::Hold) {
+        ReferenceKind::Hold => attitude(keys, "attitude")
+            .map(|of| AttitudeReference::Hold(of.unwrap_or(known.attitude))),
+        ReferenceKind::Slew => slew(keys, known),
+        ReferenceKind::Turning => {
+            let start = attitude(keys, "attitude");
+            if !keys.has("angular_velocity") {
+                keys.missing("angular_velocity", "angular_velocity = \"0, 0.1, 0 deg/s\"");
+            }
+            let omega = keys.vector("angular_velocity", Measure::ANGULAR_RATE);
+            let start = start.map(|of| of.unwrap_or(known.attitude));
+            start.zip(omega).map(|(attitude, omega)| AttitudeReference::Turning { attitude, omega })
+        }
+        ReferenceKind::Orbit => orbit(keys, known),
+    };
+    keys.finish();
+    found
+}
+
+/// The attitude of a key, which may be missing; nothing where it is wrong.
+fn attitude(keys: &Keys<'_>, key: &str) -> Option<Option<Quaternion>> {
+    if !keys.has(key) {
+        return Some(None);
+    }
+    let table = keys.table(key)?;
+    let found = attitude_of(&table);
+    table.finish();
+    found.map(Some)
+}
+
+fn slew(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
+    let start = keys.quantity("start", Measure::TIME).unwrap_or(0.0);
+    let from = attitude(keys, "from");
+    let [to, turn] = ["attitude", "turn"].map(|key| attitude(keys, key));
+    let limit = |key: &str, measure| keys.quantity(key, measure).unwrap_or(f64::INFINITY);
+    let limits = TurnLimits {
+        rate: limit("rate_limit", Measure::ANGULAR_RATE),
+        acceleration: limit("acceleration_limit", Measure::ANGULAR_ACCELERATION),
+        jerk: limit("jerk_limit", Measure::ANGULAR_JERK),
+    };
+    if !keys.has("acceleration_limit") && !keys.has("jerk_limit") {
+        keys.missing("acceleration_limit", "acceleration_limit = \"0.1 deg/s^2\"");
+    }
+    let from = from?.unwrap_or(known.attitude);
+    let to = match (to?, turn?) {
+        (Some(to), None) => to,
+        (None, Some(turn)) => rotation::product(&from, &turn).normalised(),
+        (Some(_), Some(_)) => {
+            keys.error("turn", "`attitude` is where the slew ends, too", "keep one of them");
+            return None;
+        }
+        (None, None) => {
+            keys.missing("turn", "turn = { axis = [0, 0, 1], angle = \"30 deg\" }");
+            return None;
+        }
+    };
+    Some(AttitudeReference::Slew { start, from, to, limits })
+}
+
+/// The orbital frame of the start, which turns at its rate there.
+fn orbit(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
+    let from_frame = attitude(keys, "attitude")?.unwrap_or_else(Quaternion::identity);
+    let Some(frame) = OrbitalFrame::new(&known.position, &known.velocity) else {
+        let message =
+            "position and velocity at the start are parallel or zero, so there is no orbital frame";
+        keys.error(
+            "kind",
+            message,
+            "give the `position` and `velocity` of an orbit in `[initial]`",
+        );
+        return None;
+    };
+    let attitude = rotation::product(&of_axes(&frame.axes.transpose()), &from_frame).normalised();
+    let omega = attitude.dcm() * frame.omega;
+    Some(AttitudeReference::Turning { attitude, omega })
+}
+
+/// What an inverse needs.
+#[derive(Clone, Copy, PartialEq)]
+enum InverseKind {
+    Exact,
+    LeastLargest,
+    SingularityRobust,
+    Generalised,
+}
+
+fn allocation(keys: &Keys<'_>, has_gimbals: bool) -> Option<TorqueAllocation> {
+    let words = [
+        ("exact", InverseKind::Exact),
+        ("least_largest", InverseKind::LeastLargest),
+        ("singularity_robust", InverseKind::SingularityRobust),
+        ("generalised", InverseKind::Generalised),
+    ];
+    let kind = keys.choice("inverse", &words);
+    let number = |key: &str, default: f64| keys.number(key).unwrap_or(default);
+    let gimbal_weight = number("gimbal_weight", 1.0);
+    let wheel_weight = number("wheel_weight", if has_gimbals { 0.0 } else { 1.0 });
+    let wheel_mu = number("wheel_mu", 0.0);
+    // Nakamura and Hanafusa's, with the exponent of Wie (2001).
+    let robustness = [number("lambda", 0.01), number("mu", 10.0)];
+    let dither = [
+        number("dither_amplitude", 0.1),
+        keys.quantity("dither_frequency", Measure::ANGULAR_RATE).unwrap_or(1.0),
+    ];
+    let reference = keys.quantity("reference_momentum", Measure::ANGULAR_MOMENTUM);
+    keys.finish();
+    if keys.has("inverse") {
+        kind?;
+    }
+    let kind = kind.unwrap_or(InverseKind::Exact);
+    let robust = matches!(kind, InverseKind::SingularityRobust | InverseKind::Generalised);
+    for key in ["lambda", "mu"].into_iter().filter(|key| !robust && keys.has(key)) {
+        let message = format!("`{key}` is of a singularity-robust inverse");
+        keys.error(key, message, "take `inverse = \"singularity_robust\"`, or remove it");
+    }
+    for key in ["dither_amplitude", "dither_frequency"] {
+        if kind != InverseKind::Generalised && keys.has(key) {
+            let message = format!("`{key}` is of the generalised inverse");
+            keys.error(key, message, "take `inverse = \"generalised\"`, or remove it");
+        }
+    }
+    let inverse = match kind {
+        InverseKind::Exact => AllocationInverse::Exact,
+        InverseKind::LeastLargest => AllocationInverse::LeastLargest,
+        InverseKind::SingularityRobust => AllocationInverse::SingularityRobust(robustness),
+        InverseKind::Generalised => AllocationInverse::Generalised(robustness, dither),
+    };
+    Some(TorqueAllocation { inverse, gimbal_weight, wheel_weight, wheel_mu, reference })
+}

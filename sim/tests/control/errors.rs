@@ -1,0 +1,67 @@
+//! What is wrong with a controller is said with its place.
+
+use std::path::Path;
+
+use precess::file::from_toml;
+
+use super::{BUS, controller};
+
+const RUN: &str = "[run]\nduration = \"1 s\"\n";
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    let good = format!("{BUS}{}{RUN}", controller("", ""));
+    let wheel = "wheel = { mass = \"2 kg\"";
+    let panel = "[[device]]\nname = \"panel\"\nkind = \"hinged_panel\"\npanel = { mass = \"1 kg\", inertia = \"1, 1, 1 kg m^2\" }\n";
+    let with = |keys: &str| format!("{BUS}{}{RUN}", controller(keys, ""));
+    for (text, message, place) in [
+        (good.replace("\"4 Hz\"", "\"0 Hz\""), "0 Hz is not above 0 Hz and at most", "\"0 Hz\""),
+        (good.replace("\"4 Hz\"", "\"-4 Hz\""), "-4 Hz is not above 0 Hz", "\"-4 Hz\""),
+        (with("delay = \"26 s\""), "26 s is outside 0 s to 25 s, 100 samples", "\"26 s\""),
+        (with("offset = \"2 s\""), "2 s is outside the run, 0 s to 1 s", "\"2 s\""),
+        (with("devices = [\"rw\"]"), "no device is named `rw`", "[\"rw\"]"),
+        (
+            with("devices = [\"panel\"]") + panel,
+            "`panel` has no gimbal and no wheel with a motor",
+            "[\"panel\"]",
+        ),
+        (
+            good.replacen(wheel, "wheel = { torque = \"1 mN m\", mass = \"2 kg\"", 1),
+            "`rwx.wheel` has a torque of its own",
+            "",
+        ),
+        (
+            good.replacen(wheel, "wheel = { locked = true, mass = \"2 kg\"", 1),
+            "`rwx.wheel` is locked",
+            "",
+        ),
+        (good.replace("\"aocs\"", "\"rwx\""), "`rwx` names other columns", "\"rwx\""),
+        (good.replace("\"aocs\"", "\"omega\""), "`omega` names other columns", "\"omega\""),
+        (good.replace("\"8 N m\"", "\"0 N m\""), "attitude gain is 0", ""),
+        (good.replace("\"8 N m\"", "\"8 N\""), "is a force, where a torque is wanted", "\"8 N\""),
+        (good.replace("mrp_feedback", "lqr"), "`controller.aocs.law.kind` is \"lqr\"", "\"lqr\""),
+        (
+            with("allocation = { lambda = 0.1 }"),
+            "`lambda` is of a singularity-robust inverse",
+            "0.1",
+        ),
+        (with("servo = { rate = \"1 Hz\" }"), "1 Hz is outside 4 Hz", "\"1 Hz\""),
+        (
+            format!(
+                "{BUS}[[at]]\ntime = \"0.5 s\"\njoint = \"rwx.wheel\"\ncontrolled = true\n{RUN}"
+            ),
+            "no controller commands `rwx.wheel`",
+            "",
+        ),
+    ] {
+        let found = from_toml("test.toml", &text, Path::new(""));
+        let errors = found.err().unwrap_or_else(|| panic!("{message}: no error\n{text}"));
+        let shown = errors.to_string();
+        let error = errors.all.iter().find(|error| error.message.contains(message));
+        let error = error.unwrap_or_else(|| panic!("{message} in\n{shown}"));
+        if !place.is_empty() {
+            let span = error.span.clone().unwrap_or_else(|| panic!("{message}: no place\n{shown}"));
+            assert_eq!(text.get(span.range), Some(place), "{message}\n{shown}");
+        }
+    }
+}
