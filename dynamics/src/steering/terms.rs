@@ -10,6 +10,7 @@ use crate::isolation::carrier::Carrier;
 use crate::model::kind::{Kind, Steering};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
+use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, cross, finite, rotate, rotate_transposed, scale,
     vector, zeros,
@@ -21,6 +22,7 @@ use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 use crate::steering::error::SteeringError;
+use crate::steering::matrix::product;
 
 /// The moment about B that the hub exerts on all devices, term by term, expressed in B; the torque on the hub is the
 /// opposite. `N` is the number of joints, in the order of [`Spacecraft::joints`], or more: the rest is zero.
@@ -79,6 +81,15 @@ impl<T: Scalar, const N: usize> SteeringTerms<T, N> {
         vector(add(sum, cross(components(&self.first_moment), components(r_b_n_ddot))))
     }
 
+    /// What is a sum over all devices: the momentum by their columns, and what the hub's rate requires.
+    fn sum_up(&mut self, omega: Vec3<T>, inertia: &Symmetric<T>) {
+        let momentum = product(&self.by_acceleration, &self.rates);
+        self.momentum = vector(momentum);
+        self.gyroscopic = vector(cross(omega, inertia.times(omega)));
+        let Symmetric { xx, xy, xz, yy, yz, zz } = *inertia;
+        self.inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    }
+
     fn is_finite(&self) -> bool {
         let vectors = [self.momentum, self.first_moment, self.gyroscopic];
         let all = self.by_rate.iter().chain(&self.by_acceleration).chain(&vectors);
@@ -106,8 +117,11 @@ impl<D: Devices> Spacecraft<D> {
             *to = rate;
         }
         let omega = components(&state.omega);
-        let mut sum = Sum { omega, device: 0, joint: 0, terms: &mut terms };
+        let inertia = Symmetric::zero();
+        let mut sum = Sum { omega, device: 0, joint: 0, inertia, terms: &mut terms };
         D::visit::<Shared<data::Joints>, _>(&self.devices, &state.devices, &mut sum)?;
+        let inertia = sum.inertia;
+        terms.sum_up(omega, &inertia);
         if terms.is_finite() {
             Ok(terms)
         } else {
@@ -130,6 +144,8 @@ struct Sum<'a, T, const N: usize> {
     device: usize,
     /// The next joint.
     joint: usize,
+    /// Of the devices so far, about B, expressed in B.
+    inertia: Symmetric<T>,
     terms: &'a mut SteeringTerms<T, N>,
 }
 
@@ -174,21 +190,10 @@ impl<T: Scalar, const N: usize> Sum<'_, T, N> {
             }
             self.joint = self.joint.wrapping_add(1);
         }
-        for (sum, of) in [
-            (&mut terms.momentum, &found.momentum),
-            (&mut terms.first_moment, &found.first_moment),
-            (&mut terms.gyroscopic, &found.gyroscopic),
-        ] {
-            *sum = vector(add(components(sum), along_b(of)));
-        }
+        let first_moment = along_b(&found.first_moment);
+        terms.first_moment = vector(add(components(&terms.first_moment), first_moment));
         let [xx, xy, xz, yy, yz, zz] = found.inertia;
-        let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        // Column by column: `mount [I] mount^T e`.
-        let [x, y, z] = columns(&terms.inertia);
-        let columns = [(x, 0), (y, 1), (z, 2)].map(|(sum, axis): (Vec3<T>, usize)| {
-            let unit = [0, 1, 2].map(|k| if k == axis { T::from_f64(1.0) } else { zero() });
-            add(sum, rotate(mount, rotate(&inertia, rotate_transposed(mount, unit))))
-        });
-        terms.inertia = Matrix3::from_columns(&columns.map(vector));
+        let inertia = Symmetric { xx, xy, xz, yy, yz, zz }.rotated(mount);
+        self.inertia = self.inertia.plus(inertia);
     }
 }
