@@ -115,6 +115,7 @@ impl Items<'_> {
         let [by_omega, by_omega_dot] =
             ["omega", "omega_dot"].map(|stem| XYZ.map(|axis| column(&format!("{stem}_b{axis}"))));
         quote! {
+            #[inline(always)]
             fn load_derivatives(
                 #constants: &Self::Constants<T>,
                 #pose: &Self::Pose<T>,

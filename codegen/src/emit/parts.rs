@@ -14,8 +14,9 @@ use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, parameters_of};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
 
-/// What lanes call. Inlined, since lanes reach the wide instructions of their caller only so.
-pub(super) const INLINED: [&str; 4] = ["eliminate", "back_substitute", "external", "gravity"];
+/// What lanes and dispatched evaluations call. Inlined, since they reach the instructions of their caller only so.
+pub(super) const INLINED: [&str; 5] =
+    ["eliminate", "back_substitute", "load_derivatives", "external", "gravity"];
 
 /// Records and functions of a kind, in the order of the emitted files.
 pub(super) struct Parts {

@@ -1,5 +1,6 @@
-//! [`ByTree`]: how accelerations change with state and inputs where platforms and panels carry devices, by the emitted
-//! derivatives of the loads.
+//! [`ByTree`]: how accelerations change with state and inputs of a tree of carriers under whatever acts, by
+//! the emitted derivatives of the loads: where platforms or panels carry devices, in a central field, with wrenches on bodies
+//! and with lumped imbalance.
 //!
 //! A change of how a carrier moves changes the loads of all that it carries; they add up on the carrier, along whose
 //! joints they are what its motors exert, and on its base, (I6). So a column is a pass outwards of changed motions, one
@@ -9,7 +10,6 @@ use alloc::vec::Vec;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::base_motion::{BaseMotion, Moments};
-use crate::derivatives::by_loads::HubChange;
 use crate::derivatives::field_columns::FieldColumns;
 use crate::derivatives::load_columns::{Load, Moving};
 use crate::derivatives::structure::StructureDerivatives;
@@ -39,6 +39,13 @@ pub(super) struct ByTree<T> {
     /// The field at B, B axes.
     at_b: Vec3<T>,
     hub_is_free: bool,
+}
+
+/// What accelerations change by: of B along its axes, of the angular velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HubChange<T> {
+    pub(super) r_b_n_ddot: Vec3<T>,
+    pub(super) omega_dot: Vec3<T>,
 }
 
 /// What a column changes: how bases move, loads on bases, loads along joints.

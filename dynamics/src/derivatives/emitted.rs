@@ -1,40 +1,24 @@
 //! [`Emitted`]: columns of a linearised system by the emitted derivatives of the loads, where there are.
 
+use nalgebra::DMatrix;
+
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::by_loads::{ByLoads, HubChange};
+use crate::derivatives::by_loads::{ByLoads, are_finite};
 use crate::derivatives::by_tree::ByTree;
+use crate::derivatives::linearization::columns_of;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::Variable;
-use crate::equations::device::Device;
-use crate::isolation::carrier::Carrier;
-use crate::isolation::carrier_elimination::CarrierConstants;
-use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
-use crate::sets::devices::{Devices, List};
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// By the devices of a hub, or by those of a tree of carriers.
+/// By the devices of a hub with nothing but a uniform field, or by those of a tree of carriers under whatever acts.
 #[derive(Debug)]
 pub(super) enum Emitted<T> {
     OnHub(ByLoads<T>),
-    OnCarriers(ByTree<T>),
-}
-
-/// Whether each device carries others.
-struct Carries;
-
-impl<T: Scalar> List<T> for Carries {
-    type Item = bool;
-
-    fn of<K: Kind<Scalar = T>>(_: &Device<K>) -> impl Iterator<Item = bool> {
-        core::iter::once(false)
-    }
-
-    fn of_carrier<C: Carrier<Scalar = T>>(_: &CarrierConstants<C>) -> impl Iterator<Item = bool> {
-        core::iter::once(true)
-    }
+    OfTree(ByTree<T>),
 }
 
 impl<T: Scalar> Emitted<T> {
@@ -46,17 +30,30 @@ impl<T: Scalar> Emitted<T> {
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
     ) -> Option<Self> {
-        if D::list::<Carries>(&craft.devices).any(|carries| carries) {
-            return ByTree::new(craft, state, inputs, accelerations).map(Self::OnCarriers);
-        }
-        ByLoads::new(craft, state, inputs, accelerations).map(Self::OnHub)
+        let on_hub = ByLoads::new(craft, state, inputs, accelerations).map(Self::OnHub);
+        on_hub.or_else(|| ByTree::new(craft, state, inputs, accelerations).map(Self::OfTree))
     }
 
-    /// The accelerations' derivatives by one variable, those of the joints into `joints`.
-    pub(super) fn column(&self, by: Variable, joints: &mut [T]) -> HubChange<T> {
-        match self {
-            Self::OnHub(found) => found.column(by, joints),
-            Self::OnCarriers(found) => found.column(by, joints),
+    /// The accelerations' derivatives by these variables into the columns of a matrix; the first of the variables of which
+    /// one is not finite.
+    pub(super) fn columns(
+        &self,
+        variables: &[Variable],
+        into: &mut DMatrix<T>,
+    ) -> Result<(), usize> {
+        let of_tree = match self {
+            Self::OnHub(found) => return found.columns(variables, into),
+            Self::OfTree(found) => found,
+        };
+        for (number, (variable, column)) in variables.iter().zip(columns_of(into)).enumerate() {
+            let Some((of_hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
+            let hub = of_tree.column(*variable, joints);
+            let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
+            of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
+            if !are_finite(column) {
+                return Err(number);
+            }
         }
+        Ok(())
     }
 }

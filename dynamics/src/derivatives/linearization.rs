@@ -150,13 +150,14 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let lists = (states.as_slice(), by_inputs.as_slice());
         self.output_columns((state, inputs), accelerations, outputs, lists, [&mut *c, &mut *d])?;
         let rows = Slopes::new(self, state, inputs, accelerations);
-        let variables = states.iter().chain(&*by_inputs).copied();
-        let slopes = [a, b].into_iter().flat_map(columns_of);
-        let results = [c, d].into_iter().flat_map(columns_of);
-        let columns = variables.zip(slopes.zip(results));
-        for (number, (variable, (slopes, results))) in columns.enumerate() {
-            if !rows.fill(variable, results, slopes) {
-                return Err(DerivativeError::NotFinite { variable: number });
+        let by_inputs = (by_inputs.as_slice(), states.len(), b, d);
+        for (list, first, slopes, results) in [(states.as_slice(), 0, a, c), by_inputs] {
+            let columns = list.iter().zip(columns_of(slopes).zip(columns_of(results)));
+            for (number, (variable, (slopes, results))) in columns.enumerate() {
+                if !rows.fill(*variable, results, slopes) {
+                    let variable = first.saturating_add(number);
+                    return Err(DerivativeError::NotFinite { variable });
+                }
             }
         }
         Ok(())
@@ -171,30 +172,25 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         (states, by_inputs): (&[Variable], &[Variable]),
         into: [&mut DMatrix<D::Scalar>; 2],
     ) -> Result<(), DerivativeError<D::Scalar>> {
-        let variables = states.iter().chain(by_inputs).copied();
-        let mut columns = into.into_iter().flat_map(columns_of);
         let emitted = if *outputs == Outputs::accelerations() {
             Emitted::new(self, state, inputs, accelerations)
         } else {
             None
         };
         let Some(emitted) = emitted else {
+            let variables = states.iter().chain(by_inputs).copied();
+            let mut columns = into.into_iter().flat_map(columns_of);
             self.derivatives(state, inputs, outputs, variables, |_, column| {
                 let column = columns.next().into_iter().flatten().zip(column.outputs());
                 column.for_each(|(to, from)| *to = from);
             })?;
             return Ok(());
         };
-        for (number, (variable, column)) in variables.zip(columns).enumerate() {
-            let (of_hub, of_joints) = column.split_at_mut(column.len().min(6));
-            let hub = emitted.column(variable, of_joints);
-            let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
-            of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
-            if !(are_finite(of_hub) & are_finite(of_joints)) {
-                return Err(DerivativeError::NotFinite { variable: number });
-            }
-        }
-        Ok(())
+        let [by_states, by_inputs_of] = into;
+        let not_finite = |variable| DerivativeError::NotFinite { variable };
+        emitted.columns(states, by_states).map_err(not_finite)?;
+        let others = emitted.columns(by_inputs, by_inputs_of);
+        others.map_err(|variable| not_finite(variable.saturating_add(states.len())))
     }
 
     /// The outputs in the order of [`Column::outputs`].
@@ -262,18 +258,6 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
         let joints = accelerations.devices.values();
         hub.chain(joints).chain(modes).chain(momentum).chain(loads)
     }
-}
-
-/// Whether all numbers are finite: zero times each, summed side by side, is.
-fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
-    let (fours, rest) = numbers.as_chunks::<4>();
-    let mut sums = [zero::<T>(); 4];
-    for four in fours {
-        for (sum, number) in sums.iter_mut().zip(four) {
-            *sum = *sum + *number * zero();
-        }
-    }
-    sums.iter().chain(rest).all(|number| number.is_finite())
 }
 
 /// The columns of a matrix, empty where it has no rows.

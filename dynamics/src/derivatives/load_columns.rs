@@ -1,16 +1,19 @@
-//! [`LoadColumns`]: derivatives of the loads of each device, expressed in B, by its emitted kernel.
+//! [`LoadColumns`]: derivatives of the loads of each device by its emitted kernel, with the device's joints eliminated.
+
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use alloc::vec::Vec;
 
-use crate::derivatives::applied_columns::{Applied, by_wrenches};
+use crate::derivatives::mass_system::{Gains, JointElimination, Six};
+use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
-use crate::equations::gravity::Central;
+use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
 use crate::isolation::carrier::Carrier;
 use crate::model::joint_array::MAX_JOINTS;
-use crate::model::kind::{Kind, LoadColumn};
+use crate::model::kind::{Kind, LoadColumn, LoadDerivatives};
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
@@ -20,103 +23,276 @@ use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Visit};
 use crate::sets::per_device as data;
 
-/// Derivatives by one variable: of force and moment about B that the hub exerts on a device, B axes, and of what each
-/// motor exerts less spring and friction.
+/// By one variable: force and moment about B that the hub exerts on a device, B axes, and what each of its motors exerts
+/// less spring and friction. With its joints eliminated: what is left for the hub's equations, on their right side, and by
+/// how much less its joints accelerate on a hub whose accelerations do not change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Load<T> {
-    pub(super) hub: [T; 6],
+    pub(super) hub: Six<T>,
     pub(super) joints: [T; MAX_JOINTS],
 }
 
-/// Those of one device.
+/// A joint's device.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LoadColumns<T> {
+pub(super) struct Place {
+    /// The device's first joint, of all.
+    pub(super) first: usize,
     /// The number of its joints.
     pub(super) count: usize,
-    /// Which joints have an acceleration that is not given.
-    pub(super) free: [bool; MAX_JOINTS],
-    pub(super) coordinates: [Load<T>; MAX_JOINTS],
-    pub(super) rates: [Load<T>; MAX_JOINTS],
-    /// By the joints' accelerations: columns of the mass matrix.
-    pub(super) accelerations: [Load<T>; MAX_JOINTS],
-    /// By the angular velocity of the hub, B axes.
-    pub(super) omega: [Load<T>; 3],
-    /// By its angular acceleration.
-    pub(super) omega_dot: [Load<T>; 3],
+    /// Whether the joint's acceleration is not given.
+    pub(super) free: bool,
+}
+
+/// Those of all devices with their joints eliminated, joint by joint.
+#[derive(Debug)]
+pub(super) struct LoadColumns<T> {
+    pub(super) places: Vec<Place>,
+    pub(super) coordinates: Vec<Load<T>>,
+    pub(super) rates: Vec<Load<T>>,
+    /// By the motor of a free joint, by the acceleration of one whose acceleration is given.
+    pub(super) driven: Vec<Load<T>>,
+    /// By the angular velocity of the hub, B axes: what is left for the hub, of all devices.
+    pub(super) omega: [Six<T>; 3],
+    /// The same, of each joint.
+    pub(super) joints_by_omega: Vec<Vec3<T>>,
+    pub(super) gains: Gains<T>,
+    /// Of each device.
+    pub(super) eliminated: Vec<JointElimination<T>>,
+    /// What the devices add to the hub's matrix, by columns.
+    pub(super) matrix: [Six<T>; 6],
+}
+
+impl<T: Scalar> LoadColumns<T> {
+    /// Of no device; `joints` are expected.
+    fn new(joints: usize) -> Self {
+        let list = || Vec::with_capacity(joints);
+        Self {
+            places: Vec::with_capacity(joints),
+            coordinates: list(),
+            rates: list(),
+            driven: list(),
+            omega: [[zero(); 6]; 3],
+            joints_by_omega: Vec::with_capacity(joints),
+            gains: Gains::new(joints),
+            eliminated: Vec::with_capacity(joints),
+            matrix: [[zero(); 6]; 6],
+        }
+    }
 }
 
 impl<T: Scalar> Load<T> {
     pub(super) fn none() -> Self {
         Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
     }
-
-    /// Of a column in the device's axes.
-    fn turned<K: Kind<Scalar = T>>(column: &LoadColumn<K>, mount: &Columns<T>) -> Self {
-        let [a, b, c] = rotate(mount, components(&column.hub.force));
-        let [d, e, f] = rotate(mount, components(&column.hub.moment));
-        let mut load = Self { hub: [a, b, c, d, e, f], ..Self::none() };
-        load.joints.iter_mut().zip(column.joints.values()).for_each(|(to, from)| *to = from);
-        load
-    }
-
-    /// Adds a multiple.
-    pub(super) fn add(&mut self, factor: T, other: &Self) {
-        for (to, from) in self.hub.iter_mut().zip(&other.hub) {
-            *to = *to + factor * *from;
-        }
-        for (to, from) in self.joints.iter_mut().zip(&other.joints) {
-            *to = *to + factor * *from;
-        }
-    }
-
-    /// By components along B, of those by components along the device's axes.
-    fn by_b(columns: [Self; 3], mount: &Columns<T>) -> [Self; 3] {
-        let by = |axis: usize| {
-            let mut sum = Self::none();
-            for (column, own) in columns.iter().zip(mount) {
-                sum.add(own[axis], column);
-            }
-            sum
-        };
-        [by(0), by(1), by(2)]
-    }
 }
 
-impl<T: Scalar> LoadColumns<T> {
-    /// Adds what acts from outside, which hub and motors exert less.
-    fn add_applied(&mut self, applied: &Applied<T>) {
-        let columns = self.coordinates.iter_mut().chain(&mut self.rates);
-        let more = applied.coordinates.iter().chain(&applied.rates);
-        columns.zip(more).for_each(|(to, from)| to.add(one(), from));
-    }
-}
-
-/// A device has no emitted derivatives: a platform.
+/// A device has no emitted derivatives: a platform, the lumped model.
 #[derive(Debug)]
 pub(super) struct NotEmitted;
 
 /// Evaluates the kernel of each device.
 pub(super) struct EachDevice<T> {
-    pub(super) omega: Vec3<T>,
+    by: Arithmetic,
+    omega: Vec3<T>,
     /// As seen from a frame that falls with the field.
-    pub(super) hub: HubAccelerations<T>,
-    /// The gradient of a central field.
-    pub(super) field: Option<Central<T>>,
-    pub(super) found: Vec<LoadColumns<T>>,
-    /// What acts on each device from outside.
-    pub(super) applied: Vec<Option<Applied<T>>>,
-    /// Of each joint, by the wrench on its child body; none where there are no wrenches on bodies.
-    pub(super) by_wrenches: Vec<[Load<T>; 6]>,
+    hub: HubAccelerations<T>,
+    pub(super) found: LoadColumns<T>,
 }
 
-impl<T> EachDevice<T> {
-    pub(super) fn new(omega: Vec3<T>, hub: HubAccelerations<T>, field: Option<Central<T>>) -> Self {
-        Self { omega, hub, field, found: Vec::new(), applied: Vec::new(), by_wrenches: Vec::new() }
+impl<T: Scalar> EachDevice<T> {
+    pub(super) fn new(
+        by: Arithmetic,
+        omega: Vec3<T>,
+        hub: HubAccelerations<T>,
+        joints: usize,
+    ) -> Self {
+        Self { by, omega, hub, found: LoadColumns::new(joints) }
     }
 }
 
 /// State, inputs and accelerations of the joints.
 pub(super) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
+
+/// Force and moment of a column along B.
+#[inline(always)]
+fn along_b<K: Kind>(column: &LoadColumn<K>, mount: &Columns<K::Scalar>) -> Six<K::Scalar> {
+    let [a, b, c] = rotate(mount, components(&column.hub.force));
+    let [d, e, f] = rotate(mount, components(&column.hub.moment));
+    [a, b, c, d, e, f]
+}
+
+/// Columns by components along B, of those by components along the device's axes.
+#[inline(always)]
+fn by_b<T: Scalar, const N: usize>(of: &[[T; N]; 3], mount: &Columns<T>) -> [[T; N]; 3] {
+    let ([x, y, z], [a, b, c]) = (mount, of);
+    [0, 1, 2].map(|axis| {
+        let mut sum = [zero(); N];
+        for (to, ((a, b), c)) in sum.iter_mut().zip(a.iter().zip(b).zip(c)) {
+            *to = x[axis] * *a + y[axis] * *b + z[axis] * *c;
+        }
+        sum
+    })
+}
+
+#[inline(always)]
+fn numbers<T: Scalar>(values: impl Iterator<Item = T>) -> [T; MAX_JOINTS] {
+    let mut list = [zero(); MAX_JOINTS];
+    list.iter_mut().zip(values).for_each(|(to, from)| *to = from);
+    list
+}
+
+/// What the kernel of a device is called with.
+struct DeviceMotion<'a, K: Kind> {
+    device: &'a Device<K>,
+    joints: &'a K::Joints<K::Scalar>,
+    accelerations: &'a K::Accelerations<K::Scalar>,
+    omega: Vec3<K::Scalar>,
+    hub: HubAccelerations<K::Scalar>,
+}
+
+impl<K: Kind> DeviceMotion<'_, K> {
+    #[inline(always)]
+    fn load_derivatives(&self) -> Option<LoadDerivatives<K>> {
+        let Self { device, joints, accelerations, .. } = self;
+        let within = |v| rotate_transposed(&device.mount, v);
+        let HubAccelerations { r_b_n_ddot, omega_dot } = self.hub;
+        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
+        let omega = expressed_in_b(within(self.omega));
+        let pose = K::pose(joints);
+        let hub = hub.expressed_in_b();
+        K::load_derivatives(&device.constants, &pose, joints, &omega, &hub, accelerations)
+    }
+}
+
+/// A device by the instructions of this CPU.
+#[cfg(feature = "lanes")]
+struct Dispatched<'a, 'b, K: Kind> {
+    motion: DeviceMotion<'a, K>,
+    given: DeviceInputs<'a, K>,
+    found: &'b mut LoadColumns<K::Scalar>,
+}
+
+#[cfg(feature = "lanes")]
+impl<K: Kind> pulp::WithSimd for Dispatched<'_, '_, K> {
+    type Output = Result<(), NotEmitted>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
+        let Self { motion, given, found } = self;
+        let kernel = motion.load_derivatives().ok_or(NotEmitted)?;
+        found.add(motion.device, motion.joints, &given, &kernel);
+        Ok(())
+    }
+}
+
+// Never inlined: one copy for all sets.
+#[inline(never)]
+fn portable<K: Kind>(
+    motion: &DeviceMotion<'_, K>,
+    given: &DeviceInputs<'_, K>,
+    found: &mut LoadColumns<K::Scalar>,
+) -> Result<(), NotEmitted> {
+    let kernel = motion.load_derivatives().ok_or(NotEmitted)?;
+    found.add(motion.device, motion.joints, given, &kernel);
+    Ok(())
+}
+
+impl<T: Scalar> LoadColumns<T> {
+    /// Adds a device.
+    #[inline(always)]
+    fn add<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        joints: &K::Joints<T>,
+        given: &DeviceInputs<'_, K>,
+        kernel: &LoadDerivatives<K>,
+    ) {
+        let mount = &device.mount;
+        let count = K::JOINTS.len().min(MAX_JOINTS);
+        let mut free = [false; MAX_JOINTS];
+        let mut accelerated = [false; MAX_JOINTS];
+        let modes = given.modes.values().zip(K::JOINTS);
+        for ((free, accelerated), (mode, info)) in free.iter_mut().zip(&mut accelerated).zip(modes)
+        {
+            *free = mode == Mode::Driven && info.driven;
+            *accelerated = matches!(mode, Mode::Prescribed(_)) && info.driven;
+        }
+        let first = self.places.len();
+        let mut by_accelerations = [Load::none(); MAX_JOINTS];
+        for (to, column) in by_accelerations.iter_mut().zip(kernel.accelerations.values()) {
+            *to =
+                Load { hub: along_b::<K>(&column, mount), joints: numbers(column.joints.values()) };
+        }
+        let eliminated = JointElimination::new(&by_accelerations, free, count);
+        eliminated.reduce(&mut self.matrix);
+        for joint in 0..count {
+            self.gains.push(&eliminated.gains[joint]);
+            self.places.push(Place { first, count, free: free[joint] });
+            self.driven.push(match (free[joint], accelerated[joint]) {
+                (true, _) => eliminated.motor(joint),
+                (_, true) => {
+                    let Load { hub, joints } = &by_accelerations[joint];
+                    let mut reduced = eliminated.reduced(hub, joints);
+                    reduced.joints[joint] = -one::<T>();
+                    reduced
+                }
+                _ => Load::none(),
+            });
+        }
+        self.add_states::<K>(device, joints, kernel, &eliminated);
+        self.add_hub_rate::<K>(device, kernel, &eliminated);
+        self.eliminated.push(eliminated);
+        let by_axes = kernel.omega_dot.each_ref();
+        let of_hub = by_b(&by_axes.map(|column| along_b::<K>(column, mount)), mount);
+        for (axis, hub) in of_hub.iter().enumerate() {
+            let column = self.matrix[axis.wrapping_add(3)].iter_mut().zip(hub);
+            column.for_each(|(to, from)| *to = *to + *from);
+        }
+    }
+
+    /// By coordinates and rates of its joints, springs and friction among the loads.
+    #[inline(always)]
+    fn add_states<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        joints: &K::Joints<T>,
+        kernel: &LoadDerivatives<K>,
+        eliminated: &JointElimination<T>,
+    ) {
+        let passive = joints.states().zip(device.passive.values());
+        let columns = kernel.coordinates.values().zip(kernel.rates.values());
+        let each = columns.zip(passive).enumerate().take(MAX_JOINTS);
+        for (joint, ((coordinate, rate), ([_, speed], passive))) in each {
+            let mut by_coordinate = numbers(coordinate.joints.values());
+            by_coordinate[joint] = by_coordinate[joint] + passive.stiffness;
+            let mut by_rate = numbers(rate.joints.values());
+            by_rate[joint] = by_rate[joint] + passive.damping(speed);
+            let of_hub = [&coordinate, &rate].map(|column| along_b::<K>(column, &device.mount));
+            self.coordinates.push(eliminated.reduced(&of_hub[0], &by_coordinate));
+            self.rates.push(eliminated.reduced(&of_hub[1], &by_rate));
+        }
+    }
+
+    /// By the angular velocity of the hub.
+    #[inline(always)]
+    fn add_hub_rate<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        kernel: &LoadDerivatives<K>,
+        eliminated: &JointElimination<T>,
+    ) {
+        let (mount, by_axes) = (&device.mount, kernel.omega.each_ref());
+        let of_hub = by_b(&by_axes.map(|column| along_b::<K>(column, mount)), mount);
+        let of_joints = by_b(&by_axes.map(|column| numbers(column.joints.values())), mount);
+        let mut by_joint = [[zero(); 3]; MAX_JOINTS];
+        for (axis, (hub, own)) in of_hub.iter().zip(&of_joints).enumerate() {
+            let Load { hub, joints } = eliminated.reduced(hub, own);
+            self.omega[axis].iter_mut().zip(hub).for_each(|(to, from)| *to = *to + from);
+            by_joint.iter_mut().zip(joints).for_each(|(to, from)| to[axis] = from);
+        }
+        self.joints_by_omega.extend(by_joint.iter().take(K::JOINTS.len()));
+    }
+}
 
 impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
     type Error = NotEmitted;
@@ -126,63 +302,16 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
-        let within = |v| rotate_transposed(&device.mount, v);
-        let HubAccelerations { r_b_n_ddot, omega_dot } = self.hub;
-        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
-        let found = K::load_derivatives(
-            &device.constants,
-            &K::pose(joints),
-            joints,
-            &expressed_in_b(within(self.omega)),
-            &hub.expressed_in_b(),
-            accelerations,
-        );
-        let found = found.ok_or(NotEmitted)?;
-        let each = |columns: &K::PerJoint<LoadColumn<K>>| {
-            let mut loads = [Load::none(); MAX_JOINTS];
-            for (to, from) in loads.iter_mut().zip(columns.values()) {
-                *to = Load::turned::<K>(&from, &device.mount);
-            }
-            loads
-        };
-        let by_hub = |[x, y, z]: &[LoadColumn<K>; 3]| {
-            let turned = |column| Load::turned::<K>(column, &device.mount);
-            Load::by_b([turned(x), turned(y), turned(z)], &device.mount)
-        };
-        let mut free = [false; MAX_JOINTS];
-        let modes = given.modes.values().zip(K::JOINTS);
-        for (free, (mode, info)) in free.iter_mut().zip(modes) {
-            *free = mode == Mode::Driven && info.driven;
+        if device.lumped.is_some() {
+            return Err(NotEmitted);
         }
-        let mut columns = LoadColumns {
-            count: K::JOINTS.len(),
-            free,
-            coordinates: each(&found.coordinates),
-            rates: each(&found.rates),
-            accelerations: each(&found.accelerations),
-            omega: by_hub(&found.omega),
-            omega_dot: by_hub(&found.omega_dot),
-        };
-        let passive = joints.states().zip(device.passive.values()).enumerate();
-        for (joint, ([_, rate], passive)) in passive {
-            let own = [&mut columns.coordinates, &mut columns.rates];
-            for (columns, slope) in own.into_iter().zip([passive.stiffness, passive.damping(rate)])
-            {
-                if let Some(to) = columns.get_mut(joint).and_then(|of| of.joints.get_mut(joint)) {
-                    *to = *to + slope;
-                }
-            }
+        let Self { omega, hub, found, .. } = self;
+        let motion = DeviceMotion { device, joints, accelerations, omega: *omega, hub: *hub };
+        match self.by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { motion, given, found }),
+            Arithmetic::Portable => portable(&motion, &given, found),
         }
-        let applied = Applied::new(device, joints, given.bodies, self.field.as_ref());
-        if let Some(applied) = &applied {
-            columns.add_applied(applied);
-        }
-        if given.bodies.is_some() {
-            self.by_wrenches.extend(by_wrenches(device, joints));
-        }
-        self.applied.push(applied);
-        self.found.push(columns);
-        Ok(())
     }
 
     fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(

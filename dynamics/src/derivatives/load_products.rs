@@ -33,7 +33,8 @@ pub(super) struct HubMotion<T> {
 
 impl<T: Scalar> HubMotion<T> {
     /// The kernel of a device.
-    #[inline]
+    // Never inlined: one copy for both products.
+    #[inline(never)]
     fn load_derivatives<K: Kind<Scalar = T>>(
         &self,
         device: &Device<K>,

@@ -1,11 +1,13 @@
 //! [`MassSystem`]: what accelerations change by where the loads change, all else given: `-M⁻¹ δ(loads)`.
 //!
-//! The joints of each device are eliminated into the hub's six equations, as an evaluation does it; joints and a hub
-//! whose accelerations are given have no row.
+//! The joints of each device are eliminated into the hub's six equations ([`JointElimination`]), as an evaluation does
+//! it; joints and a hub whose accelerations are given have no row.
+
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use alloc::vec::Vec;
 
-use crate::derivatives::load_columns::{Load, LoadColumns};
+use crate::derivatives::load_columns::Load;
 use crate::equations::hub::HubConstants;
 use crate::equations::system::System;
 use crate::model::joint_array::MAX_JOINTS;
@@ -18,126 +20,120 @@ pub(super) type Six<T> = [T; 6];
 /// How many joints are computed side by side.
 const TOGETHER: usize = 4;
 
-/// The mass matrix, eliminated.
+/// `M_jj⁻¹ M_jh` of all joints, some side by side: by how much less a free joint accelerates where the hub does.
 #[derive(Debug)]
-pub(super) struct MassSystem<T> {
-    devices: Vec<Eliminated<T>>,
-    /// Of all joints, some side by side: `M_jj⁻¹ M_jh`, by how much less a free joint accelerates where the hub does.
-    gains: Vec<[[T; TOGETHER]; 6]>,
-    /// The inverse of what is left for the hub, by columns; none where its accelerations are given.
-    hub: Option<[Six<T>; 6]>,
+pub(super) struct Gains<T> {
+    groups: Vec<[[T; TOGETHER]; 6]>,
+    /// How many joints of the last group there are.
+    last: usize,
 }
 
-/// The joints of one device.
-#[derive(Clone, Copy, Debug)]
-struct Eliminated<T> {
-    count: usize,
-    free: [bool; MAX_JOINTS],
-    /// `L` below its unit diagonal of the joints' mass matrix, reciprocal pivots on it; of a joint that is not free the
-    /// row of the unit matrix.
-    factors: [[T; MAX_JOINTS]; MAX_JOINTS],
-    /// Of each free joint, the loads of the hub by its acceleration.
-    coupling: [Six<T>; MAX_JOINTS],
-    /// `M_jj⁻¹ M_jh`.
-    gains: [Six<T>; MAX_JOINTS],
+impl<T: Scalar> Gains<T> {
+    pub(super) fn new(joints: usize) -> Self {
+        Self { groups: Vec::with_capacity(joints.div_ceil(TOGETHER)), last: TOGETHER }
+    }
+
+    /// Those of one more joint.
+    #[inline(always)]
+    pub(super) fn push(&mut self, of: &Six<T>) {
+        if self.last == TOGETHER {
+            self.groups.push([[zero(); TOGETHER]; 6]);
+            self.last = 0;
+        }
+        let last = self.last;
+        for (to, gain) in self.groups.last_mut().into_iter().flatten().zip(of) {
+            if let Some(to) = to.get_mut(last) {
+                *to = *gain;
+            }
+        }
+        self.last = last.saturating_add(1);
+    }
+
+    /// What the joints' accelerations are where the hub has these: of joints that nothing moves minus zero.
+    #[inline(always)]
+    pub(super) fn follow(&self, base: &Six<T>, out: &mut [T]) {
+        let (groups, rest) = out.as_chunks_mut::<TOGETHER>();
+        let mut gains = self.groups.iter();
+        for (to, gains) in groups.iter_mut().zip(&mut gains) {
+            *to = followed(gains, base);
+        }
+        if let Some(gains) = gains.next() {
+            rest.iter_mut().zip(followed(gains, base)).for_each(|(to, from)| *to = from);
+        }
+    }
+}
+
+#[inline(always)]
+fn followed<T: Scalar>(gains: &[[T; TOGETHER]; 6], base: &Six<T>) -> [T; TOGETHER] {
+    let mut sums = [-zero::<T>(); TOGETHER];
+    for (gains, base) in gains.iter().zip(base) {
+        for (sum, gain) in sums.iter_mut().zip(gains) {
+            *sum = *sum - *gain * *base;
+        }
+    }
+    sums
+}
+
+/// The hub's equations with the joints of all devices eliminated.
+#[derive(Debug)]
+pub(super) struct MassSystem<T> {
+    /// The inverse of what is left for the hub, by columns; none where its accelerations are given.
+    inverse: Option<[Six<T>; 6]>,
 }
 
 impl<T: Scalar> MassSystem<T> {
-    /// Of a hub whose accelerations are free or not, with the mass of the whole.
+    /// Of a hub whose accelerations are free or not, with the mass of the whole and what the devices add.
     pub(super) fn new(
         hub: &HubConstants<T>,
         mass: T,
-        devices: &[LoadColumns<T>],
+        devices: &[Six<T>; 6],
         hub_is_free: bool,
     ) -> Self {
-        let eliminated: Vec<_> = devices.iter().map(Eliminated::new).collect();
-        let system = hub_is_free.then(|| {
-            let mut matrix = whole(hub, mass, devices);
-            for device in &eliminated {
-                device.reduce(&mut matrix);
-            }
-            inverse(&matrix)
-        });
-        let of_joints = eliminated.iter().flat_map(|of| of.gains.iter().take(of.count));
-        let mut gains = Vec::with_capacity(eliminated.len().saturating_mul(MAX_JOINTS));
-        for (number, of) in of_joints.enumerate() {
-            if number % TOGETHER == 0 {
-                gains.push([[zero(); TOGETHER]; 6]);
-            }
-            let group = gains.last_mut().into_iter().flatten();
-            for (to, gain) in group.zip(of) {
-                to[number % TOGETHER] = *gain;
-            }
-        }
-        Self { devices: eliminated, gains, hub: system }
+        Self { inverse: hub_is_free.then(|| inverse(&whole(hub, mass, devices))) }
     }
 
-    /// The accelerations of hub and joints where the loads of the hub change by `hub`, those of the devices from the
-    /// n-th on by `joints`; `given` are those of a hub that is not free.
-    pub(super) fn solve(
-        &self,
-        hub: &Six<T>,
-        (first, joints): (usize, &[[T; MAX_JOINTS]]),
-        given: Six<T>,
-        out: &mut [T],
-    ) -> Six<T> {
-        let mut right = hub.map(|load| -load);
-        let own;
-        let mut several = Vec::new();
-        let mut devices = self.devices.iter().skip(first);
-        let by_loads: &[[T; MAX_JOINTS]] = if let [of] = joints {
-            own = [devices.next().map_or(*of, |device| device.solved(of))];
-            &own
-        } else {
-            several.extend(devices.zip(joints).map(|(device, of)| device.solved(of)));
-            &several
-        };
-        for (device, accelerations) in self.devices.iter().skip(first).zip(by_loads) {
-            let joints = device.coupling.iter().zip(accelerations).take(device.count);
-            for (coupling, acceleration) in joints {
-                for (to, entry) in right.iter_mut().zip(coupling) {
-                    *to = *to + *entry * *acceleration;
-                }
+    /// The hub's accelerations for a right side of its equations; those that are given where it is not free.
+    #[inline(always)]
+    pub(super) fn hub(&self, right: &Six<T>, given: Six<T>) -> Six<T> {
+        let Some(inverse) = &self.inverse else { return given };
+        let mut base = [zero(); 6];
+        for (column, load) in inverse.iter().zip(right) {
+            for (to, entry) in base.iter_mut().zip(column) {
+                *to = *to + *entry * *load;
             }
-        }
-        let base = self.hub.as_ref().map_or(given, |inverse| {
-            let mut base = [zero(); 6];
-            for (column, load) in inverse.iter().zip(right) {
-                for (to, entry) in base.iter_mut().zip(column) {
-                    *to = *to + *entry * load;
-                }
-            }
-            base
-        });
-        // Of joints on which no load changes minus zero, as the negative of their load.
-        out.fill(-zero::<T>());
-        let mut start = self.devices.iter().take(first).map(|device| device.count).sum();
-        for (device, loads) in self.devices.iter().skip(first).zip(by_loads) {
-            let end = device.count.saturating_add(start);
-            for (to, load) in out.get_mut(start..end).unwrap_or_default().iter_mut().zip(loads) {
-                *to = -*load;
-            }
-            start = end;
-        }
-        for (to, gains) in out.chunks_mut(TOGETHER).zip(&self.gains) {
-            let mut sums = [zero(); TOGETHER];
-            sums.iter_mut().zip(&*to).for_each(|(sum, number)| *sum = *number);
-            for (gains, base) in gains.iter().zip(base) {
-                for (sum, gain) in sums.iter_mut().zip(gains) {
-                    *sum = *sum - *gain * base;
-                }
-            }
-            to.iter_mut().zip(sums).for_each(|(to, sum)| *to = sum);
         }
         base
     }
+
+    /// The same for a unit of the right side.
+    #[inline(always)]
+    pub(super) fn hub_by_unit(&self, place: usize) -> Six<T> {
+        let column = self.inverse.as_ref().and_then(|inverse| inverse.get(place));
+        column.copied().unwrap_or([zero(); 6])
+    }
 }
 
-impl<T: Scalar> Eliminated<T> {
+/// The joints of one device, eliminated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JointElimination<T> {
+    pub(super) count: usize,
+    /// Of the joints' mass matrix; of a joint that is not free zero.
+    inverse: [[T; MAX_JOINTS]; MAX_JOINTS],
+    /// Of each free joint, the loads of the hub by its acceleration.
+    coupling: [Six<T>; MAX_JOINTS],
+    /// `M_jj⁻¹ M_jh`.
+    pub(super) gains: [Six<T>; MAX_JOINTS],
+}
+
+impl<T: Scalar> JointElimination<T> {
+    /// With the loads by the joints' accelerations.
+    #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "rows and columns as the formula has them")]
-    fn new(of: &LoadColumns<T>) -> Self {
-        let LoadColumns { count, free, accelerations, .. } = of;
-        let (count, free) = (*count, *free);
+    pub(super) fn new(
+        accelerations: &[Load<T>; MAX_JOINTS],
+        free: [bool; MAX_JOINTS],
+        count: usize,
+    ) -> Self {
         let mut factors = [[zero(); MAX_JOINTS]; MAX_JOINTS];
         let mut coupling = [[zero(); 6]; MAX_JOINTS];
         for row in 0..count {
@@ -168,40 +164,55 @@ impl<T: Scalar> Eliminated<T> {
             }
             factors[row][row] = pivot.recip();
         }
-        let mut found = Self { count, free, factors, coupling, gains: coupling };
-        for direction in 0..6 {
-            let solved = found.solved(&coupling.map(|of| of[direction]));
-            for (gains, number) in found.gains.iter_mut().zip(solved) {
-                gains[direction] = number;
+        let mut inverse = [[zero(); MAX_JOINTS]; MAX_JOINTS];
+        for unit in 0..count {
+            if free[unit] {
+                inverse[unit] = unit_solved(&factors, unit, count);
+            }
+        }
+        let mut gains = [[zero(); 6]; MAX_JOINTS];
+        for row in 0..count {
+            for k in 0..count {
+                for (to, entry) in gains[row].iter_mut().zip(&coupling[k]) {
+                    *to = *to + inverse[k][row] * *entry;
+                }
+            }
+        }
+        Self { count, inverse, coupling, gains }
+    }
+
+    /// Loads of the hub and of the joints, those of the joints eliminated.
+    #[inline(always)]
+    pub(super) fn reduced(&self, hub: &Six<T>, joints: &[T; MAX_JOINTS]) -> Load<T> {
+        let mut found = Load { hub: hub.map(|load| -load), joints: [zero(); MAX_JOINTS] };
+        let columns = self.inverse.iter().zip(joints).take(self.count);
+        for (column, load) in columns {
+            for (to, entry) in found.joints.iter_mut().zip(column).take(self.count) {
+                *to = *to + *entry * *load;
+            }
+        }
+        for (coupling, less) in self.coupling.iter().zip(&found.joints).take(self.count) {
+            for (to, entry) in found.hub.iter_mut().zip(coupling) {
+                *to = *to + *entry * *less;
             }
         }
         found
     }
 
-    /// `M_jj⁻¹` times what is of free joints.
-    fn solved(&self, right: &[T; MAX_JOINTS]) -> [T; MAX_JOINTS] {
-        let mut v = *right;
-        for (number, free) in v.iter_mut().zip(self.free) {
-            if !free {
-                *number = zero();
-            }
-        }
-        for row in 0..self.count {
-            for k in 0..row {
-                v[row] = v[row] - self.factors[row][k] * v[k];
-            }
-        }
-        for row in (0..self.count).rev() {
-            v[row] = v[row] * self.factors[row][row];
-            for k in row.saturating_add(1)..self.count {
-                v[row] = v[row] - self.factors[k][row] * v[k];
-            }
-        }
-        v
+    /// By the motor of a free joint, which takes one from the joint's load.
+    #[inline(always)]
+    pub(super) fn motor(&self, joint: usize) -> Load<T> {
+        let (gains, column) = (self.gains.get(joint), self.inverse.get(joint));
+        let mut found = Load::none();
+        found.hub.iter_mut().zip(gains.into_iter().flatten()).for_each(|(to, of)| *to = -*of);
+        let own = found.joints.iter_mut().zip(column.into_iter().flatten()).take(self.count);
+        own.for_each(|(to, of)| *to = -*of);
+        found
     }
 
     /// Subtracts what the free joints take over from the hub's matrix.
-    fn reduce(&self, matrix: &mut [Six<T>; 6]) {
+    #[inline(always)]
+    pub(super) fn reduce(&self, matrix: &mut [Six<T>; 6]) {
         for (coupling, gains) in self.coupling.iter().zip(&self.gains).take(self.count) {
             for (column, gain) in matrix.iter_mut().zip(gains) {
                 for (to, entry) in column.iter_mut().zip(coupling) {
@@ -212,22 +223,38 @@ impl<T: Scalar> Eliminated<T> {
     }
 }
 
+/// A column of the inverse: `L D Lᵀ v` is a column of the unit matrix, with reciprocal pivots on the diagonal.
+#[inline(always)]
+fn unit_solved<T: Scalar>(
+    factors: &[[T; MAX_JOINTS]; MAX_JOINTS],
+    unit: usize,
+    count: usize,
+) -> [T; MAX_JOINTS] {
+    let mut v = [zero::<T>(); MAX_JOINTS];
+    v[unit] = one();
+    for row in unit.saturating_add(1)..count {
+        for k in unit..row {
+            v[row] = v[row] - factors[row][k] * v[k];
+        }
+    }
+    for row in (0..count).rev() {
+        v[row] = v[row] * factors[row][row];
+        for k in row.saturating_add(1)..count {
+            v[row] = v[row] - factors[k][row] * v[k];
+        }
+    }
+    v
+}
+
 /// The hub's six equations with everything that it carries, by columns.
-fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[LoadColumns<T>]) -> [Six<T>; 6] {
+fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[Six<T>; 6]) -> [Six<T>; 6] {
     let System { m_vw, m_ww, .. } = hub.system([zero(); 3], [zero(); 3], [zero(); 3]);
-    let mut matrix = [[zero(); 6]; 6];
-    for axis in 0..3 {
-        let (force, moment) = (m_vw[axis], m_ww.columns()[axis]);
-        let mut column = [force[0], force[1], force[2], moment[0], moment[1], moment[2]];
-        for device in devices {
-            let Load { hub, .. } = &device.omega_dot[axis];
-            column.iter_mut().zip(hub).for_each(|(to, from)| *to = *to + *from);
-        }
-        matrix[axis][axis] = mass;
-        for row in 0..3 {
-            matrix[row][axis + 3] = column[row];
-        }
-        matrix[axis + 3] = column;
+    let mut matrix = *devices;
+    for (axis, (force, moment)) in m_vw.iter().zip(m_ww.columns()).enumerate() {
+        matrix[axis][axis] = matrix[axis][axis] + mass;
+        let own = force.iter().chain(&moment);
+        let column = matrix[axis.wrapping_add(3)].iter_mut().zip(own);
+        column.for_each(|(to, from)| *to = *to + *from);
     }
     matrix
 }

@@ -5,8 +5,8 @@
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
 //! step. `products` has the derivatives along a direction and of a weighted sum, without matrices. Of accelerations
 //! `linearization` needs no dual numbers: `by_loads` has the columns of a rigid hub from the emitted derivatives of the
-//! loads (`load_columns`), from what acts from outside (`applied_columns`) and the mass matrix (`mass_system`);
-//! `by_tree` has them where carriers stand between hub and devices (`base_motion`, `tree_members`, `tree_system`).
+//! loads (`load_columns`) and the mass matrix (`mass_system`); `by_tree` has them where carriers stand between hub and
+//! devices and under whatever acts (`device_loads`, `applied_columns`, `base_motion`, `tree_members`, `tree_system`).
 //! Neither does [`parameters`]: `parameter_loads` has the loads of one device change with its bodies (`device_motion`,
 //! `rigid_body`).
 
@@ -19,6 +19,8 @@ mod by_loads;
 #[cfg(feature = "alloc")]
 mod by_tree;
 pub(crate) mod column;
+#[cfg(feature = "alloc")]
+mod device_loads;
 #[cfg(feature = "alloc")]
 mod device_motion;
 mod elimination;

@@ -10,12 +10,11 @@ use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::column::Column;
 use crate::derivatives::device_motion::{DeviceMotion, GivenJoint, LoadChange};
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::load_columns::{EachDevice, Moving};
-use crate::derivatives::mass_system::MassSystem;
+use crate::derivatives::load_columns::{EachDevice, Load, LoadColumns, Moving};
+use crate::derivatives::mass_system::{MassSystem, Six};
 use crate::derivatives::parameter_change::{add_change, add_hub_change, unit};
 use crate::derivatives::parameters::ParameterVariable;
 use crate::derivatives::rigid_body::{Motion, RigidBody};
-use crate::equations::device::Device;
 use crate::equations::gravity::Gravity;
 use crate::equations::load_sums::HubAccelerations;
 use crate::model::kind::{ImbalanceModel, Kind, no_body, no_inertia};
@@ -26,7 +25,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Columns, columns, components, rotate_transposed, sub, vector, zeros};
-use crate::sets::devices::{DeviceSet, Devices, List};
+use crate::sets::devices::{DeviceSet, Devices};
 use crate::sets::per_device as data;
 use crate::sets::with_numbers::{Change, WithNumbers};
 use crate::solve::accelerations::evaluation_start;
@@ -44,6 +43,7 @@ pub(super) struct ParameterLoads<'a, D: WithNumbers> {
     /// The last device that was asked for, with its number.
     device: Option<(usize, DeviceMotion<D::Scalar>)>,
     system: MassSystem<D::Scalar>,
+    columns: LoadColumns<D::Scalar>,
     bn: Columns<D::Scalar>,
     /// Of all joints.
     accelerations: Vec<D::Scalar>,
@@ -57,17 +57,6 @@ struct Joints<'a, D: Devices> {
     bodies: Option<&'a <D as DeviceSet>::Per<data::PerJoint<Wrench<D::Scalar>>>>,
 }
 
-/// Whether the imbalance of each device is lumped.
-struct IsLumped;
-
-impl<T: Scalar> List<T> for IsLumped {
-    type Item = bool;
-
-    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = bool> {
-        core::iter::once(device.lumped.is_some())
-    }
-}
-
 impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
     /// At a state with its accelerations; none where a set has a platform or a lumped imbalance, and in a central field.
     pub(super) fn new<A: Attitude<D::Scalar>>(
@@ -76,8 +65,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         (state, inputs): (&'a State<D, A>, &'a Inputs<D>),
         accelerations: &'a Accelerations<D>,
     ) -> Option<Self> {
-        let lumped = D::list::<IsLumped>(&craft.devices).any(|lumped| lumped);
-        if lumped || matches!(inputs.gravity, Gravity::Central { .. }) {
+        if matches!(inputs.gravity, Gravity::Central { .. }) {
             return None;
         }
         let start = evaluation_start(state, inputs);
@@ -89,7 +77,12 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         };
         let Motion { omega, omega_dot, acceleration: r_b_n_ddot, .. } = motion;
         let falling = HubAccelerations { r_b_n_ddot, omega_dot };
-        let mut each = EachDevice::new(omega, falling, None);
+        let mut each = EachDevice::new(
+            craft.arithmetic,
+            omega,
+            falling,
+            accelerations.devices.values().count(),
+        );
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
@@ -103,7 +96,8 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
                 bodies: inputs.bodies.as_ref(),
             },
             device: None,
-            system: MassSystem::new(&craft.hub, craft.mass(), &each.found, hub_is_free),
+            system: MassSystem::new(&craft.hub, craft.mass(), &each.found.matrix, hub_is_free),
+            columns: each.found,
             bn: columns(&state.attitude.dcm()),
             accelerations: vec![zero(); accelerations.devices.values().count()],
             column: Column {
@@ -123,12 +117,8 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
     ) -> Result<&Column<D>, DerivativeError<D::Scalar>> {
         let load = self.load(variable)?;
         let ([a, b, c], [d, e, f]) = (load.force, load.moment);
-        let own = [load.joints];
-        let joints: &[_] = if variable.device().is_some() { &own } else { &[] };
-        let first = variable.device().unwrap_or_default();
-        let hub = [a, b, c, d, e, f];
-        let still = [zero(); 6];
-        let found = self.system.solve(&hub, (first, joints), still, &mut self.accelerations);
+        let (hub, joints) = ([a, b, c, d, e, f], load.joints);
+        let found = self.accelerated(variable.device(), &Load { hub, joints });
         if !found.iter().chain(&self.accelerations).all(|number| number.is_finite()) {
             return Err(DerivativeError::NotFinite { variable: 0 });
         }
@@ -140,6 +130,24 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
             *to = *from;
         }
         Ok(&self.column)
+    }
+
+    /// The accelerations where the loads of a device, or of the hub alone, change: of the hub, those of the joints into
+    /// `accelerations`.
+    fn accelerated(&mut self, device: Option<usize>, load: &Load<D::Scalar>) -> Six<D::Scalar> {
+        let eliminated = device.and_then(|device| self.columns.eliminated.get(device));
+        let reduced = eliminated.map_or_else(
+            || Load { hub: load.hub.map(|load| -load), ..Load::none() },
+            |of| of.reduced(&load.hub, &load.joints),
+        );
+        let base = self.system.hub(&reduced.hub, [zero(); 6]);
+        self.columns.gains.follow(&base, &mut self.accelerations);
+        let others = self.columns.eliminated.iter().take(device.unwrap_or_default());
+        let first = others.map(|of| of.count).sum();
+        let own = self.accelerations.iter_mut().skip(first);
+        let count = eliminated.map_or(0, |of| of.count);
+        own.zip(&reduced.joints).take(count).for_each(|(to, less)| *to = *to - *less);
+        base
     }
 
     /// What the loads change by.

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 
 use crate::derivatives::applied_columns::{Applied, by_wrenches};
 use crate::derivatives::base_motion::{BaseMotion, Link, Moments, spatial};
-use crate::derivatives::load_columns::{EachDevice, Load, LoadColumns, Moving, NotEmitted};
+use crate::derivatives::device_loads::DeviceLoads;
+use crate::derivatives::load_columns::{Load, Moving, NotEmitted};
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::gravity::Central;
@@ -51,7 +52,7 @@ pub(super) struct Member<T> {
     pub(super) base: usize,
     /// The number of its first joint.
     pub(super) first: usize,
-    pub(super) columns: LoadColumns<T>,
+    pub(super) columns: DeviceLoads<T>,
     pub(super) mass: T,
     /// By the position of B from the centre of a field, base axes.
     pub(super) position: Option<[Load<T>; 3]>,
@@ -113,12 +114,16 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
         let Some(base) = self.bases.get_mut(self.base) else { return Ok(()) };
         let BaseMotion { omega, acceleration: r_b_n_ddot, omega_dot, .. } = base.motion;
         let hub = HubAccelerations { r_b_n_ddot, omega_dot };
-        let (found, applied, by_wrenches) = (Vec::new(), Vec::new(), Vec::new());
-        let mut each = EachDevice { omega, hub, field: base.field, found, applied, by_wrenches };
-        each.visit(device, (joints, given, accelerations))?;
-        let (Some(columns), Some(applied)) = (each.found.pop(), each.applied.pop()) else {
-            return Ok(());
-        };
+        let found = DeviceLoads::new(
+            device,
+            (joints, &given, accelerations),
+            (omega, &hub),
+            base.field.as_ref(),
+        );
+        let (columns, applied) = found.ok_or(NotEmitted)?;
+        if given.bodies.is_some() {
+            self.by_wrenches.extend(by_wrenches(device, joints));
+        }
         if self.base > 0 {
             let [force, moment] = needed::<K>(device, joints, omega, &hub, accelerations);
             let [less, turned_less] = applied.as_ref().map_or([zeros(); 2], |of| of.hub);
@@ -139,7 +144,6 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
             }
         }
         let owner = Owner::Device(self.devices.len());
-        self.by_wrenches.extend(each.by_wrenches);
         let first = self.joints.len();
         self.joints.extend(columns.free.iter().take(columns.count).map(|free| (owner, *free)));
         let position = applied.filter(|_| base.field.is_some()).map(|of| of.position);
@@ -221,7 +225,7 @@ impl<T: Scalar> Member<T> {
     }
 }
 
-impl<T: Scalar> LoadColumns<T> {
+impl<T: Scalar> DeviceLoads<T> {
     /// The first moment s about the origin of the base, base axes: the force by an angular acceleration e is `e x s`.
     fn first_moment(&self) -> Vec3<T> {
         let [x, y, _] = &self.omega_dot;

@@ -3322,6 +3322,7 @@ pub fn loads<T: Real>(
 /// Returns `LoadDerivatives`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 647 mul, 631 add, 16 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn load_derivatives<T: Real>(
     p: &Prepared<T>,

@@ -1106,6 +1106,7 @@ pub fn loads<T: Real>(
 /// Returns `LoadDerivatives`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 49 mul, 49 add, 7 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn load_derivatives<T: Real>(
     p: &Prepared<T>,

@@ -2140,6 +2140,7 @@ pub fn loads<T: Real>(
 /// Returns `LoadDerivatives`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 313 mul, 308 add, 12 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn load_derivatives<T: Real>(
     p: &Prepared<T>,

@@ -4107,6 +4107,7 @@ pub fn loads<T: Real>(
 /// Returns `LoadDerivatives`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 766 mul, 678 add, 31 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn load_derivatives<T: Real>(
     p: &Prepared<T>,

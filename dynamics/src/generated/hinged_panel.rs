@@ -1620,6 +1620,7 @@ pub fn loads<T: Real>(
 /// Returns `LoadDerivatives`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 243 mul, 241 add, 10 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn load_derivatives<T: Real>(
     p: &Prepared<T>,

@@ -867,6 +867,7 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

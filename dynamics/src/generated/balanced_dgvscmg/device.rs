@@ -868,6 +868,7 @@ impl<T: Scalar> Kind for BalancedDgvscmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

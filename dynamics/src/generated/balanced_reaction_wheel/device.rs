@@ -531,6 +531,7 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         (): &Self::Pose<T>,

@@ -705,6 +705,7 @@ impl<T: Scalar> Kind for BalancedSgcmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

@@ -706,6 +706,7 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

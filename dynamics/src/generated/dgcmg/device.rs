@@ -907,6 +907,7 @@ impl<T: Scalar> Kind for Dgcmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

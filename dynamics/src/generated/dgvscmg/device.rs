@@ -908,6 +908,7 @@ impl<T: Scalar> Kind for Dgvscmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

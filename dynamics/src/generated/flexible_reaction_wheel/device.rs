@@ -1028,6 +1028,7 @@ impl<T: Scalar> Kind for FlexibleReactionWheel<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

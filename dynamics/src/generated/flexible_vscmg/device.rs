@@ -1184,6 +1184,7 @@ impl<T: Scalar> Kind for FlexibleVscmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

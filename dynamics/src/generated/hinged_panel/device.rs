@@ -559,6 +559,7 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

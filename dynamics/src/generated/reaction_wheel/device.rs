@@ -589,6 +589,7 @@ impl<T: Scalar> Kind for ReactionWheel<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

@@ -745,6 +745,7 @@ impl<T: Scalar> Kind for Sgcmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

@@ -513,6 +513,7 @@ impl<T: Scalar> Kind for SloshMass<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

@@ -746,6 +746,7 @@ impl<T: Scalar> Kind for Vscmg<T> {
         Carried { joints, hub }
     }
 
+    #[inline(always)]
     fn load_derivatives(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
