@@ -117,41 +117,52 @@ impl<T: Scalar> Body<T> {
 }
 
 impl<T: Scalar> DeviceMotion<T> {
-    /// Of a device on a hub that moves so, expressed in B, with at most [`MAX_JOINTS`] joints.
-    pub(super) fn new(
+    /// No device.
+    pub(super) fn none() -> Self {
+        let Body { motion, .. } = Body::none();
+        Self { hub: motion, place: zeros(), bodies: [Body::none(); MAX_JOINTS], count: 0 }
+    }
+
+    /// Becomes that of a device on a hub that moves so, expressed in B, with at most [`MAX_JOINTS`] joints.
+    pub(super) fn set(
+        &mut self,
         hub: &Motion<T>,
         mount: &Columns<T>,
         joints: impl Iterator<Item = GivenJoint<T>>,
-    ) -> Self {
-        let mut bodies = [Body::none(); MAX_JOINTS];
-        let mut applied = [Wrench::none(); MAX_JOINTS];
-        let (mut axes, mut parent, mut place, mut count) = (*mount, *hub, zeros(), 0_usize);
-        for ((to, applied), joint) in bodies.iter_mut().zip(&mut applied).zip(joints) {
+    ) {
+        (self.hub, self.count) = (*hub, 0);
+        let mut applied = [(zeros(), zeros()); MAX_JOINTS];
+        let (mut axes, mut parent) = (*mount, *hub);
+        for ((to, applied), joint) in self.bodies.iter_mut().zip(&mut applied).zip(joints) {
             // The first origin is expressed in B.
-            let offset =
-                if count == 0 { joint.body.origin } else { rotate(&axes, joint.body.origin) };
-            if count == 0 {
-                place = offset;
+            let mut offset = joint.body.origin;
+            if self.count == 0 {
+                self.place = offset;
+            } else {
+                offset = rotate(&axes, offset);
             }
-            *to = outward(&axes, &parent, offset, &joint);
-            *applied = joint.applied;
+            outward(&axes, &parent, offset, &joint, to);
+            *applied = (components(&joint.applied.force), components(&joint.applied.moment));
             (axes, parent) = (to.axes, to.motion);
-            count = count.saturating_add(1);
+            self.count = self.count.saturating_add(1);
         }
-        let mut device = Self { hub: *hub, place, bodies, count };
-        device.load(&applied);
-        device
+        self.load(&applied);
+    }
+
+    /// The bodies of the first joints, at most all.
+    fn first(&self, joints: usize) -> &[Body<T>] {
+        self.bodies.get(..joints.min(self.count)).unwrap_or_default()
     }
 
     /// The inward pass: composites, and what each joint exerts.
-    fn load(&mut self, applied: &[Wrench<T>; MAX_JOINTS]) {
+    fn load(&mut self, applied: &[ForceAndMoment<T>; MAX_JOINTS]) {
         let (mut composite, mut exerted) = ((zero(), zeros()), (zeros(), zeros()));
-        let bodies = self.bodies.iter_mut().zip(applied).take(self.count);
-        for (body, applied) in bodies.rev() {
+        let bodies = self.bodies.get_mut(..self.count).unwrap_or_default();
+        let applied = applied.get(..bodies.len()).unwrap_or_default();
+        for (body, applied) in bodies.iter_mut().rev().zip(applied.iter().rev()) {
             let RigidBody { mass, centre, .. } = body.rigid;
             let (force, moment) = body.rigid.wrench(&body.own);
-            let net =
-                (sub(force, components(&applied.force)), sub(moment, components(&applied.moment)));
+            let net = (sub(force, applied.0), sub(moment, applied.1));
             let first_moment = rotate(&body.axes, scale(mass, centre));
             composite = (composite.0 + mass, add(composite.1, first_moment));
             exerted = plus(exerted, turned(&body.axes, net));
@@ -186,8 +197,8 @@ impl<T: Scalar> DeviceMotion<T> {
         let of = |(mass, first_moment): (T, Vec3<T>)| {
             (scale(mass, acceleration), cross(first_moment, acceleration))
         };
-        let joints = self.bodies.iter().zip(&mut load.joints).take(self.count).skip(joint);
-        for (body, to) in joints {
+        let joints = self.first(MAX_JOINTS).iter().zip(&mut load.joints);
+        for (body, to) in joints.skip(joint) {
             *to = *to + body.along(of(body.composite));
         }
         let (force, moment) = moved.about_parent(of(moved.composite));
@@ -210,7 +221,8 @@ impl<T: Scalar> DeviceMotion<T> {
         // Expressed in own axes.
         let mut wrenches = [(zeros(), zeros()); MAX_JOINTS];
         let mut from = self.place;
-        for (body, wrench) in self.bodies.iter().zip(&mut wrenches).take(self.count) {
+        let bodies = self.first(MAX_JOINTS);
+        for (body, wrench) in bodies.iter().zip(&mut wrenches) {
             let relative = parent.relative_change(&change, sub(body.lever, from));
             change.acceleration = add(change.acceleration, relative);
             change.omega_dot = add(change.omega_dot, cross(change.omega, parent.spin));
@@ -220,13 +232,15 @@ impl<T: Scalar> DeviceMotion<T> {
             (parent, from) = (body.motion, zeros());
         }
         let mut sum = (zeros(), zeros());
-        let joints = self.bodies.iter().zip(wrenches).zip(&mut load.joints).take(self.count);
-        for ((body, wrench), to) in joints.rev() {
-            *to = body.along(sum) + body.along_own(wrench);
-            sum = body.about_parent(plus(sum, turned(&body.axes, wrench)));
+        let joints = load.joints.get_mut(..bodies.len()).unwrap_or_default();
+        let wrenches = wrenches.get(..bodies.len()).unwrap_or_default();
+        let rows = joints.iter_mut().rev().zip(wrenches.iter().rev());
+        for (body, (to, wrench)) in bodies.iter().rev().zip(rows) {
+            *to = body.along(sum) + body.along_own(*wrench);
+            sum = body.about_parent(plus(sum, turned(&body.axes, *wrench)));
         }
         // What the hub exerts turns about the place, which stays.
-        if let Some(Body { lever, exerted: (force, moment), .. }) = self.bodies.first() {
+        if let Some(Body { lever, exerted: (force, moment), .. }) = bodies.first() {
             let at_place = add(*moment, cross(sub(*lever, self.place), *force));
             let force = cross(about, *force);
             load.force = add(sum.0, force);
@@ -237,8 +251,9 @@ impl<T: Scalar> DeviceMotion<T> {
 
     /// Adds a wrench about the origin of the last of some joints, about B of none, to them and the hub.
     fn inward(&self, joints: usize, mut wrench: ForceAndMoment<T>, load: &mut LoadChange<T>) {
-        let inboard = self.bodies.iter().zip(&mut load.joints).take(joints);
-        for (body, to) in inboard.rev() {
+        let bodies = self.first(joints);
+        let joints = load.joints.get_mut(..bodies.len()).unwrap_or_default();
+        for (body, to) in bodies.iter().rev().zip(joints.iter_mut().rev()) {
             *to = *to + body.along(wrench);
             wrench = body.about_parent(wrench);
         }
@@ -247,13 +262,14 @@ impl<T: Scalar> DeviceMotion<T> {
     }
 }
 
-/// A body outboard of one with these axes and this motion; composite and loads come inward.
+/// Writes a body outboard of one with these axes and this motion; composite and loads come inward.
 fn outward<T: Scalar>(
     axes: &Columns<T>,
     parent: &Motion<T>,
     offset: Vec3<T>,
     joint: &GivenJoint<T>,
-) -> Body<T> {
+    to: &mut Body<T>,
+) {
     let GivenJoint { info, state: [coordinate, rate], acceleration, .. } = *joint;
     let axis = axes.get(info.axis).copied().unwrap_or_else(zeros);
     let lever = if info.slides { add(offset, scale(coordinate, axis)) } else { offset };
@@ -278,18 +294,10 @@ fn outward<T: Scalar>(
     if !info.slides {
         own.spin = scale(rate, own_axis);
     }
-    Body {
-        rigid: RigidBody::of(&joint.body),
-        axes: own_axes,
-        axis,
-        own_axis,
-        slides: info.slides,
-        slide,
-        lever,
-        motion,
-        own,
-        ..Body::none()
-    }
+    (to.rigid, to.axes) = (RigidBody::of(&joint.body), own_axes);
+    (to.axis, to.own_axis, to.slides) = (axis, own_axis, info.slides);
+    (to.slide, to.lever) = (slide, lever);
+    (to.motion, to.own) = (motion, own);
 }
 
 /// Axes after a rotation about one of them.

@@ -40,8 +40,8 @@ pub(super) struct ParameterLoads<'a, D: WithNumbers> {
     motion: Motion<D::Scalar>,
     devices: D,
     joints: Joints<'a, D>,
-    /// The last device that was asked for, with its number.
-    device: Option<(usize, DeviceMotion<D::Scalar>)>,
+    /// The last device of which a parameter was requested, and its number.
+    device: (DeviceMotion<D::Scalar>, Option<usize>),
     system: MassSystem<D::Scalar>,
     columns: LoadColumns<D::Scalar>,
     bn: Columns<D::Scalar>,
@@ -95,7 +95,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
                 accelerations: &accelerations.devices,
                 bodies: inputs.bodies.as_ref(),
             },
-            device: None,
+            device: (DeviceMotion::none(), None),
             system: MassSystem::new(&craft.hub, craft.mass(), &each.found.matrix, hub_is_free),
             columns: each.found,
             bn: columns(&state.attitude.dcm()),
@@ -188,7 +188,7 @@ struct OfDevice<'a, 'b, D: Devices> {
     variable: ParameterVariable<'a>,
     hub: &'a Motion<D::Scalar>,
     joints: &'a Joints<'b, D>,
-    motion: &'a mut Option<(usize, DeviceMotion<D::Scalar>)>,
+    motion: &'a mut (DeviceMotion<D::Scalar>, Option<usize>),
     found: Option<Changed<D::Scalar>>,
 }
 
@@ -205,11 +205,10 @@ impl<D: Devices> Change<D::Scalar> for OfDevice<'_, '_, D> {
 impl<D: Devices> OfDevice<'_, '_, D> {
     fn load<K: Kind<Scalar = D::Scalar>>(&mut self, device: &K) -> Changed<D::Scalar> {
         let states = self.joints.states.states().skip(self.first_joint);
-        if self.motion.as_ref().is_none_or(|(of, _)| *of != self.device) {
-            *self.motion = Some((self.device, self.motion_of(device)));
+        if self.motion.1 != Some(self.device) {
+            self.set_motion(device);
         }
-        let mut load = LoadChange::none();
-        let Some((_, motion)) = &self.motion else { return Ok(load) };
+        let (motion, mut load) = (&self.motion.0, LoadChange::none());
         if let ParameterVariable::MountRotation { about, .. } = self.variable {
             return Ok(motion.by_mount(unit(about)));
         }
@@ -235,7 +234,7 @@ impl<D: Devices> OfDevice<'_, '_, D> {
         Ok(load)
     }
 
-    fn motion_of<K: Kind<Scalar = D::Scalar>>(&self, device: &K) -> DeviceMotion<D::Scalar> {
+    fn set_motion<K: Kind<Scalar = D::Scalar>>(&mut self, device: &K) {
         let Joints { states, accelerations, bodies } = *self.joints;
         let wrenches = bodies.into_iter().flat_map(Each::values).skip(self.first_joint);
         let none = core::iter::repeat(Wrench::none());
@@ -251,6 +250,7 @@ impl<D: Devices> OfDevice<'_, '_, D> {
                 applied,
             },
         );
-        DeviceMotion::new(self.hub, &columns(device.mount()), joints)
+        self.motion.0.set(self.hub, &columns(device.mount()), joints);
+        self.motion.1 = Some(self.device);
     }
 }

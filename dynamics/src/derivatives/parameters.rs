@@ -114,20 +114,45 @@ impl<D: WithNumbers> Spacecraft<D> {
         (state, inputs): (&State<D, A>, &Inputs<D>),
         outputs: &Outputs<D::Scalar>,
         variables: impl IntoIterator<Item = ParameterVariable<'a>>,
-        mut column: impl FnMut(ParameterVariable<'a>, &Column<D>),
+        column: impl FnMut(ParameterVariable<'a>, &Column<D>),
     ) -> Result<Accelerations<D>, DerivativeError<D::Scalar>> {
         let plain = Self::new(hub, devices)?;
-        let accelerations = plain.checked(state, inputs, outputs)?;
+        let found = plain.checked(state, inputs, outputs)?;
+        plain.parameter_columns(
+            (hub, devices),
+            (state, inputs),
+            &found,
+            outputs,
+            variables,
+            column,
+        )?;
+        Ok(found)
+    }
+
+    /// The columns, of the spacecraft of this hub and these devices and with its accelerations.
+    #[cfg_attr(
+        not(feature = "alloc"),
+        expect(unused_variables, reason = "without a heap all is computed in dual numbers")
+    )]
+    pub(super) fn parameter_columns<'a, A: Attitude<D::Scalar>>(
+        &self,
+        (hub, devices): (&Hub<D::Scalar>, &D),
+        (state, inputs): (&State<D, A>, &Inputs<D>),
+        accelerations: &Accelerations<D>,
+        outputs: &Outputs<D::Scalar>,
+        variables: impl IntoIterator<Item = ParameterVariable<'a>>,
+        mut column: impl FnMut(ParameterVariable<'a>, &Column<D>),
+    ) -> Result<(), DerivativeError<D::Scalar>> {
         #[cfg(feature = "alloc")]
         if *outputs == Outputs::accelerations()
             && let Some(mut loads) =
-                ParameterLoads::new(&plain, (hub, devices), (state, inputs), &accelerations)
+                ParameterLoads::new(self, (hub, devices), (state, inputs), accelerations)
         {
             for (number, variable) in variables.into_iter().enumerate() {
                 let found = loads.column(variable);
                 column(variable, found.map_err(|error| in_list(error, number, None))?);
             }
-            return Ok(accelerations);
+            return Ok(());
         }
         let dual_hub = hub.map(Number::constant);
         let dual_devices = devices.with_numbers(Number::constant);
@@ -153,11 +178,11 @@ impl<D: WithNumbers> Spacecraft<D> {
                 in_list(error, first, by().position(alone))
             })?;
             for (number, variable) in by().enumerate() {
-                column(variable, &plain.column(&found, number));
+                column(variable, &self.column(&found, number));
             }
             first = first.saturating_add(WIDTH);
         }
-        Ok(accelerations)
+        Ok(())
     }
 }
 
