@@ -4,13 +4,23 @@
 //! With `M a + bias = loads` the accelerations change along a direction by `-M⁻¹` times what the loads change by at given
 //! accelerations; `M` is symmetric, so the gradient of `wᵀ a` is that of the loads weighed by `-M⁻¹ w`.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
+#[cfg(feature = "alloc")]
+use nalgebra::DMatrix;
+
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::column::{Outputs, Results};
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::joint_order::{HubDirection, HubGradient};
+#[cfg(feature = "alloc")]
+use crate::derivatives::linearization::columns_of;
 use crate::derivatives::load_products::{AlongDirection, ByWeights, Directed, HubMotion, Weighed};
 use crate::derivatives::point::{Number, Point};
 use crate::derivatives::structure::StructureDerivatives;
+#[cfg(feature = "alloc")]
+use crate::derivatives::variable::Variable;
 use crate::equations::gravity::Gravity;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
@@ -93,8 +103,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// product): the weights times `c` and `d` of [`Linearization`](crate::Linearization), without them.
     ///
     /// `gradient` becomes the derivatives by [`Self::state_variables`] and by [`Self::input_variables`]. Without a heap
-    /// and at the cost of [`Self::jvp`] where that has emitted derivatives; elsewhere that of
-    /// [`Self::derivatives`].
+    /// and at the cost of [`Self::jvp`] where that has emitted derivatives; elsewhere at that of the matrices, or
+    /// without the feature `alloc` of [`Self::derivatives`].
     ///
     /// # Errors
     ///
@@ -113,19 +123,62 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         same_length(rows(&accelerations).count(), rows(weights).count())?;
         let gradient = (&mut *by_states, &mut *by_inputs);
         if self.vjp_by_loads(state, inputs, &accelerations, weights, gradient).is_none() {
-            let variables = || self.state_variables(inputs).chain(self.input_variables(inputs));
-            let mut to = by_states.iter_mut().chain(&mut *by_inputs);
-            let outputs = Outputs::accelerations();
-            self.derivatives(state, inputs, &outputs, variables(), |_, column| {
-                let each = rows(&column.accelerations).zip(rows(weights));
-                let sum = each.fold(zero(), |sum, (value, weight)| sum + value * weight);
-                if let Some(to) = to.next() {
-                    *to = sum;
-                }
-            })?;
+            let gradient = (&mut *by_states, &mut *by_inputs);
+            self.vjp_by_columns(state, inputs, &accelerations, weights, gradient)?;
         }
         check_finite(by_states.iter().chain(&*by_inputs).copied())?;
         Ok(accelerations)
+    }
+
+    /// By the matrices of [`Self::linearize`], which has emitted derivatives where products have none.
+    #[cfg(feature = "alloc")]
+    fn vjp_by_columns<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+        weights: &Accelerations<D, S>,
+        (by_states, by_inputs): Gradient<'_, D::Scalar>,
+    ) -> Result<(), DerivativeError<D::Scalar>> {
+        let states: Vec<_> = self.state_variables(inputs).collect();
+        let acting: Vec<_> = self.input_variables(inputs).collect();
+        let height = rows(accelerations).count();
+        let matrix = |columns: &[Variable]| DMatrix::from_element(height, columns.len(), zero());
+        let (mut c, mut d) = (matrix(&states), matrix(&acting));
+        let (at, lists) = ((state, inputs), (states.as_slice(), acting.as_slice()));
+        let into = [&mut c, &mut d];
+        self.output_columns(at, accelerations, &Outputs::accelerations(), lists, into)?;
+        let gradients = [(by_states, c), (by_inputs, d)];
+        for (gradient, mut matrix) in gradients {
+            for (to, column) in gradient.iter_mut().zip(columns_of(&mut matrix)) {
+                let each = column.iter().zip(rows(weights));
+                *to = each.fold(zero(), |sum, (value, weight)| sum + *value * weight);
+            }
+        }
+        Ok(())
+    }
+
+    /// By the columns of [`Self::derivatives`].
+    #[cfg(not(feature = "alloc"))]
+    fn vjp_by_columns<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        _: &Accelerations<D, S>,
+        weights: &Accelerations<D, S>,
+        (by_states, by_inputs): Gradient<'_, D::Scalar>,
+    ) -> Result<(), DerivativeError<D::Scalar>> {
+        let variables = self.state_variables(inputs).chain(self.input_variables(inputs));
+        let mut to = by_states.iter_mut().chain(by_inputs);
+        let outputs = Outputs::accelerations();
+        self.derivatives(state, inputs, &outputs, variables, |_, column| {
+            let each = rows(&column.accelerations).zip(rows(weights));
+            let sum = each.fold(zero(), |sum, (value, weight)| sum + value * weight);
+            if let Some(to) = to.next() {
+                *to = sum;
+            }
+        })?;
+        Ok(())
     }
 
     /// By one evaluation in dual numbers.
