@@ -28,6 +28,9 @@ BEST = [*PLAIN, "-DEIGEN_DONT_VECTORIZE", "-fno-vectorize", "-fno-slp-vectorize"
 # The code is without loops: 25 thousand statements at N = 16, a hundred thousand at N = 64.
 GENERATED = [1, 2, 4, 8, 16]
 
+# Of derivatives: hundreds of thousands of statements at N = 16.
+DERIVATIVES_OF = [1, 4]
+
 
 def pinocchio_default(into):
     gxx = compiler("g++", "g++")
@@ -61,6 +64,40 @@ def casadi(into):
         count = json.loads(printed)
         counts.append(f"N = {n}: {count['arithmetic']} + {count['trigonometric']} trigonometric")
     command = runner(into / "casadi", "casadi_aba.cpp", [gxx, *PLAIN, *COMMON], objects)
+    return command, (
+        f"casadi {version('casadi')} over pin {version('pin')}; {version_of(gcc)}; "
+        f"{' '.join(PLAIN)}; operations {', '.join(counts)}"
+    )
+
+
+def pinocchio_derivatives(into):
+    clang = compiler("clang++", "clang")
+    program, source = into / "pinocchio-derivatives", "pinocchio_derivatives.cpp"
+    command = runner(program, source, [clang, *BEST, *PINOCCHIO])
+    return command, f"pin {version('pin')}; {version_of(clang)}; {' '.join(BEST)}"
+
+
+def casadi_derivatives(into, what):
+    """The generator, then C for each size, then what calls it: `jacobian` or `analytic`."""
+    gxx, gcc = compiler("g++", "g++"), compiler("gcc", "gcc")
+    package = PACKAGES / "casadi"
+    [generate] = runner(
+        into / f"casadi-generate-{what}", "casadi_generate_derivatives.cpp",
+        [gxx, "-O0", *PINOCCHIO, f"-isystem{package}/include"],
+        [package / "libcasadi.so", f"-Wl,-rpath,{package}"],
+    )  # fmt: skip
+    counts, objects = [], []
+    for n in DERIVATIVES_OF:
+        given = into / "derivatives" / f"{n}.json"
+        code, compiled = into / f"{what}_{n}.c", into / f"{what}_{n}.o"
+        printed = make(code, [given, generate], [generate, given, f"{into}/", what])
+        make(compiled, [code], [gcc, *PLAIN, "-c", code, "-o", compiled])
+        objects.append(compiled)
+        counts.append(f"N = {n}: {json.loads(printed)['operations']}")
+    command = runner(
+        into / f"casadi-{what}", "casadi_derivatives.cpp",
+        [gxx, *PLAIN, *COMMON, f"-DWHAT={what}"], objects,
+    )  # fmt: skip
     return command, (
         f"casadi {version('casadi')} over pin {version('pin')}; {version_of(gcc)}; "
         f"{' '.join(PLAIN)}; operations {', '.join(counts)}"

@@ -35,7 +35,7 @@ pub(crate) struct Options {
 
 /// Sets up, builds, and leaves checking, timing and the page to the example `performance`.
 pub(crate) fn bench(options: &Options) -> Result<(), String> {
-    let mut peers = !options.skip_peers && !options.derivatives;
+    let mut peers = !options.skip_peers;
     if peers && !is_installed("python3") {
         skip("the peers", "apt-get install python3 python3-venv")?;
         peers = false;
@@ -45,6 +45,8 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
         setup.args(["-B", SETUP, "--into", PEERS]);
         if options.flexible {
             setup.args(["--subject", "flexible"]);
+        } else if options.derivatives {
+            setup.args(["--subject", "derivatives"]);
         } else {
             setup.arg("--library").arg(library()?);
         }

@@ -12,12 +12,13 @@ use crate::subject::Subject;
 /// Largest difference of results, of a block: only the order of summation differs.
 const AGREEMENT: f64 = 1e-11;
 
-/// What a contender finds: accelerations of hub and joints in a row, or what moved, by name.
+/// What a contender finds: accelerations of hub and joints in a row, or what moved, or derivatives, by name.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum ContenderResult {
     Accelerations(Vec<f64>),
     Motion(BTreeMap<String, Vec<f64>>),
+    Derivatives(BTreeMap<String, Vec<f64>>),
 }
 
 /// Subjects whose results are compared with each other.
@@ -37,12 +38,17 @@ pub(crate) fn check(
         for case in plan.cases(group) {
             let takes = |who: &&Contender| who.subject.compares_with(group) && who.takes(&case);
             let all: Vec<_> = contenders.iter().filter(takes).collect();
-            let peer = all.iter().find(|who| !who.is_ours()).or(all.first());
-            let Some(reference) = peer else { continue };
-            let expected: ContenderResult = reference.query("check", folder, &case)?;
+            let mut results = Vec::new();
             for contender in &all {
-                let found = contender.query("check", folder, &case)?;
-                let found = deviation(&found, &expected);
+                results.push((contender, contender.query("check", folder, &case)?));
+            }
+            // Of one subject some find accelerations, others their derivatives.
+            let form = |of: &ContenderResult| core::mem::discriminant(of);
+            for (contender, found) in &results {
+                let mut alike = results.iter().filter(|(_, of)| form(of) == form(found));
+                let peer = alike.clone().find(|(who, _)| !who.is_ours());
+                let Some((reference, expected)) = peer.or_else(|| alike.next()) else { continue };
+                let found = deviation(found, expected);
                 let found = found.ok_or_else(|| {
                     format!("{} and {} differ in form, {case}", contender.name, reference.name)
                 })?;
@@ -94,7 +100,9 @@ fn deviation(found: &ContenderResult, expected: &ContenderResult) -> Option<f64>
 /// The numbers by block: of accelerations the hub's two vectors, and those of all joints of one name.
 fn blocks(found: &ContenderResult) -> Vec<Vec<f64>> {
     match found {
-        ContenderResult::Motion(blocks) => blocks.values().cloned().collect(),
+        ContenderResult::Motion(blocks) | ContenderResult::Derivatives(blocks) => {
+            blocks.values().cloned().collect()
+        }
         ContenderResult::Accelerations(all) => {
             let mut blocks = vec![Vec::new(); 5];
             for (number, value) in all.iter().enumerate() {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use tera::{Context, Tera};
 
-use crate::contender::Contender;
+use crate::contender::{Contender, Missing};
 use crate::machine::Machine;
 use crate::plan::{DERIVATIVES, Plan};
 use crate::race::Times;
@@ -35,7 +35,12 @@ pub(crate) fn write_cases(folder: &Path) -> Result<(), Box<dyn Error>> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(path, of.to_string())?;
+        // What the peers were generated of stays, whoever wrote it.
+        let there = fs::read_to_string(&path).ok();
+        let there = there.and_then(|text| serde_json::from_str::<Value>(&text).ok());
+        if there.as_ref() != Some(of) {
+            fs::write(path, of.to_string())?;
+        }
     }
     Ok(())
 }
@@ -45,20 +50,44 @@ pub(crate) struct Page {
     pub(crate) plan: Plan,
     pub(crate) machine: Machine,
     pub(crate) contenders: Vec<Contender>,
+    pub(crate) missing: Vec<Missing>,
+    /// The worst deviation of each contender, by name.
+    pub(crate) worst: Vec<(String, f64)>,
     pub(crate) times: Times,
+}
+
+/// A peer, as the page describes it.
+#[derive(Serialize)]
+struct Peer<'a> {
+    name: &'a str,
+    note: &'a str,
+    agrees: String,
 }
 
 /// A service: its time for each number of devices, and that in units of what it differentiates.
 #[derive(Serialize)]
 struct ServiceRow {
-    title: &'static str,
+    title: String,
     cells: Vec<String>,
 }
 
 impl Page {
     /// The file, by name.
     pub(crate) fn files(&self) -> Result<Vec<(&'static str, String)>, Box<dyn Error>> {
-        let rows: Vec<_> = SERVICES.into_iter().filter_map(|service| self.row(service)).collect();
+        let peers = || self.contenders.iter().filter(|who| !who.is_ours());
+        let mut rows: Vec<_> =
+            SERVICES.into_iter().filter_map(|service| self.row(service)).collect();
+        rows.extend(
+            peers().filter_map(|peer| self.compared(peer.name.clone(), peer, "evaluation")),
+        );
+        let described: Vec<_> = peers()
+            .map(|peer| {
+                let worst = self.worst.iter().find(|(name, _)| *name == peer.name);
+                let agrees = worst.map_or("-".to_owned(), |(_, worst)| format!("{worst:.1e}"));
+                Peer { name: &peer.name, note: &peer.note, agrees }
+            })
+            .collect();
+        let ours = self.worst.iter().find(|(name, _)| name.contains("linearize`"));
         for ServiceRow { title, cells } in &rows {
             println!("{title:60} {}", cells.join("  "));
         }
@@ -66,6 +95,9 @@ impl Page {
         context.insert("machine", &self.machine);
         context.insert("rounds", &self.plan.rounds);
         context.insert("rows", &rows);
+        context.insert("peers", &described);
+        context.insert("missing", &self.missing);
+        context.insert("agrees", &ours.map(|(_, worst)| format!("{worst:.1e}")));
         let mut tera = Tera::default();
         tera.autoescape_on(Vec::<&str>::new());
         tera.add_raw_template("page", include_str!("derivatives.md.tera"))?;
@@ -73,8 +105,13 @@ impl Page {
     }
 
     fn row(&self, [name, unit, title]: [&'static str; 3]) -> Option<ServiceRow> {
-        let find = |name: &str| self.contenders.iter().find(|who| who.serves(name));
-        let (who, unit) = (find(name)?, find(unit)?);
+        let who = self.contenders.iter().find(|who| who.serves(name))?;
+        self.compared(title.to_owned(), who, unit)
+    }
+
+    /// Someone's times, and their ratios to those of a service.
+    fn compared(&self, title: String, who: &Contender, unit: &str) -> Option<ServiceRow> {
+        let unit = self.contenders.iter().find(|who| who.serves(unit))?;
         let cells = DERIVATIVES.map(|case| {
             let Some(time) = self.times.of_contender(who, case) else { return "-".to_owned() };
             let waited = if time.waited < WAITED { "" } else { " †" };

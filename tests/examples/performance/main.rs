@@ -115,9 +115,9 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     }
     if arguments.derivatives {
         derivatives::write_cases(folder)?;
-        agreement::check(&contenders, &[Subject::Derivatives], &plan, folder)?;
+        let worst = agreement::check(&contenders, &[Subject::Derivatives], &plan, folder)?;
         let times = race(&Plan::derivatives(&contenders), plan.rounds, folder)?;
-        let page = derivatives::Page { plan, machine, contenders, times };
+        let page = derivatives::Page { plan, machine, contenders, missing, worst, times };
         return written(out, page.files()?);
     }
     let worst = agreement::check(&contenders, &agreement::GROUPS, &plan, folder)?;

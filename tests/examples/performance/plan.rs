@@ -80,7 +80,8 @@ impl Plan {
     pub(crate) fn derivatives(contenders: &[Contender]) -> Vec<Heat<'_>> {
         let heat = |case: &'static str| {
             let all = contenders.iter().filter(|who| who.subject == Subject::Derivatives);
-            let entries = all.map(|who| (who, case.to_owned())).collect();
+            let takes = all.filter(|who| who.takes(case));
+            let entries = takes.map(|who| (who, case.to_owned())).collect();
             Heat { title: format!("derivatives, {case}"), entries }
         };
         DERIVATIVES.map(heat).into()

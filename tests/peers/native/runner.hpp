@@ -78,9 +78,20 @@ inline void print_numbers(const char* before, const std::vector<double>& numbers
   std::fputs("]", stdout);
 }
 
+// What an engine that has no accelerations to compare prints by itself.
+template <class Engine>
+auto print_result(const Engine& engine, int) -> decltype(engine.print()) {
+  engine.print();
+}
+
 inline void print_accelerations(const std::vector<double>& accelerations) {
   print_numbers("{\"accelerations\": [", accelerations);
   std::puts("}");
+}
+
+template <class Engine>
+void print_result(const Engine& engine, long) {
+  print_accelerations(engine.accelerations());
 }
 
 template <class Engine, class Given = Craft>
@@ -94,7 +105,7 @@ int run(int count, char** words) {
   Engine engine(craft, words[2]);
   engine.evaluate();
   if (what == "check") {
-    print_accelerations(engine.accelerations());
+    print_result(engine, 0);
   } else {
     print_turns(engine, craft.angles.size(), what == "turns");
   }

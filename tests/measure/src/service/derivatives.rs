@@ -1,6 +1,7 @@
 //! Derivatives of one state, and what they are compared with: an evaluation, a step, and central
 //! differences of evaluations over the same variables.
 
+use std::collections::BTreeMap;
 use std::hint::black_box;
 
 use nalgebra::Vector3;
@@ -9,7 +10,7 @@ use precess_dynamics::{
     Axis, Dgvscmg, Inputs, Outputs, ParameterVariable, Quaternion, Spacecraft, State, Variable,
 };
 use precess_tests::stored::Stored;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::single_state::{NUDGE, flat};
 use super::{Name, Rejected, Service};
@@ -140,9 +141,41 @@ fn imbalance_of(device: usize) -> [ParameterVariable<'static>; 6] {
     ]
 }
 
+impl<const N: usize> Derivatives<N> {
+    /// The derivatives of the accelerations by kind of row and kind of variable, as the peers print them.
+    fn blocks(&self) -> Result<Value, Rejected> {
+        let found = self.craft.linearize(&self.state, &self.inputs, &Outputs::accelerations())?;
+        let mut blocks: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for (variables, matrix) in [(&found.states, &found.c), (&found.inputs, &found.d)] {
+            for (variable, column) in variables.iter().zip(matrix.column_iter()) {
+                let by = match variable {
+                    Variable::Coordinate(_) => "angles",
+                    Variable::Omega(_) => "omega",
+                    Variable::Rate(_) => "rates",
+                    Variable::Force(_) => "force",
+                    Variable::TorqueB(_) => "torque_b",
+                    Variable::Motor(_) => "motors",
+                    _ => continue,
+                };
+                for (row, element) in column.iter().enumerate() {
+                    let name = if row < 6 { ROWS[row / 3] } else { ROWS[2 + row % 3] };
+                    blocks.entry(format!("{name} by {by}")).or_default().push(*element);
+                }
+            }
+        }
+        Ok(json!({ "derivatives": blocks }))
+    }
+}
+
+/// Kinds of rows: two vectors of the hub, and of each device three joints.
+const ROWS: [&str; 5] = ["r_b_n_ddot", "omega_dot", "gamma_o_ddot", "gamma_i_ddot", "spin_dot"];
+
 impl<const N: usize> Service for Derivatives<N> {
     fn check(&mut self) -> Result<Value, Rejected> {
         self.call()?;
+        if matches!(self.name, Name::Linearized) {
+            return self.blocks();
+        }
         Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
 
