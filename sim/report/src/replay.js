@@ -159,8 +159,8 @@ export function createReplay(place, report, cursor, theme) {
     scale = usual;
     perMomentum = motion.largestMomentum > 0 ? drawing.longest / motion.largestMomentum : 0;
     perOmega = motion.largestOmega > 0 ? drawing.longest / motion.largestOmega : 0;
-    parts.momentum.textContent = `angular momentum H, 1 m for ${perMomentum > 0 ? number(1 / perMomentum, 3) : '0'} N m s`;
-    parts.omega.textContent = `angular velocity ω, 1 m for ${perOmega > 0 ? number(180 / Math.PI / perOmega, 3) : '0'} deg/s`;
+    parts.momentum.textContent = perMomentum > 0 ? `angular momentum H, 1 m for ${number(1 / perMomentum, 3)} N m s` : 'angular momentum H: zero';
+    parts.omega.textContent = perOmega > 0 ? `angular velocity ω, 1 m for ${number(180 / Math.PI / perOmega, 3)} deg/s` : 'angular velocity ω: zero';
     declare();
     draw();
   }
