@@ -142,7 +142,7 @@ fn unsolvable(scenario: &Scenario) -> Option<String> {
     let state = evaluator.initial();
     let Ok(inputs) = evaluator.inputs(0.0, &state) else {
         // A joint that may stick: a run decides it.
-        return Run::new(scenario).err().map(|error| error.to_string());
+        return Run::new(&scenario.without_controllers()).err().map(|error| error.to_string());
     };
     let error = evaluator.accelerations(&state, &inputs).err()?;
     let name = device_of(&error).and_then(|device| scenario.names.get(device));

@@ -1,15 +1,18 @@
-//! [`Controller`]: what a sampled controller of a run computes; a law of [`precess_control`], or one of a program.
+//! [`Controller`]: what a sampled controller of a run computes: a law of [`precess_control`], one of a program that runs
+//! the scenario, or a program of its own ([`ProgramController`]).
 //!
 //! A run calls it once a sample, in the order of time, from the start of the run. Its answer is held until the next one
 //! acts: a torque on the spacecraft, which the run divides among the joints that the controller commands, or the torques
 //! of their motors.
 
 mod error;
+mod process;
 
 use nalgebra::Vector3;
 use precess_control::{Law, Sample};
 
 pub use error::ControllerError;
+pub use process::{Greeting, ProgramController};
 
 /// What a controller reads at a sample.
 #[derive(Clone, Copy, Debug)]

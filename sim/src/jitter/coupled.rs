@@ -166,7 +166,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
 }
 
 /// Rotors at their rates by motors that keep or balance them; all other joints free on their springs, or held. No gravity,
-/// wrenches, changes or end stops.
+/// wrenches, changes, controllers or end stops.
 fn steady_spin(
     run: &mut Scenario,
     scenario: &Scenario,
@@ -178,6 +178,7 @@ fn steady_spin(
     run.wrenches.clear();
     run.disturbances.clear();
     run.changes.clear();
+    run.controllers.clear();
     run.stops.clear();
     run.crossings.clear();
     run.requirements.clear();

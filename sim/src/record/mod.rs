@@ -9,6 +9,7 @@ pub mod csv;
 pub mod decimate;
 mod error;
 pub(crate) mod extent;
+mod fault;
 mod file_lock;
 mod histories;
 mod interval;
@@ -31,6 +32,7 @@ pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};
 pub use error::RecordError;
+pub use fault::Fault;
 pub use histories::{Histories, replay};
 pub use interval::IntervalRecorder;
 pub use npz::Npz;
@@ -38,7 +40,7 @@ pub use outcome::{Drift, End, Event, Outcome, Steps};
 #[cfg(feature = "parquet")]
 pub use parquet::Parquet;
 pub use recorder_group::RecorderGroup;
-pub use run_error::{Fault, RunError};
+pub use run_error::RunError;
 pub use samples::Samples;
 pub use statistics::{Statistics, Verdict};
 

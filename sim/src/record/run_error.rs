@@ -5,6 +5,7 @@ use std::fmt;
 use precess_dynamics::{ModesError, ParameterError, SolveError};
 
 use super::error::RecordError;
+use super::fault::Fault;
 use crate::control::ControllerError;
 use crate::scenario::ScenarioError;
 use crate::units::Plain;
@@ -166,32 +167,6 @@ pub enum RunError {
     },
 }
 
-/// A report of the integrator that is a fault of this program.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
-    /// It rejects the span or the first step; the reason is known in its own words only.
-    Input {
-        /// Its words.
-        reason: String,
-    },
-    /// The interpolant was evaluated outside the last step.
-    Interpolation {
-        /// The time of the state, s.
-        time: f64,
-        /// Start of the last step, s.
-        from: f64,
-        /// End of the last step, s.
-        to: f64,
-    },
-    /// It takes the equations for ones with a delay.
-    Delay,
-    /// It solved linear equations and failed; the reason is known in its own words only.
-    LinearAlgebra {
-        /// Its words.
-        reason: String,
-    },
-}
-
 impl RunError {
     /// The simulated time at which it happened, s; none of an error before the start.
     #[must_use]
@@ -244,6 +219,16 @@ fn undecided(motor: bool) -> (&'static str, &'static str) {
              friction: `coulomb` with `coulomb_rate`",
         )
     }
+}
+
+/// Writes an error of a controller.
+fn controller(
+    f: &mut fmt::Formatter<'_>,
+    time: f64,
+    name: &str,
+    why: &ControllerError,
+) -> fmt::Result {
+    write!(f, "at t = {} s, controller `{name}`: {why}", Plain(time))
 }
 
 /// Writes items, what leads to the first before it and what separates them before the others.
@@ -355,9 +340,7 @@ impl fmt::Display for RunError {
                 "the integrator stopped at t = {time} s: {fault}; this is a fault of the program",
                 time = Plain(*time)
             ),
-            Self::Controller { time, name, source } => {
-                write!(f, "at t = {time} s, controller `{name}`: {source}", time = Plain(*time))
-            }
+            Self::Controller { time, name, source } => controller(f, *time, name, source),
             Self::NoController { name } => write!(f, "no controller is named `{name}`"),
             Self::Record(error) => error.fmt(f),
             Self::Elsewhere { message, .. } => f.write_str(message),
@@ -381,22 +364,5 @@ impl std::error::Error for RunError {
 impl From<RecordError> for RunError {
     fn from(error: RecordError) -> Self {
         Self::Record(error)
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
-            Self::Interpolation { time, from, to } => {
-                write!(
-                    f,
-                    "a state at {time} s, outside its last step, {from} s to {to} s",
-                    time = Plain(*time)
-                )
-            }
-            Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
-            Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
-        }
     }
 }

@@ -1,6 +1,8 @@
 //! [`ControlLaw`] and [`AttitudeReference`]: what a controller computes from, and what the hub is to follow; in numbers of a
 //! scenario, from which [`precess_control`] makes them.
 
+use std::path::PathBuf;
+
 use nalgebra::{Matrix3, Vector3};
 use precess_control::{
     ControlError, Guidance, Gyroscopic, Hold, Law, MrpFeedback, MrpGains, QuaternionFeedback,
@@ -9,7 +11,7 @@ use precess_control::{
 use precess_dynamics::Quaternion;
 
 /// A law. Where it has an inertia, kg m², none stands for that of the scenario at its start, about the centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ControlLaw {
     /// [`MrpFeedback`].
     MrpFeedback {
@@ -45,6 +47,15 @@ pub enum ControlLaw {
         /// `D`, N m s.
         rate: Matrix3<f64>,
     },
+    /// A program that answers samples: [`ProgramController`](crate::control::ProgramController).
+    Program {
+        /// Its name, and its arguments.
+        command: Vec<String>,
+        /// The folder in which it runs.
+        folder: PathBuf,
+        /// How long it may take for an answer, s.
+        time_limit: f64,
+    },
 }
 
 /// What the hub is to follow.
@@ -78,13 +89,16 @@ pub(crate) type BuiltLaw = Box<dyn Law + Send>;
 pub(crate) type BuiltGuidance = Box<dyn Guidance + Send>;
 
 impl ControlLaw {
-    /// The law, with an inertia where it states none.
+    /// The law, with an inertia where it states none; none of a program.
     ///
     /// # Errors
     ///
     /// What is wrong with its numbers.
-    pub(crate) fn built(&self, own: impl Fn() -> Matrix3<f64>) -> Result<BuiltLaw, ControlError> {
-        Ok(match self {
+    pub(crate) fn built(
+        &self,
+        own: impl Fn() -> Matrix3<f64>,
+    ) -> Result<Option<BuiltLaw>, ControlError> {
+        Ok(Some(match self {
             Self::MrpFeedback { gains, inertia, gyroscopic } => {
                 Box::new(MrpFeedback::new(*gains, inertia.unwrap_or_else(own), *gyroscopic)?)
             }
@@ -100,7 +114,8 @@ impl ControlLaw {
                 Box::new(QuaternionFeedback::eigen_axis(k, d, inertia)?)
             }
             Self::RateDamping { rate } => Box::new(RateDamping::new(*rate)?),
-        })
+            Self::Program { .. } => return Ok(None),
+        }))
     }
 }
 

@@ -112,10 +112,13 @@ impl Scenario {
         self.controllers.iter().find(|of| of.joints.iter().any(|own| own.joint == joint))
     }
 
-    /// The first controller, by its name.
-    #[must_use]
-    pub fn first_controller(&self) -> Option<&str> {
-        self.controllers.first().map(|of| of.name.as_str())
+    /// The same without its controllers: their joints have no torque.
+    #[cfg(feature = "tool")]
+    pub(crate) fn without_controllers(&self) -> Self {
+        let mut open = self.clone();
+        open.controllers.clear();
+        open.changes.retain(|change| change.action != Action::Release);
+        open
     }
 
     pub(super) fn check_controllers(&self) -> Vec<ScenarioError> {
@@ -222,6 +225,15 @@ impl SampledController {
         } else if count > COMMANDED_MAX {
             let message = format!("it commands {count} joints; at most {COMMANDED_MAX}");
             faults.push(("devices", message));
+        }
+        if let ControlLaw::Program { command, time_limit, .. } = &self.law {
+            if command.iter().all(String::is_empty) {
+                faults.push(("law.command", "it names no program".to_owned()));
+            }
+            if !positive(*time_limit) {
+                let limit = Plain(*time_limit);
+                faults.push(("law.time_limit", format!("{limit} s is not above 0 s")));
+            }
         }
         faults.extend(self.allocation.faults(&self.joints));
         if !not_negative(self.servo.gain) {

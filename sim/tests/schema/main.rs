@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 48] = [
+const OTHERS: [&str; 49] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -75,6 +75,7 @@ const OTHERS: [&str; 48] = [
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
      reference = { kind = \"orbit\" }\n[gravity]\ncentral = \"4e14 m^3/s^2\"\n\
      [initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"program\", command = [\"none\"], time_limit = \"1 s\" }",
     "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
      power_limit = \"30 W\"\nspeed_limit = \"1 m/s\"\n\

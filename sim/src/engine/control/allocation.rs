@@ -49,6 +49,17 @@ pub(super) struct Available {
     pub(super) commanded: bool,
 }
 
+/// The joints at a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pose<'a> {
+    /// Those of the controller.
+    pub(super) joints: &'a [Available],
+    /// The rates of all joints.
+    pub(super) rates: &'a [f64],
+    /// Angular velocity of the hub, B, rad/s.
+    pub(super) omega: &'a Vector3<f64>,
+}
+
 /// Joints beyond those of a controller are padded: nothing is commanded of them.
 type Padded<T> = [T; COMMANDED_MAX];
 
@@ -62,7 +73,7 @@ impl Allocator {
         &mut self,
         of: &SampledController,
         (time, torque): (f64, &Vector3<f64>),
-        (joints, rates, omega): (&[Available], &[f64], &Vector3<f64>),
+        Pose { joints, rates, omega }: Pose<'_>,
         sums: &SteeringSums,
     ) -> Result<Allocated, SteeringError> {
         let mut steered: Padded<Steered> = [Steered::Nothing; COMMANDED_MAX];
@@ -142,7 +153,7 @@ fn only(
 
 /// The largest column: the momentum of a wheel for gimbals.
 fn largest(matrix: &SteeringMatrix<f64, COMMANDED_MAX>) -> f64 {
-    let sizes = matrix.columns.iter().map(|column| column.norm());
+    let sizes = matrix.columns.iter().map(Vector3::norm);
     let largest = sizes.fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }
 }

@@ -13,14 +13,17 @@ use std::collections::VecDeque;
 use nalgebra::Vector3;
 use precess_control::{Motion, Sample};
 use precess_craft::{SteeringDevices, SteeringSums};
-use precess_dynamics::JointStates;
+use precess_dynamics::{JointStates, Steered};
 
 use super::equations::system::System;
 use super::integration::Moment;
-use crate::control::{Command, Controller, ControllerError, ControllerSample, LawController};
+use crate::control::{
+    Command, Controller, ControllerError, ControllerSample, Greeting, LawController,
+    ProgramController,
+};
 use crate::record::RunError;
-use crate::scenario::{BuiltGuidance, SampledController, Scenario};
-use allocation::{Allocated, Allocator, Available};
+use crate::scenario::{BuiltGuidance, ControlLaw, SampledController, Scenario, body_key};
+use allocation::{Allocated, Allocator, Available, Pose};
 use clock::{Clock, reached};
 use servo::motor_torques;
 
@@ -66,16 +69,18 @@ impl<'a> Controls<'a> {
         own: Vec<(String, Box<dyn Controller>)>,
     ) -> Result<Self, RunError> {
         let mut each = Vec::new();
+        let mut own = own;
         for of in &scenario.controllers {
-            let failed = |error| {
-                let (name, source) = (of.name.clone(), ControllerError::Parameter(error));
-                RunError::Controller { time: 0.0, name, source }
+            let failed = |source| RunError::Controller { time: 0.0, name: of.name.clone(), source };
+            let guidance = of.reference.built();
+            let controller = match own.iter().position(|(name, _)| *name == of.name) {
+                Some(index) => own.swap_remove(index).1,
+                None => controller_of(scenario, of).map_err(failed)?,
             };
-            let law = of.law.built(|| scenario.inertia_at_start()).map_err(failed)?;
             each.push(Control {
                 of,
-                guidance: of.reference.built().map_err(failed)?,
-                controller: Box::new(LawController(law)),
+                guidance: guidance.map_err(|error| failed(ControllerError::Parameter(error)))?,
+                controller,
                 allocator: Allocator::new(of),
                 samples: Clock::new(of.offset, of.rate),
                 ticks: of.servo.rate.map(|rate| Clock::new(of.offset, rate)),
@@ -85,11 +90,8 @@ impl<'a> Controls<'a> {
                 limited: false,
             });
         }
-        for (name, controller) in own {
-            let Some(control) = each.iter_mut().find(|control| control.of.name == name) else {
-                return Err(RunError::NoController { name });
-            };
-            control.controller = controller;
+        if let Some((name, _)) = own.pop() {
+            return Err(RunError::NoController { name });
         }
         let steering = if each.is_empty() {
             None
@@ -178,13 +180,13 @@ impl Control<'_> {
         let computed = match answer {
             Command::Motors(torques) => {
                 self.limited = limited(&joints, &torques) > 0;
-                self.write(index, system, None, limited(&joints, &torques));
+                write(index, system, None, limited(&joints, &torques));
                 Pending::Torques(torques)
             }
             Command::Torque(torque) => {
                 let rates: Vec<f64> = all.iter().map(|[_, rate]| *rate).collect();
-                let at = (joints.as_slice(), rates.as_slice(), &state.omega);
-                self.commanded(index, (system, time, moment), (&torque, at), &sums)?
+                let pose = Pose { joints: &joints, rates: &rates, omega: &state.omega };
+                self.commanded(index, (system, time, moment), (&torque, pose), &sums)?
             }
         };
         self.pending.push_back((time + self.of.delay, computed));
@@ -196,12 +198,12 @@ impl Control<'_> {
         &mut self,
         index: usize,
         (system, time, moment): (&mut System<'_>, f64, &Moment),
-        (torque, at): (&Vector3<f64>, (&[Available], &[f64], &Vector3<f64>)),
+        (torque, pose): (&Vector3<f64>, Pose<'_>),
         sums: &SteeringSums,
     ) -> Result<Pending, RunError> {
-        let allocated = self.allocator.allocate(self.of, (time, torque), at, sums);
+        let allocated = self.allocator.allocate(self.of, (time, torque), pose, sums);
         let allocated = allocated.map_err(|error| self.error(time, error.into()))?;
-        let joints = at.0;
+        let joints = pose.joints;
         let (pending, at_limit) = if self.ticks.is_some() {
             (Pending::Commands(allocated.commands.clone()), 0)
         } else {
@@ -213,28 +215,8 @@ impl Control<'_> {
         };
         let at_limit = at_limit.max(allocated.bounded);
         self.limited = at_limit > 0;
-        self.write(index, system, Some((torque, &allocated)), at_limit);
+        write(index, system, Some((torque, &allocated)), at_limit);
         Ok(pending)
-    }
-
-    /// Writes what was computed for the columns; zero where a controller answers torques of motors.
-    fn write(
-        &self,
-        index: usize,
-        system: &mut System<'_>,
-        computed: Option<(&Vector3<f64>, &Allocated)>,
-        at_limit: usize,
-    ) {
-        let Some(values) = system.acting.held.values_mut(index) else { return };
-        #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
-        let count = at_limit as f64;
-        values.limited = count;
-        if let Some((torque, allocated)) = computed {
-            values.torque = (*torque).into();
-            values.torque_error = allocated.torque_error.into();
-            values.commands.clone_from(&allocated.commands);
-            values.measure = allocated.measure;
-        }
     }
 
     /// Holds what is due, and the torques of commands in force.
@@ -273,6 +255,53 @@ impl Control<'_> {
         hold(self.of, system, &torques);
         Ok(())
     }
+}
+
+/// Writes what was computed for the columns; of torques of motors only how many are at a limit.
+fn write(
+    index: usize,
+    system: &mut System<'_>,
+    computed: Option<(&Vector3<f64>, &Allocated)>,
+    at_limit: usize,
+) {
+    let Some(values) = system.acting.held.values_mut(index) else { return };
+    #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
+    let count = at_limit as f64;
+    values.limited = count;
+    if let Some((torque, allocated)) = computed {
+        values.torque = (*torque).into();
+        values.torque_error = allocated.torque_error.into();
+        values.commands.clone_from(&allocated.commands);
+        values.measure = allocated.measure;
+    }
+}
+
+/// The controller of a scenario.
+fn controller_of(
+    scenario: &Scenario,
+    of: &SampledController,
+) -> Result<Box<dyn Controller>, ControllerError> {
+    let law = of.law.built(|| scenario.inertia_at_start()).map_err(ControllerError::Parameter)?;
+    if let Some(law) = law {
+        return Ok(Box::new(LawController(law)));
+    }
+    let ControlLaw::Program { command, folder, time_limit } = &of.law else {
+        return Err(ControllerError::Program { reason: "it has no law".to_owned() });
+    };
+    let all: Vec<_> = scenario.joints().collect();
+    let named = |own: &crate::scenario::CommandedJoint| {
+        let (_, device, info) = all.get(own.joint)?;
+        let name = format!("{device}.{}", body_key(info));
+        Some((name, own.steered == Steered::Rate))
+    };
+    let joints: Vec<_> = of.joints.iter().filter_map(named).collect();
+    let greeting = Greeting {
+        name: &of.name,
+        times: [of.rate, of.offset, of.delay],
+        joints: &joints,
+        inertia: scenario.inertia_at_start(),
+    };
+    Ok(Box::new(ProgramController::start(command, folder, *time_limit, &greeting)?))
 }
 
 /// Holds torques of the joints of a controller.

@@ -213,13 +213,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         folder,
     };
     let disturbances = sources::sources(&keys, &known);
-    let known = controllers::ControllerContext {
-        devices: &devices,
-        attitude: reference,
-        position: initial.r_b_n,
-        velocity: initial.r_b_n_dot,
-    };
-    let controllers = controllers::controllers(&keys, &known);
+    let controllers = controllers::controllers(&keys, &devices, (reference, &initial), folder);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = output::requirement::requirements(&keys, settings.as_ref());

@@ -61,6 +61,11 @@ fn law(out: &mut String, law: &ControlLaw) -> Written {
             writeln!(out, "kind = \"rate_damping\"")?;
             return writeln!(out, "rate_gain = {}", diagonal(rate, "N m s"));
         }
+        ControlLaw::Program { command, time_limit, .. } => {
+            let words: Vec<_> = command.iter().map(|word| quoted(word)).collect();
+            writeln!(out, "kind = \"program\"\ncommand = [{}]", words.join(", "))?;
+            return writeln!(out, "time_limit = \"{time_limit:?} s\"");
+        }
     };
     if let Some(tensor) = own {
         inertia(out, tensor)?;

@@ -3,6 +3,7 @@
 pub(super) mod chart;
 mod chart_texts;
 mod control_charts;
+mod controllers;
 pub(super) mod extremes;
 pub(super) mod grouping;
 pub(super) mod limits;

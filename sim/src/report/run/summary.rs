@@ -124,6 +124,7 @@ pub(in crate::report) fn summary(report: &Report, outcome: &Outcome) -> Summary 
         }
         count => format!("{hub} with {count} devices: {}.", devices.join(", ")),
     });
+    paragraphs.extend(super::controllers::sentences(scenario));
     Summary { paragraphs, facts: facts(report, outcome) }
 }
 

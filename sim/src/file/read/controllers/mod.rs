@@ -1,39 +1,51 @@
 //! `[[controller]]`: when it samples, what it commands, `law`, `reference`, `allocation` and `servo`.
 
+mod reference;
+
+use std::path::Path;
+
 use nalgebra::{Matrix3, Vector3};
-use precess_control::{Gyroscopic, MrpGains, TurnLimits, rotation};
-use precess_dynamics::{Attitude as _, Quaternion, Steered};
+use precess_control::{Gyroscopic, MrpGains};
+use precess_dynamics::{Quaternion, State, Steered};
 
 use super::devices::device::Device;
 use super::devices::inertia::{INERTIA_KEYS, inertia};
-use super::devices::initial::{attitude_of, of_axes};
 use crate::file::document::Value;
 use crate::file::keys::Keys;
 use crate::scenario::{
-    AllocationInverse, AttitudeReference, CommandedJoint, ControlLaw, OrbitalFrame,
-    SampledController, ServoSettings, TorqueAllocation, body_key, steered,
+    AllocationInverse, CommandedJoint, ControlLaw, SampledController, ServoSettings, Set,
+    TorqueAllocation, body_key, steered,
 };
 use crate::units::Measure;
+use reference::reference;
 
 /// Rate feedback of the servo without a key, in samples.
 const SERVO_GAIN: f64 = 0.5;
+/// How long a program may take for an answer without a key, s.
+const TIME_LIMIT: f64 = 10.0;
 
 /// What the tables of controllers refer to.
-pub(super) struct ControllerContext<'a> {
-    pub(super) devices: &'a [Device],
+struct ControllerContext<'a> {
+    devices: &'a [Device],
     /// The attitude at the start.
-    pub(super) attitude: Quaternion,
+    attitude: Quaternion,
     /// Position and velocity at the start, N, m and m/s.
-    pub(super) position: Vector3<f64>,
-    pub(super) velocity: Vector3<f64>,
+    position: Vector3<f64>,
+    velocity: Vector3<f64>,
+    /// In which a program runs.
+    folder: &'a Path,
 }
 
-/// All of a file.
+/// All of a file: of these devices, with this attitude and this state at the start.
 pub(super) fn controllers(
     keys: &Keys<'_>,
-    known: &ControllerContext<'_>,
+    devices: &[Device],
+    (attitude, initial): (Quaternion, &State<Set>),
+    folder: &Path,
 ) -> Vec<SampledController> {
-    keys.tables("controller").iter().filter_map(|keys| controller(keys, known)).collect()
+    let (position, velocity) = (initial.r_b_n, initial.r_b_n_dot);
+    let known = ControllerContext { devices, attitude, position, velocity, folder };
+    keys.tables("controller").iter().filter_map(|keys| controller(keys, &known)).collect()
 }
 
 fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledController> {
@@ -46,7 +58,7 @@ fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledC
     let delay = keys.quantity("delay", Measure::TIME).unwrap_or(0.0);
     let joints = commanded(keys, known.devices);
     let law = required_table(keys, "law", "law = { kind = \"mrp_feedback\" }")
-        .and_then(|keys| law(&keys));
+        .and_then(|keys| law(&keys, known.folder));
     let empty = keys.empty();
     let reference = keys.table_or("reference", &empty).and_then(|keys| reference(&keys, known));
     let has_gimbals = joints.iter().flatten().any(|of| of.steered == Steered::Rate);
@@ -132,14 +144,16 @@ enum LawKind {
     Quaternion,
     EigenAxis,
     Damping,
+    Program,
 }
 
-fn law(keys: &Keys<'_>) -> Option<ControlLaw> {
+fn law(keys: &Keys<'_>, folder: &Path) -> Option<ControlLaw> {
     let words = [
         ("mrp_feedback", LawKind::Mrp),
         ("quaternion_feedback", LawKind::Quaternion),
         ("eigen_axis", LawKind::EigenAxis),
         ("rate_damping", LawKind::Damping),
+        ("program", LawKind::Program),
     ];
     let law = match kind(keys, &words, "mrp_feedback") {
         Some(LawKind::Mrp) => mrp_feedback(keys),
@@ -148,7 +162,7 @@ fn law(keys: &Keys<'_>) -> Option<ControlLaw> {
             let rate = required_diagonal(keys, "rate_gain", Measure::ANGULAR_MOMENTUM);
             let (tensor, gyroscopic) = (own_inertia(keys), gyroscopic(keys));
             (|| {
-                let (attitude, rate, inertia) = (attitude?, rate?, tensor?);
+                let (attitude, rate, inertia) = (attitude?, rate?, tensor.ok()?);
                 Some(ControlLaw::QuaternionFeedback { attitude, rate, inertia, gyroscopic })
             })()
         }
@@ -157,12 +171,26 @@ fn law(keys: &Keys<'_>) -> Option<ControlLaw> {
             let damping_ratio = keys.required("damping_ratio", Measure::NUMBER);
             let tensor = own_inertia(keys);
             (|| {
-                let (frequency, damping_ratio, inertia) = (frequency?, damping_ratio?, tensor?);
+                let (frequency, damping_ratio, inertia) =
+                    (frequency?, damping_ratio?, tensor.ok()?);
                 Some(ControlLaw::EigenAxis { frequency, damping_ratio, inertia })
             })()
         }
         Some(LawKind::Damping) => required_diagonal(keys, "rate_gain", Measure::ANGULAR_MOMENTUM)
             .map(|rate| ControlLaw::RateDamping { rate }),
+        Some(LawKind::Program) => {
+            if !keys.has("command") {
+                keys.missing("command", "command = [\"python3\", \"law.py\"]");
+            }
+            let command = keys.texts("command");
+            let time_limit = keys.quantity("time_limit", Measure::TIME).unwrap_or(TIME_LIMIT);
+            let folder = folder.to_owned();
+            command.map(|words| ControlLaw::Program {
+                command: words.into_iter().map(str::to_owned).collect(),
+                folder,
+                time_limit,
+            })
+        }
         // Its keys are not known.
         None => return None,
     };
@@ -185,13 +213,16 @@ fn mrp_feedback(keys: &Keys<'_>) -> Option<ControlLaw> {
         integral: integral.unwrap_or_else(Matrix3::zeros),
         integral_limit: limit.unwrap_or(0.0),
     };
-    Some(ControlLaw::MrpFeedback { gains, inertia: tensor?, gyroscopic })
+    Some(ControlLaw::MrpFeedback { gains, inertia: tensor.ok()?, gyroscopic })
 }
 
-/// An inertia, where one is stated; nothing where it is wrong.
-fn own_inertia(keys: &Keys<'_>) -> Option<Option<Matrix3<f64>>> {
+/// A value that is wrong, which has been reported.
+struct Wrong;
+
+/// An inertia, where one is stated.
+fn own_inertia(keys: &Keys<'_>) -> Result<Option<Matrix3<f64>>, Wrong> {
     let given = INERTIA_KEYS.into_iter().filter(|key| keys.has(key)).count() > 0;
-    if given { inertia(keys).map(Some) } else { Some(None) }
+    if given { inertia(keys).map(Some).ok_or(Wrong) } else { Ok(None) }
 }
 
 fn gyroscopic(keys: &Keys<'_>) -> Gyroscopic {
@@ -229,104 +260,6 @@ fn diagonal(keys: &Keys<'_>, key: &str, measure: Measure) -> Option<Matrix3<f64>
         return keys.quantity(key, measure).map(Matrix3::from_diagonal_element);
     }
     keys.quantities::<3>(key, measure).map(|three| Matrix3::from_diagonal(&Vector3::from(three)))
-}
-
-/// Which reference, by its word.
-#[derive(Clone, Copy)]
-enum ReferenceKind {
-    Hold,
-    Slew,
-    Turning,
-    Orbit,
-}
-
-fn reference(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
-    let words = [
-        ("hold", ReferenceKind::Hold),
-        ("slew", ReferenceKind::Slew),
-        ("turning", ReferenceKind::Turning),
-        ("orbit", ReferenceKind::Orbit),
-    ];
-    let chosen = keys.choice("kind", &words);
-    if keys.has("kind") {
-        // The keys of another are not known.
-        chosen?;
-    }
-    let found = match chosen.unwrap_or(ReferenceKind::Hold) {
-        ReferenceKind::Hold => attitude(keys, "attitude")
-            .map(|of| AttitudeReference::Hold(of.unwrap_or(known.attitude))),
-        ReferenceKind::Slew => slew(keys, known),
-        ReferenceKind::Turning => {
-            let start = attitude(keys, "attitude");
-            if !keys.has("angular_velocity") {
-                keys.missing("angular_velocity", "angular_velocity = \"0, 0.1, 0 deg/s\"");
-            }
-            let omega = keys.vector("angular_velocity", Measure::ANGULAR_RATE);
-            let start = start.map(|of| of.unwrap_or(known.attitude));
-            start.zip(omega).map(|(attitude, omega)| AttitudeReference::Turning { attitude, omega })
-        }
-        ReferenceKind::Orbit => orbit(keys, known),
-    };
-    keys.finish();
-    found
-}
-
-/// The attitude of a key, which may be missing; nothing where it is wrong.
-fn attitude(keys: &Keys<'_>, key: &str) -> Option<Option<Quaternion>> {
-    if !keys.has(key) {
-        return Some(None);
-    }
-    let table = keys.table(key)?;
-    let found = attitude_of(&table);
-    table.finish();
-    found.map(Some)
-}
-
-fn slew(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
-    let start = keys.quantity("start", Measure::TIME).unwrap_or(0.0);
-    let from = attitude(keys, "from");
-    let [to, turn] = ["attitude", "turn"].map(|key| attitude(keys, key));
-    let limit = |key: &str, measure| keys.quantity(key, measure).unwrap_or(f64::INFINITY);
-    let limits = TurnLimits {
-        rate: limit("rate_limit", Measure::ANGULAR_RATE),
-        acceleration: limit("acceleration_limit", Measure::ANGULAR_ACCELERATION),
-        jerk: limit("jerk_limit", Measure::ANGULAR_JERK),
-    };
-    if !keys.has("acceleration_limit") && !keys.has("jerk_limit") {
-        keys.missing("acceleration_limit", "acceleration_limit = \"0.1 deg/s^2\"");
-    }
-    let from = from?.unwrap_or(known.attitude);
-    let to = match (to?, turn?) {
-        (Some(to), None) => to,
-        (None, Some(turn)) => rotation::product(&from, &turn).normalised(),
-        (Some(_), Some(_)) => {
-            keys.error("turn", "`attitude` is where the slew ends, too", "keep one of them");
-            return None;
-        }
-        (None, None) => {
-            keys.missing("turn", "turn = { axis = [0, 0, 1], angle = \"30 deg\" }");
-            return None;
-        }
-    };
-    Some(AttitudeReference::Slew { start, from, to, limits })
-}
-
-/// The orbital frame of the start, which turns at its rate there.
-fn orbit(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
-    let from_frame = attitude(keys, "attitude")?.unwrap_or_else(Quaternion::identity);
-    let Some(frame) = OrbitalFrame::new(&known.position, &known.velocity) else {
-        let message =
-            "position and velocity at the start are parallel or zero, so there is no orbital frame";
-        keys.error(
-            "kind",
-            message,
-            "give the `position` and `velocity` of an orbit in `[initial]`",
-        );
-        return None;
-    };
-    let attitude = rotation::product(&of_axes(&frame.axes.transpose()), &from_frame).normalised();
-    let omega = attitude.dcm() * frame.omega;
-    Some(AttitudeReference::Turning { attitude, omega })
 }
 
 /// What an inverse needs.

@@ -1,0 +1,112 @@
+//! `reference` of a `[[controller]]`: what the hub is to follow.
+
+use precess_control::{TurnLimits, rotation};
+use precess_dynamics::{Attitude as _, Quaternion};
+
+use super::{ControllerContext, Wrong};
+use crate::file::keys::Keys;
+use crate::file::read::devices::initial::{attitude_of, of_axes};
+use crate::scenario::{AttitudeReference, OrbitalFrame};
+use crate::units::Measure;
+
+/// Which reference, by its word.
+#[derive(Clone, Copy)]
+enum ReferenceKind {
+    Hold,
+    Slew,
+    Turning,
+    Orbit,
+}
+
+pub(super) fn reference(
+    keys: &Keys<'_>,
+    known: &ControllerContext<'_>,
+) -> Option<AttitudeReference> {
+    let words = [
+        ("hold", ReferenceKind::Hold),
+        ("slew", ReferenceKind::Slew),
+        ("turning", ReferenceKind::Turning),
+        ("orbit", ReferenceKind::Orbit),
+    ];
+    let chosen = keys.choice("kind", &words);
+    if keys.has("kind") {
+        // The keys of another are not known.
+        chosen?;
+    }
+    let found = match chosen.unwrap_or(ReferenceKind::Hold) {
+        ReferenceKind::Hold => attitude(keys, "attitude")
+            .ok()
+            .map(|of| AttitudeReference::Hold(of.unwrap_or(known.attitude))),
+        ReferenceKind::Slew => slew(keys, known),
+        ReferenceKind::Turning => {
+            let start = attitude(keys, "attitude");
+            if !keys.has("angular_velocity") {
+                keys.missing("angular_velocity", "angular_velocity = \"0, 0.1, 0 deg/s\"");
+            }
+            let omega = keys.vector("angular_velocity", Measure::ANGULAR_RATE);
+            let start = start.ok().map(|of| of.unwrap_or(known.attitude));
+            start.zip(omega).map(|(attitude, omega)| AttitudeReference::Turning { attitude, omega })
+        }
+        ReferenceKind::Orbit => orbit(keys, known),
+    };
+    keys.finish();
+    found
+}
+
+/// The attitude of a key, where it is there.
+fn attitude(keys: &Keys<'_>, key: &str) -> Result<Option<Quaternion>, Wrong> {
+    if !keys.has(key) {
+        return Ok(None);
+    }
+    let table = keys.table(key).ok_or(Wrong)?;
+    let found = attitude_of(&table);
+    table.finish();
+    found.map(Some).ok_or(Wrong)
+}
+
+fn slew(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
+    let start = keys.quantity("start", Measure::TIME).unwrap_or(0.0);
+    let from = attitude(keys, "from");
+    let [to, turn] = ["attitude", "turn"].map(|key| attitude(keys, key));
+    let limit = |key: &str, measure| keys.quantity(key, measure).unwrap_or(f64::INFINITY);
+    let limits = TurnLimits {
+        rate: limit("rate_limit", Measure::ANGULAR_RATE),
+        acceleration: limit("acceleration_limit", Measure::ANGULAR_ACCELERATION),
+        jerk: limit("jerk_limit", Measure::ANGULAR_JERK),
+    };
+    if !keys.has("acceleration_limit") && !keys.has("jerk_limit") {
+        keys.missing("acceleration_limit", "acceleration_limit = \"0.1 deg/s^2\"");
+    }
+    let from = from.ok()?.unwrap_or(known.attitude);
+    let to = match (to.ok()?, turn.ok()?) {
+        (Some(to), None) => to,
+        (None, Some(turn)) => rotation::product(&from, &turn).normalised(),
+        (Some(_), Some(_)) => {
+            keys.error("turn", "`attitude` is where the slew ends, too", "keep one of them");
+            return None;
+        }
+        (None, None) => {
+            keys.missing("turn", "turn = { axis = [0, 0, 1], angle = \"30 deg\" }");
+            return None;
+        }
+    };
+    Some(AttitudeReference::Slew { start, from, to, limits })
+}
+
+/// The orbital frame of the start, which turns at its rate there.
+fn orbit(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
+    let from_frame = attitude(keys, "attitude").ok()?.unwrap_or_else(Quaternion::identity);
+    let Some(frame) = OrbitalFrame::new(&known.position, &known.velocity) else {
+        let message =
+            "position and velocity at the start are parallel or zero, so there is no orbital frame";
+        keys.error(
+            "kind",
+            message,
+            "give the `position` and `velocity` of an orbit in `[initial]`",
+        );
+        return None;
+    };
+    let attitude = rotation::product(&of_axes(&frame.axes.transpose()), &from_frame).normalised();
+    let omega = attitude.dcm() * frame.omega;
+    Some(AttitudeReference::Turning { attitude, omega })
+}
