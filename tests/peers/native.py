@@ -3,6 +3,7 @@
 import importlib.metadata
 import json
 import sysconfig
+import threading
 from pathlib import Path
 
 from build import Missing, compiler, make, version_of
@@ -30,6 +31,7 @@ GENERATED = [1, 2, 4, 8, 16]
 
 # Of derivatives: hundreds of thousands of statements at N = 16.
 DERIVATIVES_OF = [1, 4]
+GENERATOR = threading.Lock()
 
 
 def pinocchio_default(into):
@@ -81,11 +83,13 @@ def casadi_derivatives(into, what):
     """The generator, then C for each size, then what calls it: `jacobian` or `analytic`."""
     gxx, gcc = compiler("g++", "g++"), compiler("gcc", "gcc")
     package = PACKAGES / "casadi"
-    [generate] = runner(
-        into / f"casadi-generate-{what}", "casadi_generate_derivatives.cpp",
-        [gxx, "-O0", *PINOCCHIO, f"-isystem{package}/include"],
-        [package / "libcasadi.so", f"-Wl,-rpath,{package}"],
-    )  # fmt: skip
+    # Peers are prepared side by side, and both need it.
+    with GENERATOR:
+        [generate] = runner(
+            into / "casadi-generate-derivatives", "casadi_generate_derivatives.cpp",
+            [gxx, "-O0", *PINOCCHIO, f"-isystem{package}/include"],
+            [package / "libcasadi.so", f"-Wl,-rpath,{package}"],
+        )  # fmt: skip
     counts, objects = [], []
     for n in DERIVATIVES_OF:
         given = into / "derivatives" / f"{n}.json"
