@@ -104,8 +104,9 @@ impl<T: Scalar> Applied<T> {
             if let Some(tip) = change.values_mut().last() {
                 *tip = slope(lumped, spin);
             }
-            let rate = found.rates.get_mut(K::JOINTS.len().saturating_sub(1));
-            rate.into_iter().for_each(|to| *to = load(&change));
+            if let Some(to) = found.rates.get_mut(K::JOINTS.len().saturating_sub(1)) {
+                *to = load(&change);
+            }
         }
         if let Some(field) = field {
             for (axis, to) in found.position.iter_mut().enumerate() {
@@ -188,10 +189,10 @@ fn gradient_by_coordinates<K: Kind<Scalar = T>, T: Scalar>(
     let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz].map(constant);
     let none = (K::all(Wrench::none()), Symmetric::zero());
     let mut found = OfGradient { value: none, by: [none; MAX_JOINTS] };
-    let mut rest = found.by.get_mut(..K::JOINTS.len()).unwrap_or_default();
-    let mut first = 0_usize;
-    while !rest.is_empty() {
+    let columns = found.by.get_mut(..K::JOINTS.len()).unwrap_or_default();
+    for (part, columns) in columns.chunks_mut(WIDTH).enumerate() {
         let mut seeded = K::zip_joints(joints, joints, |number, _| constant(number));
+        let first = part.saturating_mul(WIDTH);
         for (number, [coordinate, _]) in seeded.states_mut().skip(first).take(WIDTH).enumerate() {
             coordinate.add_derivative(number, one());
         }
@@ -207,9 +208,7 @@ fn gradient_by_coordinates<K: Kind<Scalar = T>, T: Scalar>(
             (all, Symmetric { xx, xy, xz, yy, yz, zz })
         };
         found.value = of(None);
-        let (now, later) = core::mem::take(&mut rest).split_at_mut(rest.len().min(WIDTH));
-        now.iter_mut().enumerate().for_each(|(number, to)| *to = of(Some(number)));
-        (rest, first) = (later, first.saturating_add(WIDTH));
+        columns.iter_mut().enumerate().for_each(|(number, to)| *to = of(Some(number)));
     }
     found
 }

@@ -26,53 +26,69 @@ use crate::numbers::vec3::{
 
 /// How a base moves and where it is, expressed in its axes; or a change of that.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BaseMotion<T> {
-    pub(super) omega: Vec3<T>,
+pub(crate) struct BaseMotion<T> {
+    pub(crate) omega: Vec3<T>,
     /// Of its origin, seen from what falls with the field there.
-    pub(super) acceleration: Vec3<T>,
-    pub(super) omega_dot: Vec3<T>,
+    pub(crate) acceleration: Vec3<T>,
+    pub(crate) omega_dot: Vec3<T>,
     /// Position of B from the centre of the field.
-    pub(super) rho: Vec3<T>,
+    pub(crate) rho: Vec3<T>,
 }
 
 /// A carrier on its base.
 #[derive(Clone, Debug)]
-pub(super) struct Link<T> {
+pub(crate) struct Link<T> {
     /// The number of the base.
-    pub(super) base: usize,
+    pub(crate) base: usize,
     /// The carrier's axes, expressed in the base.
-    pub(super) axes: Columns<T>,
+    pub(crate) axes: Columns<T>,
     /// Its origin from that of the base, and the derivative seen from the base, base axes.
-    p: Vec3<T>,
-    p_prime: Vec3<T>,
+    pub(crate) p: Vec3<T>,
+    pub(crate) p_prime: Vec3<T>,
     /// Its angular velocity relative to the base, carrier axes.
-    relative: Vec3<T>,
-    omega_base: Vec3<T>,
-    pub(super) coordinates: Vec<CoordinateSlopes<T>>,
+    pub(crate) relative: Vec3<T>,
+    pub(crate) omega_base: Vec3<T>,
+    pub(crate) coordinates: Vec<CoordinateSlopes<T>>,
 }
 
 /// What a coordinate of a carrier moves, carrier axes.
 #[derive(Clone, Debug)]
-pub(super) struct CoordinateSlopes<T> {
+pub(crate) struct CoordinateSlopes<T> {
     /// The acceleration of the carrier by that of the coordinate.
-    pub(super) direction: Spatial<T>,
+    pub(crate) direction: Spatial<T>,
     /// The motion of the carrier by the coordinate, and by its rate.
-    pub(super) by: [BaseMotion<T>; 2],
+    pub(crate) by: [BaseMotion<T>; 2],
     /// The directions of all coordinates by this one.
-    pub(super) directions_by: Vec<Spatial<T>>,
+    pub(crate) directions_by: Vec<Spatial<T>>,
 }
 
 impl<T: Scalar> BaseMotion<T> {
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self { omega: zeros(), acceleration: zeros(), omega_dot: zeros(), rho: zeros() }
     }
 
+    /// Each number changed.
+    pub(crate) fn map<U>(&self, change: impl Fn(T) -> U + Copy) -> BaseMotion<U> {
+        let Self { omega, acceleration, omega_dot, rho } = self;
+        BaseMotion {
+            omega: omega.map(change),
+            acceleration: acceleration.map(change),
+            omega_dot: omega_dot.map(change),
+            rho: rho.map(change),
+        }
+    }
+
+    /// A multiple.
+    pub(crate) fn scaled(&self, by: T) -> Self {
+        self.map(|number| by * number)
+    }
+
     /// Accelerations.
-    pub(super) fn accelerating([acceleration, omega_dot]: Spatial<T>) -> Self {
+    pub(crate) fn accelerating([acceleration, omega_dot]: Spatial<T>) -> Self {
         Self { acceleration, omega_dot, ..Self::none() }
     }
 
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             omega: add(self.omega, other.omega),
             acceleration: add(self.acceleration, other.acceleration),
@@ -82,7 +98,7 @@ impl<T: Scalar> BaseMotion<T> {
     }
 
     /// What a body fixed in the base needs, less what the gradient exerts on it.
-    pub(super) fn load(&self, body: &HubConstants<T>, field: Option<&Central<T>>) -> Spatial<T> {
+    pub(crate) fn load(&self, body: &HubConstants<T>, field: Option<&Central<T>>) -> Spatial<T> {
         let needed = body.needs(self.omega, self.acceleration, self.omega_dot);
         let mut load = [components(&needed.force), components(&needed.moment)];
         if let Some(field) = field {
@@ -93,7 +109,7 @@ impl<T: Scalar> BaseMotion<T> {
     }
 
     /// By how much [`Self::load`] changes with a motion.
-    pub(super) fn load_by(
+    pub(crate) fn load_by(
         &self,
         body: &HubConstants<T>,
         field: Option<&Central<T>>,
@@ -114,7 +130,7 @@ impl<T: Scalar> BaseMotion<T> {
 
 impl<T: Scalar> Link<T> {
     /// Of a carrier on the base of that number; and its motion.
-    pub(super) fn of_carrier<C: Carrier<Scalar = T>>(
+    pub(crate) fn of_carrier<C: Carrier<Scalar = T>>(
         carrier: &CarrierConstants<C>,
         joints: &C::Joints<T>,
         accelerations: &C::Accelerations<T>,
@@ -164,14 +180,23 @@ impl<T: Scalar> Link<T> {
         (Self { base, axes, p, p_prime, relative, omega_base, coordinates }, own)
     }
 
+    /// The direction of some of each coordinate.
+    pub(crate) fn direction(&self, numbers: &[T; 6]) -> Spatial<T> {
+        let each = self.coordinates.iter().zip(numbers);
+        each.fold([zeros(); 2], |[v, w], (of, by)| {
+            let [moved, turned] = of.direction;
+            [add(v, scale(*by, moved)), add(w, scale(*by, turned))]
+        })
+    }
+
     /// The acceleration of the carrier for that of its base.
-    pub(super) fn outward(&self, [linear, angular]: Spatial<T>) -> Spatial<T> {
+    pub(crate) fn outward(&self, [linear, angular]: Spatial<T>) -> Spatial<T> {
         let moved = add(linear, cross(angular, self.p));
         [rotate_transposed(&self.axes, moved), rotate_transposed(&self.axes, angular)]
     }
 
     /// By how much the carrier's motion changes with that of its base, in a field about B.
-    pub(super) fn carried(
+    pub(crate) fn carried(
         &self,
         change: &BaseMotion<T>,
         field: Option<&Central<T>>,
@@ -194,13 +219,13 @@ impl<T: Scalar> Link<T> {
     }
 
     /// (I6), a wrench about the carrier's origin, carrier axes, as one about that of its base, base axes.
-    pub(super) fn inward(&self, [force, moment]: Spatial<T>) -> Spatial<T> {
+    pub(crate) fn inward(&self, [force, moment]: Spatial<T>) -> Spatial<T> {
         let force = rotate(&self.axes, force);
         [force, add(rotate(&self.axes, moment), cross(self.p, force))]
     }
 
     /// By how much [`Self::inward`] changes with a coordinate of this direction.
-    pub(super) fn inward_by(&self, load: Spatial<T>, [moved, turned]: Spatial<T>) -> Spatial<T> {
+    pub(crate) fn inward_by(&self, load: Spatial<T>, [moved, turned]: Spatial<T>) -> Spatial<T> {
         let [force, moment] = load;
         let by_turn = self.inward([cross(turned, force), cross(turned, moment)]);
         let by_move = rotate(&self.axes, cross(moved, force));
@@ -208,7 +233,7 @@ impl<T: Scalar> Link<T> {
     }
 
     /// Mass, first and second moment about the carrier's origin, as about that of its base, (I7).
-    pub(super) fn moments_inward(&self, of: &Moments<T>) -> Moments<T> {
+    pub(crate) fn moments_inward(&self, of: &Moments<T>) -> Moments<T> {
         let s = rotate(&self.axes, of.first);
         Moments {
             mass: of.mass,
@@ -219,7 +244,7 @@ impl<T: Scalar> Link<T> {
 
     /// By how much these change where those about the carrier's origin change by `change`, without mass, and the carrier by
     /// a direction.
-    pub(super) fn moments_by(
+    pub(crate) fn moments_by(
         &self,
         of: &Moments<T>,
         change: &Moments<T>,
@@ -243,23 +268,23 @@ impl<T: Scalar> Link<T> {
 
 /// Mass, first and second moment about a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moments<T> {
-    pub(super) mass: T,
-    pub(super) first: Vec3<T>,
-    pub(super) second: Symmetric<T>,
+pub(crate) struct Moments<T> {
+    pub(crate) mass: T,
+    pub(crate) first: Vec3<T>,
+    pub(crate) second: Symmetric<T>,
 }
 
 impl<T: Scalar> Moments<T> {
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         let second = Symmetric::zero();
         Self { mass: zero(), first: zeros(), second }
     }
 
-    pub(super) fn of_body(body: &HubConstants<T>) -> Self {
+    pub(crate) fn of_body(body: &HubConstants<T>) -> Self {
         Self { mass: body.m_b, first: body.first_moment, second: body.second_moment() }
     }
 
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             mass: self.mass + other.mass,
             first: add(self.first, other.first),
@@ -296,6 +321,6 @@ impl<T: Scalar> Moments<T> {
 }
 
 /// Force and moment of a wrench.
-pub(super) fn spatial<T: Scalar>(wrench: &Wrench<T>) -> Spatial<T> {
+pub(crate) fn spatial<T: Scalar>(wrench: &Wrench<T>) -> Spatial<T> {
     [components(&wrench.force), components(&wrench.moment)]
 }

@@ -1,6 +1,6 @@
-//! [`ByTree`]: how accelerations change with state and inputs of a tree of carriers under whatever acts, by
-//! the emitted derivatives of the loads: where platforms or panels carry devices, in a central field, with wrenches on bodies
-//! and with lumped imbalance.
+//! [`ByTree`]: how accelerations change with state and inputs by the emitted derivatives of the loads, whatever acts: where
+//! platforms, panels and the mounts of a flexible structure carry devices, in a central field, with wrenches on bodies and
+//! with lumped imbalance.
 //!
 //! A change of how a carrier moves changes the loads of all that it carries; they add up on the carrier, along whose
 //! joints they are what its motors exert, and on its base, (I6). So a column is a pass outwards of changed motions, one
@@ -11,8 +11,10 @@ use alloc::vec::Vec;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::base_motion::{BaseMotion, Moments};
 use crate::derivatives::field_columns::FieldColumns;
-use crate::derivatives::load_columns::{Load, Moving};
+use crate::derivatives::load_columns::Load;
+use crate::derivatives::modal_columns::ModalColumns;
 use crate::derivatives::structure::StructureDerivatives;
+use crate::derivatives::tree_changes::Changes;
 use crate::derivatives::tree_mass::{HUB, mass_matrix};
 use crate::derivatives::tree_members::{Base, Members, Owner};
 use crate::derivatives::tree_system::TreeSystem;
@@ -32,6 +34,7 @@ use crate::solve::state::{Accelerations, State};
 #[derive(Debug)]
 pub(super) struct ByTree<T> {
     members: Members<T>,
+    modal: ModalColumns<T>,
     system: TreeSystem<T>,
     field: Option<FieldColumns<T>>,
     /// What the hub's force and moment change by with the position of B, B axes, less those of what it carries.
@@ -48,28 +51,15 @@ pub(super) struct HubChange<T> {
     pub(super) omega_dot: Vec3<T>,
 }
 
-/// What a column changes: how bases move, loads on bases, loads along joints.
-#[derive(Debug)]
-struct Changes<T> {
-    motions: Vec<Option<BaseMotion<T>>>,
-    loads: Vec<Spatial<T>>,
-    joints: Vec<T>,
-    /// The acceleration of a hub that is not free.
-    given: Spatial<T>,
-}
-
 impl<T: Scalar> ByTree<T> {
-    /// At a state with its accelerations; none where what acts has no emitted derivatives: a flexible structure, a platform
-    /// that is no carrier.
+    /// At a state with its accelerations; none where what acts has no emitted derivatives: a platform that is no
+    /// carrier.
     pub(super) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
     ) -> Option<Self> {
-        if S::modes(craft) > 0 || S::mounts(craft) > 0 {
-            return None;
-        }
         let start = evaluation_start(state, inputs);
         let field =
             FieldColumns::new(&inputs.gravity, columns(&state.attitude.dcm()), &state.r_b_n);
@@ -79,33 +69,39 @@ impl<T: Scalar> ByTree<T> {
             omega_dot: components(&accelerations.omega_dot),
             rho: field.as_ref().map_or_else(zeros, |field| field.rho),
         };
-        let mut members = Members::on(Base {
+        let body = S::body(craft, state);
+        let (mounts, modal) =
+            S::bases(craft, state, inputs, accelerations, &motion, &start.environment);
+        let hub = Base {
             link: None,
             first: 0,
             own: [[Load::none(); MAX_JOINTS]; 2],
-            body: craft.hub,
+            body,
             field: start.environment.central,
             motion,
             load: [zeros(); 2],
-            moments: Moments::of_body(&craft.hub),
-        });
+            moments: Moments::of_body(&body),
+            shapes: None,
+        };
+        let mut members = Members::on(hub, mounts);
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
-        D::visit::<Moving, _>(&craft.devices, data, &mut members).ok()?;
+        S::visit_members(craft, data, &mut members).ok()?;
         members.add_up();
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
-        let system = mass_matrix(&members, hub_is_free);
+        let system = mass_matrix(&members, &modal, hub_is_free);
         let second = members.bases.first().map(|hub| hub.moments.second);
         let hub_by_position = field.as_ref().zip(second).map(|(field, second)| {
-            field.on_hub(&craft.hub, &second).map(|[a, b, c, d, e, f]| [[a, b, c], [d, e, f]])
+            field.on_hub(&body, &second).map(|[a, b, c, d, e, f]| [[a, b, c], [d, e, f]])
         });
         let hub_by_position = hub_by_position.unwrap_or([[zeros(); 2]; 3]);
-        Some(Self { members, system, field, hub_by_position, at_b: start.at_b, hub_is_free })
+        let at_b = start.at_b;
+        Some(Self { members, modal, system, field, hub_by_position, at_b, hub_is_free })
     }
 
-    /// The accelerations' derivatives by one variable, those of the joints into `joints`.
+    /// The accelerations' derivatives by one variable, those of the joints and then of the modes into `joints`.
     pub(super) fn column(&self, by: Variable, joints: &mut [T]) -> HubChange<T> {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
-        let mut changes = Changes::none(&self.members);
+        let mut changes = Changes::none(&self.members, self.modal.count());
         let mut field = zeros();
         match by {
             Variable::Attitude(axis) => match &self.field {
@@ -125,7 +121,9 @@ impl<T: Scalar> ByTree<T> {
             Variable::Rate(joint) => self.by_rate(joint, &mut changes),
             Variable::Acceleration(joint) => self.by_acceleration(joint, &mut changes),
             Variable::Motor(joint) => {
-                changes.joints.get_mut(joint).into_iter().for_each(|to| *to = -one::<T>());
+                if let Some(to) = changes.joints.get_mut(joint) {
+                    *to = -one::<T>();
+                }
             }
             Variable::Force(axis) => changes.load(0, [sub(zeros(), unit(axis)), zeros()]),
             Variable::TorqueB(axis) => changes.load(0, [zeros(), sub(zeros(), unit(axis))]),
@@ -135,11 +133,22 @@ impl<T: Scalar> ByTree<T> {
             Variable::BodyMoment(joint, axis) => {
                 self.by_wrench(joint, (axis as usize).saturating_add(3), &mut changes);
             }
+            Variable::ModalCoordinate(mode) => self.by_modal_coordinate(mode, &mut changes),
+            Variable::ModalRate(mode) => self.by_modal_rate(mode, &mut changes),
+            Variable::ModalForce(mode) => changes.mode(mode, -one::<T>()),
+            Variable::MountForce(mount, axis) => {
+                self.by_mount(mount, [unit(axis), zeros()], &mut changes);
+            }
+            Variable::MountMoment(mount, axis) => {
+                self.by_mount(mount, [zeros(), unit(axis)], &mut changes);
+            }
             _ => {}
         }
         let HubChange { r_b_n_ddot, omega_dot } = self.solved(changes, joints);
-        if let Variable::Acceleration(joint) = by {
-            joints.get_mut(joint).into_iter().for_each(|own| *own = one());
+        if let Variable::Acceleration(joint) = by
+            && let Some(own) = joints.get_mut(joint)
+        {
+            *own = one();
         }
         HubChange { r_b_n_ddot: add(r_b_n_ddot, field), omega_dot }
     }
@@ -155,11 +164,18 @@ impl<T: Scalar> ByTree<T> {
                 let carried = link.carried(of_base, field);
                 changes.moves(number, &carried);
             }
-            if let Some(Some(change)) = changes.motions.get(number) {
-                // Of the hub with the third-order force: `hub_by_position`.
-                let field = base.field.as_ref().filter(|_| number > 0);
-                let load = base.motion.load_by(&base.body, field, change);
-                changes.load(number, load);
+            let Some(Some(change)) = changes.motions.get(number).copied() else { continue };
+            // Of the hub with the third-order force: `hub_by_position`.
+            let field = base.field.as_ref().filter(|_| number > 0);
+            changes.load(number, base.motion.load_by(&base.body, field, &change));
+            if number == 0 {
+                let mut modes = changes.modes.iter_mut();
+                let load = self.modal.by_motion(&change, |value| {
+                    if let Some(to) = modes.next() {
+                        *to = *to + value;
+                    }
+                });
+                changes.load(0, load);
             }
         }
         for device in devices {
@@ -170,17 +186,17 @@ impl<T: Scalar> ByTree<T> {
         }
         for base in bases.iter().skip(1).rev() {
             let (Some(link), Some(load)) = (&base.link, changes.loads.pop()) else { continue };
-            let to = changes.joints.iter_mut().skip(base.first);
-            for (to, of) in to.zip(&link.coordinates) {
-                *to = *to + product(&of.direction, &load);
-            }
+            changes.along(base, link.coordinates.iter().map(|of| product(&of.direction, &load)));
             changes.load(link.base, link.inward(load));
         }
         let mut rows = Vec::with_capacity(self.system.len());
         rows.extend(changes.loads.first().into_iter().flatten().flatten().copied());
+        rows.extend(changes.modes);
         rows.extend(changes.joints);
         self.system.solve(&mut rows);
         let (hub, found) = rows.split_at(rows.len().min(HUB));
+        let (modes, found) = found.split_at(self.modal.count().min(found.len()));
+        let found = found.iter().chain(modes);
         joints.iter_mut().zip(found).for_each(|(to, from)| *to = -*from);
         match (hub, self.hub_is_free) {
             ([a, b, c, d, e, f], true) => {
@@ -228,15 +244,13 @@ impl<T: Scalar> ByTree<T> {
                 let Some(of) = link.coordinates.get(own) else { return };
                 let [by_coordinate, _] = &of.by;
                 changes.moves(number, by_coordinate);
-                let to = changes.joints.iter_mut().skip(base.first);
-                for (to, direction) in to.zip(&of.directions_by) {
-                    *to = *to + product(direction, &base.load);
-                }
+                let along = of.directions_by.iter();
+                changes.along(base, along.map(|direction| product(direction, &base.load)));
                 changes.load(link.base, link.inward_by(base.load, of.direction));
                 let [own_loads, _] = &base.own;
-                own_loads.get(own).into_iter().for_each(|load| {
+                if let Some(load) = own_loads.get(own) {
                     changes.add(link.base, base.first, load);
-                });
+                }
                 (link.base, link.moments_by(&base.moments, &Moments::none(), of.direction))
             }
         };
@@ -251,23 +265,75 @@ impl<T: Scalar> ByTree<T> {
         changes.load(0, [sub(zeros(), central.third_order(&moments.second)), zeros()]);
     }
 
+    fn by_modal_coordinate(&self, mode: usize, changes: &mut Changes<T>) {
+        let bases = &self.members.bases;
+        let Some(hub) = bases.first() else { return };
+        let (load, own) = self.modal.by_coordinate(mode, &hub.motion, hub.field.as_ref());
+        changes.load(0, load);
+        changes.mode(mode, own);
+        for (number, base) in bases.iter().enumerate() {
+            let Base { link: Some(link), shapes: Some(shapes), load, moments, .. } = base else {
+                continue;
+            };
+            let Some(shape) = shapes.get(mode) else { continue };
+            let (direction, mut along) = (link.direction(shape), [zero::<T>(); 6]);
+            for (by, of) in shape.iter().zip(&link.coordinates) {
+                let [by_coordinate, _] = &of.by;
+                changes.moves(number, &by_coordinate.scaled(*by));
+                for (to, direction) in along.iter_mut().zip(&of.directions_by) {
+                    *to = *to + *by * product(direction, load);
+                }
+            }
+            changes.along(base, along.into_iter());
+            changes.load(0, link.inward_by(*load, direction));
+            if let Some(central) = &hub.field {
+                let change = link.moments_by(moments, &Moments::none(), direction);
+                changes.load(0, [sub(zeros(), central.third_order(&change.second)), zeros()]);
+            }
+        }
+    }
+
+    fn by_modal_rate(&self, mode: usize, changes: &mut Changes<T>) {
+        let bases = &self.members.bases;
+        let Some(hub) = bases.first() else { return };
+        let (load, own) = self.modal.by_rate(mode, &hub.motion);
+        changes.load(0, load);
+        changes.mode(mode, own);
+        for (number, base) in bases.iter().enumerate() {
+            let Base { link: Some(link), shapes: Some(shapes), .. } = base else { continue };
+            let Some(shape) = shapes.get(mode) else { continue };
+            for (by, of) in shape.iter().zip(&link.coordinates) {
+                let [_, by_rate] = &of.by;
+                changes.moves(number, &by_rate.scaled(*by));
+            }
+        }
+    }
+
+    /// By a component of the wrench on the structure at a mount.
+    fn by_mount(&self, mount: usize, component: Spatial<T>, changes: &mut Changes<T>) {
+        let [force, moment] = self.modal.at_origin(mount, component);
+        changes.load(mount.saturating_add(1), [sub(zeros(), force), sub(zeros(), moment)]);
+    }
+
     fn by_rate(&self, joint: usize, changes: &mut Changes<T>) {
         let Members { bases, devices, joints, .. } = &self.members;
         match joints.get(joint) {
             Some((Owner::Device(device), _)) => {
                 let Some(device) = devices.get(*device) else { return };
-                let load = device.columns.rates.get(joint.saturating_sub(device.first));
-                load.into_iter().for_each(|load| changes.add(device.base, device.first, load));
+                if let Some(load) = device.columns.rates.get(joint.saturating_sub(device.first)) {
+                    changes.add(device.base, device.first, load);
+                }
             }
             Some((Owner::Carrier(number), _)) => {
                 let Some(base @ Base { link: Some(link), .. }) = bases.get(*number) else { return };
                 let own = joint.saturating_sub(base.first);
-                let of = link.coordinates.get(own);
-                of.into_iter().for_each(|of| changes.moves(*number, &of.by[1]));
+                if let Some(of) = link.coordinates.get(own) {
+                    changes.moves(*number, &of.by[1]);
+                }
                 let [_, own_loads] = &base.own;
-                own_loads.get(own).into_iter().for_each(|load| {
+                if let Some(load) = own_loads.get(own) {
                     changes.add(link.base, base.first, load);
-                });
+                }
             }
             None => {}
         }
@@ -278,14 +344,16 @@ impl<T: Scalar> ByTree<T> {
         match joints.get(joint) {
             Some((Owner::Device(device), _)) => {
                 let Some(device) = devices.get(*device) else { return };
-                let load = device.columns.accelerations.get(joint.saturating_sub(device.first));
-                load.into_iter().for_each(|load| changes.add(device.base, device.first, load));
+                let own = joint.saturating_sub(device.first);
+                if let Some(load) = device.columns.accelerations.get(own) {
+                    changes.add(device.base, device.first, load);
+                }
             }
             Some((Owner::Carrier(number), _)) => {
                 let Some(base @ Base { link: Some(link), .. }) = bases.get(*number) else { return };
-                let of = link.coordinates.get(joint.saturating_sub(base.first));
-                let of = of.map(|of| BaseMotion::accelerating(of.direction));
-                of.into_iter().for_each(|of| changes.moves(*number, &of));
+                if let Some(of) = link.coordinates.get(joint.saturating_sub(base.first)) {
+                    changes.moves(*number, &BaseMotion::accelerating(of.direction));
+                }
             }
             None => {}
         }
@@ -305,44 +373,5 @@ impl<T: Scalar> ByTree<T> {
         if let Some(((base, first), load)) = place.zip(load) {
             changes.add(base, first, load);
         }
-    }
-}
-
-impl<T: Scalar> Changes<T> {
-    fn none(members: &Members<T>) -> Self {
-        Self {
-            motions: alloc::vec![None; members.bases.len()],
-            loads: alloc::vec![[zeros(); 2]; members.bases.len()],
-            joints: alloc::vec![zero(); members.joints.len()],
-            given: [zeros(); 2],
-        }
-    }
-
-    /// The motion of a base changes by this, too.
-    fn moves(&mut self, base: usize, by: &BaseMotion<T>) {
-        if let Some(to) = self.motions.get_mut(base) {
-            *to = Some(to.map_or(*by, |to| to.plus(by)));
-        }
-    }
-
-    /// The acceleration of a hub that is not free.
-    fn accelerates(&mut self, by: Spatial<T>) {
-        self.given = by;
-        self.moves(0, &BaseMotion::accelerating(by));
-    }
-
-    /// A load on a base.
-    fn load(&mut self, base: usize, [force, moment]: Spatial<T>) {
-        if let Some([f, m]) = self.loads.get_mut(base) {
-            (*f, *m) = (add(*f, force), add(*m, moment));
-        }
-    }
-
-    /// The loads of a device on its base, and along its joints from that of the number `first` on.
-    fn add(&mut self, base: usize, first: usize, load: &Load<T>) {
-        let [a, b, c, d, e, f] = load.hub;
-        self.load(base, [[a, b, c], [d, e, f]]);
-        let joints = self.joints.iter_mut().skip(first).zip(load.joints);
-        joints.for_each(|(to, from)| *to = *to + from);
     }
 }

@@ -17,7 +17,7 @@ use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed}
 
 /// Those of one device, for whose hub its base stands.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct DeviceLoads<T> {
+pub(crate) struct DeviceLoads<T> {
     /// The number of its joints.
     pub(super) count: usize,
     /// Which joints have an acceleration that is not given.

@@ -22,8 +22,8 @@ pub(super) enum Emitted<T> {
 }
 
 impl<T: Scalar> Emitted<T> {
-    /// At a state with its accelerations; none where what acts has no emitted derivatives: a flexible structure, a platform
-    /// that is no carrier.
+    /// At a state with its accelerations; none where what acts has no emitted derivatives: a platform that is no
+    /// carrier.
     pub(super) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
         state: &State<D, A, S>,

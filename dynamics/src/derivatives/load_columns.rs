@@ -27,9 +27,9 @@ use crate::sets::per_device as data;
 /// less spring and friction. With its joints eliminated: what is left for the hub's equations, on their right side, and by
 /// how much less its joints accelerate on a hub whose accelerations do not change.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Load<T> {
-    pub(super) hub: Six<T>,
-    pub(super) joints: [T; MAX_JOINTS],
+pub(crate) struct Load<T> {
+    pub(crate) hub: Six<T>,
+    pub(crate) joints: [T; MAX_JOINTS],
 }
 
 /// A joint's device.
@@ -81,14 +81,14 @@ impl<T: Scalar> LoadColumns<T> {
 }
 
 impl<T: Scalar> Load<T> {
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
     }
 }
 
 /// A device has no emitted derivatives: a platform, the lumped model.
 #[derive(Debug)]
-pub(super) struct NotEmitted;
+pub(crate) struct NotEmitted;
 
 /// Evaluates the kernel of each device.
 pub(super) struct EachDevice<T> {
@@ -111,7 +111,7 @@ impl<T: Scalar> EachDevice<T> {
 }
 
 /// State, inputs and accelerations of the joints.
-pub(super) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
+pub(crate) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
 
 /// Force and moment of a column along B.
 #[inline(always)]

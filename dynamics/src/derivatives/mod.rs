@@ -13,7 +13,7 @@
 #[cfg(feature = "alloc")]
 mod applied_columns;
 #[cfg(feature = "alloc")]
-mod base_motion;
+pub(crate) mod base_motion;
 #[cfg(feature = "alloc")]
 mod by_loads;
 #[cfg(feature = "alloc")]
@@ -34,11 +34,13 @@ mod joint_order;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
 #[cfg(feature = "alloc")]
-mod load_columns;
+pub(crate) mod load_columns;
 mod load_products;
 mod mass_solution;
 #[cfg(feature = "alloc")]
 mod mass_system;
+#[cfg(feature = "alloc")]
+pub(crate) mod modal_columns;
 mod parameter_change;
 #[cfg(feature = "alloc")]
 mod parameter_loads;
@@ -57,9 +59,11 @@ mod stage_product;
 pub(crate) mod step;
 pub(crate) mod structure;
 #[cfg(feature = "alloc")]
+mod tree_changes;
+#[cfg(feature = "alloc")]
 mod tree_mass;
 #[cfg(feature = "alloc")]
-mod tree_members;
+pub(crate) mod tree_members;
 #[cfg(feature = "alloc")]
 mod tree_system;
 mod turned;

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::derivatives::base_motion::{BaseMotion, spatial};
+use crate::derivatives::modal_columns::ModalColumns;
 use crate::derivatives::tree_members::{Base, Members, Owner};
 use crate::derivatives::tree_system::TreeSystem;
 use crate::equations::hub::HubConstants;
@@ -14,67 +15,112 @@ use crate::numbers::vec3::{add, scale, zeros};
 pub(super) const HUB: usize = 6;
 
 /// The mass matrix, by what the hub and each carrier are with what they carry, all joints locked.
-pub(super) fn mass_matrix<T: Scalar>(members: &Members<T>, hub_is_free: bool) -> TreeSystem<T> {
-    let Members { bases, devices, joints, .. } = members;
+pub(super) fn mass_matrix<T: Scalar>(
+    members: &Members<T>,
+    modal: &ModalColumns<T>,
+    hub_is_free: bool,
+) -> TreeSystem<T> {
+    let mut system = rows(members, modal, hub_is_free);
+    let offset = HUB.saturating_add(modal.count());
+    let mut composites = Vec::with_capacity(members.bases.len());
+    composites.extend(members.bases.iter().map(|base| of_body(&base.body)));
+    add_devices(members, offset, &mut composites, &mut system);
+    add_bases((&members.bases, offset), composites, &mut system);
+    system.factorise();
+    system
+}
+
+/// By each unit acceleration of a base, the load that it needs with all that it carries.
+type Composite<T> = [Spatial<T>; 6];
+
+/// The unit accelerations.
+fn units<T: Scalar>() -> Composite<T> {
+    [0, 1, 2, 3, 4, 5].map(|own: usize| {
+        let [a, b, c, d, e, f] = [0, 1, 2, 3, 4, 5].map(|k| if k == own { one() } else { zero() });
+        [[a, b, c], [d, e, f]]
+    })
+}
+
+fn of_body<T: Scalar>(body: &HubConstants<T>) -> Composite<T> {
+    units().map(|[v, w]| spatial(&body.needs(zeros(), v, w)))
+}
+
+/// The rows of hub, modes and joints, with what modes have by themselves.
+fn rows<T: Scalar>(
+    Members { bases, devices, joints, .. }: &Members<T>,
+    modal: &ModalColumns<T>,
+    hub_is_free: bool,
+) -> TreeSystem<T> {
     let mut system = TreeSystem::new();
     for row in 0..HUB {
         system.push(row.checked_sub(1), hub_is_free);
     }
-    let last_of = |base: usize| match bases.get(base) {
-        Some(Base { link: Some(link), first, .. }) => {
-            first.saturating_add(link.coordinates.len()).saturating_add(HUB - 1)
+    let offset = HUB.saturating_add(modal.count());
+    for row in HUB..offset {
+        system.push(row.checked_sub(1), true);
+        let mode = row.saturating_sub(HUB);
+        system.add(row, row, modal.mass(mode));
+        let momenta = modal.momenta.get(mode).into_iter().flatten().flatten().enumerate();
+        momenta.for_each(|(column, value)| system.add(row, column, *value));
+    }
+    let first_row = |base: &Base<T>| base.first.saturating_add(offset);
+    // The row inboard of what stands on a base.
+    let inboard_of = |base: usize| match bases.get(base) {
+        Some(base @ Base { link: Some(link), shapes: None, .. }) => {
+            first_row(base).saturating_add(link.coordinates.len()).saturating_sub(1)
         }
-        _ => HUB - 1,
+        _ => offset.saturating_sub(1),
     };
     for (joint, (owner, free)) in joints.iter().enumerate() {
-        let (base, first) = match owner {
-            Owner::Device(device) => {
-                devices.get(*device).map_or((0, joint), |of| (of.base, of.first))
+        let place = match owner {
+            Owner::Device(device) => devices.get(*device).map(|of| (of.base, of.first)),
+            Owner::Carrier(number) => {
+                bases.get(*number).and_then(|of| Some((of.link.as_ref()?.base, of.first)))
             }
-            Owner::Carrier(number) => bases
-                .get(*number)
-                .map_or((0, joint), |of| (of.link.as_ref().map_or(0, |link| link.base), of.first)),
         };
-        let inboard = joint.saturating_add(HUB - 1);
-        system.push(Some(if joint == first { last_of(base) } else { inboard }), *free);
+        let parent = match place {
+            Some((base, first)) if first == joint => inboard_of(base),
+            _ => joint.saturating_add(offset).saturating_sub(1),
+        };
+        system.push(Some(parent), *free);
     }
-    let units = || {
-        (0..6).map(|own: usize| {
-            let [a, b, c, d, e, f] =
-                [0, 1, 2, 3, 4, 5].map(|k| if k == own { one::<T>() } else { zero() });
-            [[a, b, c], [d, e, f]]
-        })
-    };
-    let needs = |of: &HubConstants<T>, [v, w]: Spatial<T>| {
-        let needed = of.needs(zeros(), v, w);
-        spatial(&needed)
-    };
-    // By each unit acceleration of a base, what it needs with all that it carries.
-    let mut composites: Vec<[Spatial<T>; 6]> = Vec::with_capacity(bases.len());
-    for base in bases {
-        let mut own = [[zeros(); 2]; 6];
-        own.iter_mut().zip(units()).for_each(|(to, unit)| *to = needs(&base.body, unit));
-        composites.push(own);
-    }
+    system
+}
+
+/// Adds the rows of the joints of devices, and the devices to what their bases carry.
+fn add_devices<T: Scalar>(
+    Members { bases, devices, .. }: &Members<T>,
+    offset: usize,
+    composites: &mut [Composite<T>],
+    system: &mut TreeSystem<T>,
+) {
     for device in devices {
         let Some(composite) = composites.get_mut(device.base) else { continue };
         for (to, unit) in composite.iter_mut().zip(units()) {
             let [a, b, c, d, e, f] = device.by_motion(&BaseMotion::accelerating(unit)).hub;
             *to = [add(to[0], [a, b, c]), add(to[1], [d, e, f])];
         }
+        let first = device.first.saturating_add(offset);
         let own = device.columns.accelerations.iter().take(device.columns.count).enumerate();
         for (joint, load) in own {
-            let row = joint.saturating_add(device.first).saturating_add(HUB);
+            let row = joint.saturating_add(first);
             let inboard = load.joints.iter().take(joint.saturating_add(1)).enumerate();
-            for (other, value) in inboard {
-                system.add(row, other.saturating_add(device.first).saturating_add(HUB), *value);
-            }
+            inboard.for_each(|(other, value)| system.add(row, other.saturating_add(first), *value));
             let [a, b, c, d, e, f] = load.hub;
-            inward(bases, device.base, [[a, b, c], [d, e, f]], |column, value| {
+            let load = [[a, b, c], [d, e, f]];
+            inward((bases, offset), device.base, load, |column, value| {
                 system.add(row, column, value);
             });
         }
     }
+}
+
+/// Adds the rows of the coordinates of carriers and mounts, and of the hub.
+fn add_bases<T: Scalar>(
+    (bases, offset): (&[Base<T>], usize),
+    mut composites: Vec<Composite<T>>,
+    system: &mut TreeSystem<T>,
+) {
     for (number, base) in bases.iter().enumerate().rev() {
         let Some(composite) = composites.pop() else { continue };
         let times = |by: Spatial<T>| {
@@ -90,11 +136,19 @@ pub(super) fn mass_matrix<T: Scalar>(members: &Members<T>, hub_is_free: bool) ->
             }
             continue;
         };
-        for (joint, of) in link.coordinates.iter().enumerate() {
-            let row = joint.saturating_add(base.first).saturating_add(HUB);
-            inward(bases, number, times(of.direction), |column, value| {
+        let mut add_row = |row: usize, direction: Spatial<T>| {
+            inward((bases, offset), number, times(direction), |column, value| {
                 system.add(row, column, value);
             });
+        };
+        if let Some(shapes) = &base.shapes {
+            for (mode, shape) in shapes.iter().enumerate() {
+                add_row(mode.saturating_add(HUB), link.direction(shape));
+            }
+        } else {
+            for (joint, of) in link.coordinates.iter().enumerate() {
+                add_row(joint.saturating_add(base.first).saturating_add(offset), of.direction);
+            }
         }
         if let Some(inboard) = composites.get_mut(link.base) {
             for (to, unit) in inboard.iter_mut().zip(units()) {
@@ -103,20 +157,25 @@ pub(super) fn mass_matrix<T: Scalar>(members: &Members<T>, hub_is_free: bool) ->
             }
         }
     }
-    system.factorise();
-    system
 }
 
 /// Shows a function the rows of the joints and of the hub inboard of a load on a base, and what it is along each.
 fn inward<T: Scalar>(
-    bases: &[Base<T>],
+    (bases, offset): (&[Base<T>], usize),
     mut base: usize,
     mut load: Spatial<T>,
     mut show: impl FnMut(usize, T),
 ) {
-    while let Some(Base { link: Some(link), first, .. }) = bases.get(base) {
+    while let Some(Base { link: Some(link), first, shapes, .. }) = bases.get(base) {
+        if let Some(shapes) = shapes {
+            for (mode, shape) in shapes.iter().enumerate() {
+                show(mode.saturating_add(HUB), product(&link.direction(shape), &load));
+            }
+            (base, load) = (link.base, link.inward(load));
+            continue;
+        }
         for (joint, of) in link.coordinates.iter().enumerate() {
-            let row = joint.saturating_add(*first).saturating_add(HUB);
+            let row = joint.saturating_add(*first).saturating_add(offset);
             show(row, product(&of.direction, &load));
         }
         (base, load) = (link.base, link.inward(load));

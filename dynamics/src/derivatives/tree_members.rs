@@ -28,67 +28,72 @@ use crate::sets::devices::{DeviceSet, Visit};
 
 /// The hub, or a carrier.
 #[derive(Clone, Debug)]
-pub(super) struct Base<T> {
+pub(crate) struct Base<T> {
     /// Where it stands; none of the hub.
-    pub(super) link: Option<Link<T>>,
+    pub(crate) link: Option<Link<T>>,
     /// The number of its first joint.
-    pub(super) first: usize,
+    pub(crate) first: usize,
     /// Of its joints, by their coordinates and rates: springs and friction, wrenches on the bodies between them. On the
     /// base that it stands on.
-    pub(super) own: [[Load<T>; MAX_JOINTS]; 2],
-    pub(super) body: HubConstants<T>,
-    pub(super) field: Option<Central<T>>,
-    pub(super) motion: BaseMotion<T>,
+    pub(crate) own: [[Load<T>; MAX_JOINTS]; 2],
+    pub(crate) body: HubConstants<T>,
+    pub(crate) field: Option<Central<T>>,
+    pub(crate) motion: BaseMotion<T>,
     /// What it needs with all that it carries, less what acts on them, about its origin; not of the hub.
-    pub(super) load: Spatial<T>,
+    pub(crate) load: Spatial<T>,
     /// Mass, first and second moment of it with all that it carries.
-    pub(super) moments: Moments<T>,
+    pub(crate) moments: Moments<T>,
+    /// Of a mount of a flexible structure, the shapes: displacement and rotation by each modal coordinate. Its six
+    /// coordinates are those.
+    pub(crate) shapes: Option<Vec<[T; 6]>>,
 }
 
 /// A device.
 #[derive(Clone, Debug)]
-pub(super) struct Member<T> {
+pub(crate) struct Member<T> {
     /// The number of what it stands on.
-    pub(super) base: usize,
+    pub(crate) base: usize,
     /// The number of its first joint.
-    pub(super) first: usize,
-    pub(super) columns: DeviceLoads<T>,
-    pub(super) mass: T,
+    pub(crate) first: usize,
+    pub(crate) columns: DeviceLoads<T>,
+    pub(crate) mass: T,
     /// By the position of B from the centre of a field, base axes.
-    pub(super) position: Option<[Load<T>; 3]>,
+    pub(crate) position: Option<[Load<T>; 3]>,
     /// First and second moment by the coordinates; only in a central field.
-    pub(super) moments_by: [Moments<T>; MAX_JOINTS],
+    pub(crate) moments_by: [Moments<T>; MAX_JOINTS],
 }
 
 /// What a joint belongs to: a device by its number, or a carrier as a base by its number.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Owner {
+pub(crate) enum Owner {
     Device(usize),
     Carrier(usize),
 }
 
 /// What is found, device by device.
 #[derive(Debug)]
-pub(super) struct Members<T> {
-    pub(super) bases: Vec<Base<T>>,
-    pub(super) devices: Vec<Member<T>>,
+pub(crate) struct Members<T> {
+    pub(crate) bases: Vec<Base<T>>,
+    pub(crate) devices: Vec<Member<T>>,
     /// Of each joint: its owner, whether its acceleration is free.
-    pub(super) joints: Vec<(Owner, bool)>,
+    pub(crate) joints: Vec<(Owner, bool)>,
     /// Of each joint, by the wrench on its child body; none where there are no wrenches on bodies.
-    pub(super) by_wrenches: Vec<[Load<T>; 6]>,
+    pub(crate) by_wrenches: Vec<[Load<T>; 6]>,
     /// The number of what the next device stands on.
-    base: usize,
+    pub(crate) base: usize,
 }
 
 impl<T: Scalar> Members<T> {
-    /// On a hub.
-    pub(super) fn on(hub: Base<T>) -> Self {
+    /// On a hub, and on the mounts of a flexible structure.
+    pub(crate) fn on(hub: Base<T>, mounts: Vec<Base<T>>) -> Self {
         let (devices, joints, by_wrenches) = (Vec::new(), Vec::new(), Vec::new());
-        Self { bases: alloc::vec![hub], devices, joints, by_wrenches, base: 0 }
+        let mut bases = alloc::vec![hub];
+        bases.extend(mounts);
+        Self { bases, devices, joints, by_wrenches, base: 0 }
     }
 
     /// Adds up the loads and moments of each carrier, from the outermost inwards.
-    pub(super) fn add_up(&mut self) {
+    pub(crate) fn add_up(&mut self) {
         for number in (1..self.bases.len()).rev() {
             let (inboard, outboard) = self.bases.split_at_mut(number);
             let Some(Base { link: Some(link), load, moments, .. }) = outboard.first() else {
@@ -175,14 +180,19 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
         let states = joints.carrier.states().zip(device.passive.values()).enumerate();
         for (joint, ([_, rate], passive)) in states {
             for (own, slope) in own.iter_mut().zip([passive.stiffness, passive.damping(rate)]) {
-                let to = own.get_mut(joint).and_then(|of| of.joints.get_mut(joint));
-                to.into_iter().for_each(|to| *to = *to + slope);
+                if let Some(to) = own.get_mut(joint).and_then(|of| of.joints.get_mut(joint)) {
+                    *to = *to + slope;
+                }
             }
         }
         if let Some(applied) = Applied::new(device, &joints.carrier, of_carrier.bodies, None) {
             let [coordinates, _] = &mut own;
             let both = coordinates.iter_mut().zip(&applied.coordinates);
             both.for_each(|(to, from)| to.add(one(), from));
+            let [force, moment] = applied.hub;
+            if let Some(Base { load: [f, m], .. }) = self.bases.get_mut(base) {
+                (*f, *m) = (sub(*f, force), sub(*m, moment));
+            }
             self.by_wrenches.extend(by_wrenches(device, &joints.carrier));
         }
         let modes = of_carrier.modes.values();
@@ -190,7 +200,8 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
         let body = C::base(&device.constants).body;
         let (load, moments) = (motion.load(&body, field.as_ref()), Moments::of_body(&body));
         let link = Some(link);
-        self.bases.push(Base { link, first, own, body, field, motion, load, moments });
+        let shapes = None;
+        self.bases.push(Base { link, first, own, body, field, motion, load, moments, shapes });
         self.base = number;
         let data = (&joints.carried, of_carried, &accelerations.carried);
         D::visit::<Moving, _>(&carrying.carried, data, self)?;
@@ -201,7 +212,7 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
 
 impl<T: Scalar> Member<T> {
     /// What its base and its motors exert more where the base's motion changes.
-    pub(super) fn by_motion(&self, change: &BaseMotion<T>) -> Load<T> {
+    pub(crate) fn by_motion(&self, change: &BaseMotion<T>) -> Load<T> {
         let columns = &self.columns;
         let mut sum = Load::none();
         let turning = columns.omega.iter().zip(change.omega);

@@ -56,7 +56,7 @@ impl<T: Scalar> TreeSystem<T> {
             *diagonal = *diagonal + value;
             return;
         }
-        let place = path.iter().position(|of| *of == column);
+        let place = path.binary_search(&column).ok();
         if let Some(entry) = place.and_then(|place| entries.get_mut(place)) {
             *entry = *entry + value;
         }
@@ -80,7 +80,9 @@ impl<T: Scalar> TreeSystem<T> {
                 }
                 row.diagonal = row.diagonal - factor * *entry;
             }
-            entries.iter_mut().for_each(|entry| *entry = *entry * *diagonal);
+            for entry in entries {
+                *entry = *entry * *diagonal;
+            }
         }
     }
 

@@ -120,7 +120,7 @@ impl<T: Scalar> Field<T> {
     }
 }
 
-#[cfg(feature = "lanes")]
+#[cfg(any(feature = "alloc", feature = "lanes"))]
 impl<T: Copy> Central<T> {
     /// Each number changed.
     #[inline(always)]

@@ -2,8 +2,20 @@
 
 use core::convert::Infallible;
 
+#[cfg(feature = "alloc")]
+use crate::derivatives::base_motion::BaseMotion;
+#[cfg(feature = "alloc")]
+use crate::derivatives::load_columns::{Moving, NotEmitted};
+#[cfg(feature = "alloc")]
+use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::StructureDerivatives;
+#[cfg(feature = "alloc")]
+use crate::derivatives::tree_members::Members;
 use crate::equations::device::Device;
+#[cfg(feature = "alloc")]
+use crate::equations::hub::HubConstants;
+#[cfg(feature = "alloc")]
+use crate::equations::joint_inputs::Environment;
 use crate::flexible::equations::spacecraft::{FlexibleConstants, MountConstants};
 use crate::flexible::equations::stability::OwnLimit;
 use crate::flexible::modal::inputs::ModalInputs;
@@ -14,12 +26,20 @@ use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::map;
+#[cfg(feature = "alloc")]
+use crate::sets::bundle::Given;
 use crate::sets::bundle::{Bundle, Shared, Unique};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
+#[cfg(feature = "alloc")]
+use crate::sets::per_device as data;
 use crate::sets::per_device::OnMount;
 use crate::sets::with_numbers::WithNumbers;
+#[cfg(feature = "alloc")]
+use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
+#[cfg(feature = "alloc")]
+use crate::solve::state::{Accelerations, State};
 
 /// The mount of the n-th device or platform.
 struct NthMount {
@@ -91,6 +111,37 @@ impl<T: Scalar, F: Fn(usize) -> usize> Visit<T, Unique<OnMount>> for WriteMounts
     ) -> Result<(), Infallible> {
         to.carrier = self.next();
         Ok(())
+    }
+}
+
+/// State, inputs and accelerations of the joints, and the mount.
+#[cfg(feature = "alloc")]
+type OnMounts = (Shared<data::Joints>, Given, Shared<data::Accelerations>, Shared<OnMount>);
+
+/// Shows each device on its mount, which is the base after the hub's of its number.
+#[cfg(feature = "alloc")]
+struct EachOnMount<'a, T>(&'a mut Members<T>);
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Visit<T, OnMounts> for EachOnMount<'_, T> {
+    type Error = NotEmitted;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, given, accelerations, mount): <OnMounts as Bundle<T>>::Of<'_, K>,
+    ) -> Result<(), NotEmitted> {
+        self.0.base = mount.saturating_add(1);
+        self.0.visit(device, (joints, given, accelerations))
+    }
+
+    fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(
+        &mut self,
+        carrying: &PreparedCarrying<C, D>,
+        (joints, given, accelerations, mount): <OnMounts as Bundle<T>>::Of<'_, Carrying<C, D>>,
+    ) -> Result<(), NotEmitted> {
+        self.0.base = mount.carrier.saturating_add(1);
+        self.0.visit_carrying(carrying, (joints, given, accelerations))
     }
 }
 
@@ -170,6 +221,42 @@ impl<M: ModalStorage> StructureDerivatives for Flexible<M> {
 
     fn mounts<D: Devices>(craft: &Spacecraft<D, Self>) -> usize {
         craft.mounts()
+    }
+
+    #[cfg(feature = "alloc")]
+    fn bases<D: Devices, A>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+        inputs: &Inputs<D, Self>,
+        accelerations: &Accelerations<D, Self>,
+        hub: &BaseMotion<D::Scalar>,
+        of_b: &Environment<D::Scalar>,
+    ) -> StructureColumns<D::Scalar> {
+        let wrenches = inputs.modal.mounts.as_ref();
+        let bases = craft.mount_bases(state, wrenches, accelerations, hub, of_b);
+        (bases, craft.modal_columns(state))
+    }
+
+    #[cfg(feature = "alloc")]
+    fn body<D: Devices, A>(
+        craft: &Spacecraft<D, Self>,
+        state: &State<D, A, Self>,
+    ) -> HubConstants<D::Scalar> {
+        craft.deformed(state)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn visit_members<D: Devices>(
+        craft: &Spacecraft<D, Self>,
+        (joints, given, accelerations): <Moving as Bundle<D::Scalar>>::Of<'_, D>,
+        members: &mut Members<D::Scalar>,
+    ) -> Result<(), NotEmitted> {
+        let Some(on_mount) = (!craft.is_rigid()).then_some(&craft.structure.on_mount) else {
+            let data = (joints, given, accelerations);
+            return D::visit::<Moving, _>(&craft.devices, data, members);
+        };
+        let data = (joints, given, accelerations, on_mount);
+        D::visit::<OnMounts, _>(&craft.devices, data, &mut EachOnMount(members))
     }
 
     fn coordinates<T: Scalar>(state: &mut ModalState<M, T>) -> [&mut [T]; 2] {

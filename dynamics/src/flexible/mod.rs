@@ -9,5 +9,7 @@
 pub(crate) mod derivatives;
 pub(crate) mod equations;
 pub(crate) mod modal;
+#[cfg(feature = "alloc")]
+mod mount_slopes;
 pub(crate) mod results;
 pub(crate) mod structure;

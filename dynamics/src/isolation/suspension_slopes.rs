@@ -24,16 +24,18 @@ impl<T: Scalar> Suspension<T> {
         [0, 1].map(|which: usize| {
             let mut seeded = constant;
             for (number, state) in seeded.states_mut().enumerate() {
-                let of = state.into_iter().nth(which);
-                of.into_iter().for_each(|of| of.add_derivative(number, one()));
+                if let Some(of) = state.into_iter().nth(which) {
+                    of.add_derivative(number, one());
+                }
             }
             let forces = over.forces(&Platform::<T>::pose(&seeded), &seeded);
             let sums = forces.springs.iter().zip(&forces.dampers).map(|(a, b)| *a + *b);
             let mut columns = [[zero(); 6]; 6];
             for (row, sum) in sums.enumerate() {
                 for (number, column) in columns.iter_mut().enumerate() {
-                    let to = column.get_mut(row);
-                    to.into_iter().for_each(|to| *to = sum.derivative(number));
+                    if let Some(to) = column.get_mut(row) {
+                        *to = sum.derivative(number);
+                    }
                 }
             }
             columns

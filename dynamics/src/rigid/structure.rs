@@ -1,7 +1,21 @@
 //! [`Rigid`] as a [`Structure`]: no modal coordinates, so none that could be rejected.
 
 use crate::attitude::parameterisation::Attitude;
+#[cfg(feature = "alloc")]
+use crate::derivatives::base_motion::BaseMotion;
+#[cfg(feature = "alloc")]
+use crate::derivatives::load_columns::{Moving, NotEmitted};
+#[cfg(feature = "alloc")]
+use crate::derivatives::modal_columns::ModalColumns;
+#[cfg(feature = "alloc")]
+use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::{Structure, StructureDerivatives};
+#[cfg(feature = "alloc")]
+use crate::derivatives::tree_members::Members;
+#[cfg(feature = "alloc")]
+use crate::equations::hub::HubConstants;
+#[cfg(feature = "alloc")]
+use crate::equations::joint_inputs::Environment;
 use crate::equations::stiffness::Stiffness;
 use crate::integrate::energy_lost::Jump;
 use crate::integrate::structure::{Stage, StructureSteps};
@@ -12,6 +26,8 @@ use crate::results::ledger::Ledger;
 use crate::results::loads::{LoadAxes, Loads};
 use crate::results::momentum::MotionSums;
 use crate::results::structure::StructureResults;
+#[cfg(feature = "alloc")]
+use crate::sets::bundle::Bundle;
 use crate::sets::devices::{DeviceSet, Devices};
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::elimination::Eliminate;
@@ -170,6 +186,32 @@ impl StructureDerivatives for Rigid {
 
     fn mounts<D: Devices>(_: &Spacecraft<D>) -> usize {
         0
+    }
+
+    #[cfg(feature = "alloc")]
+    fn bases<D: Devices, A>(
+        _: &Spacecraft<D>,
+        _: &State<D, A>,
+        _: &Inputs<D>,
+        _: &Accelerations<D>,
+        _: &BaseMotion<D::Scalar>,
+        _: &Environment<D::Scalar>,
+    ) -> StructureColumns<D::Scalar> {
+        (alloc::vec::Vec::new(), ModalColumns::none())
+    }
+
+    #[cfg(feature = "alloc")]
+    fn body<D: Devices, A>(craft: &Spacecraft<D>, _: &State<D, A>) -> HubConstants<D::Scalar> {
+        craft.hub
+    }
+
+    #[cfg(feature = "alloc")]
+    fn visit_members<D: Devices>(
+        craft: &Spacecraft<D>,
+        data: <Moving as Bundle<D::Scalar>>::Of<'_, D>,
+        members: &mut Members<D::Scalar>,
+    ) -> Result<(), NotEmitted> {
+        D::visit::<Moving, _>(&craft.devices, data, members)
     }
 
     fn coordinates<T: Scalar>((): &mut ()) -> [&mut [T]; 2] {

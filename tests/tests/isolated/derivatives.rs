@@ -11,12 +11,11 @@ use crate::craft::{Craft, Options, mixed, stacked};
 use crate::panels::rows;
 
 /// How many spacecraft of each sort.
-const SPACECRAFT: u64 = 60;
+const SPACECRAFT: u64 = 120;
 
-/// Errors in units of the largest element of a column: the worst, of which joints that are nearly massless are the cause,
-/// and the median.
-const WORST: f64 = 1e-9;
-const MEDIAN: f64 = 1e-12;
+/// Errors in units of the largest element of a column: 1e-11 at worst, some thousand roundings.
+const WORST: f64 = 1e-11;
+const MEDIAN: f64 = 1e-13;
 
 /// What acts, in turn.
 fn options(seed: u64) -> Options {
@@ -35,7 +34,10 @@ fn options(seed: u64) -> Options {
 }
 
 /// The error of each column; whether any bit is another than that of dual numbers.
-fn errors<D: FixedSet<Scalar = f64> + WithNumbers>(craft: &Craft<D>, seed: u64) -> (Vec<f64>, bool) {
+fn errors<D: FixedSet<Scalar = f64> + WithNumbers>(
+    craft: &Craft<D>,
+    seed: u64,
+) -> (Vec<f64>, bool) {
     let Craft { solver, state, inputs, .. } = craft;
     let mut inputs = inputs.clone();
     if seed % 6 == 5 {
@@ -74,12 +76,12 @@ fn check(name: &str, all: impl Iterator<Item = (Vec<f64>, bool)>) {
     }
     println!("{name}: worst {:.1e}, median {:.1e}", figures.worst(), figures.median());
     assert_eq!(emitted, count, "{name}: by emitted derivatives");
-    assert!(figures.worst() <= WORST && figures.median() <= MEDIAN, "{name}: {figures:?}");
+    assert!(figures.worst() <= WORST && figures.median() <= MEDIAN, "{name}");
 }
 
 #[test]
 fn emitted_derivatives_on_carriers_are_those_of_dual_numbers() {
-    let seeds = || 0..cases(SPACECRAFT).max(30);
+    let seeds = || 0..cases(SPACECRAFT);
     check("mixed", seeds().map(|seed| errors(&mixed(seed, &options(seed)), seed)));
     check("stacked", seeds().map(|seed| errors(&stacked(seed, &options(seed)), seed)));
     check("rows", seeds().map(|seed| errors(&rows(seed, &options(seed)), seed)));
