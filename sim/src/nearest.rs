@@ -10,6 +10,32 @@ const CHANGED_MAX: f64 = 0.6;
 /// More than this, a list is not read.
 const MOST: usize = 3;
 
+/// Keys that are written for others, by the words of data sheets and of joints that slide or turn: unlike in letters.
+const SYNONYMS: [(&str, &str); 14] = [
+    ("speed", "rate"),
+    ("rate", "speed"),
+    ("speed_limit", "rate_limit"),
+    ("rate_limit", "speed_limit"),
+    ("max_speed", "rate_limit"),
+    ("max_rate", "rate_limit"),
+    ("max_speed", "speed_limit"),
+    ("max_torque", "torque_limit"),
+    ("max_force", "force_limit"),
+    ("max_power", "power_limit"),
+    ("torque", "force"),
+    ("torque_limit", "force_limit"),
+    ("force", "torque"),
+    ("force_limit", "torque_limit"),
+];
+
+/// The known name for which an unknown one is a synonym.
+pub(crate) fn synonym<'a>(unknown: &str, known: &[&'a str]) -> Option<&'a str> {
+    let of = |(word, name): &(&str, &str)| {
+        known.iter().copied().find(|known| *word == unknown && known == name)
+    };
+    SYNONYMS.iter().find_map(of)
+}
+
 /// The names most like an unknown one, the most alike first.
 pub(crate) fn nearest<N: AsRef<str>>(unknown: &str, names: impl Iterator<Item = N>) -> Vec<String> {
     let mut alike: Vec<(f64, N)> = names

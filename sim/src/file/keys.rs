@@ -14,7 +14,7 @@ use super::diagnostic::{Diagnostics, Span};
 use super::document::{Entry, Node, Table, Value};
 use super::load::merged;
 use crate::names::{NAME_MAX, name_fault};
-use crate::nearest::nearest;
+use crate::nearest::{nearest, synonym};
 
 /// Most unknown keys of a table that are reported one by one.
 const UNKNOWN_MAX: usize = 20;
@@ -130,7 +130,10 @@ impl<'a> Keys<'a> {
         let is_unknown = |entry: &&Entry| known.binary_search(&entry.key.as_str()).is_err();
         let unknown: Vec<_> = self.table.entries.iter().filter(is_unknown).collect();
         for entry in unknown.iter().take(UNKNOWN_MAX) {
-            let near = nearest(&entry.key, known.iter().copied());
+            let near = match synonym(&entry.key, &known) {
+                Some(name) => vec![name.to_owned()],
+                None => nearest(&entry.key, known.iter().copied()),
+            };
             let help = match near.first() {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => format!("known here: {}", known.join(", ")),

@@ -5,7 +5,7 @@ use precess_dynamics::kind::JointInfo;
 use super::joint_measures::JointMeasures;
 use crate::file::keys::Keys;
 use crate::scenario::MotorLimits;
-use crate::units::{Measure, Plain};
+use crate::units::{Measure, Plain, parse_quantity};
 
 /// The limits of a motor; reports one that is not above zero, and any where no motor torque is an input.
 pub(super) fn motor_limits(
@@ -48,12 +48,27 @@ pub(super) fn starts_within(
     if rate.abs() <= limit {
         return;
     }
-    let (key, unit) = (if joint.slides { "speed" } else { "rate" }, measures.rate.unit);
-    let [rate, limit] = [rate, limit].map(Plain);
+    let key = if joint.slides { "speed" } else { "rate" };
+    let limit_key = format!("{key}_limit");
+    let (unit, size) =
+        unit_as_written(keys, &limit_key).unwrap_or((measures.rate.unit.into(), 1.0));
+    let [rate, limit] = [rate, limit].map(|value| Plain(rounded(value / size)));
     let message = format!(
-        "the joint starts with `{key}` {rate} {unit}, beyond its `{key}_limit` {limit} {unit}"
+        "the joint starts with `{key}` {rate} {unit}, beyond its `{limit_key}` {limit} {unit}"
     );
-    keys.error(&format!("{key}_limit"), message, "raise the limit, or start slower");
+    keys.error(&limit_key, message, "raise the limit, or start slower");
+}
+
+/// The unit in which a quantity is written, and its size in SI; none of a number without a unit.
+fn unit_as_written(keys: &Keys<'_>, key: &str) -> Option<(String, f64)> {
+    let unit = keys.any_quantity(key)?.unit;
+    let one = parse_quantity(&format!("1 {unit}")).ok().filter(|_| !unit.is_empty())?;
+    Some((unit, *one.values.first()?))
+}
+
+/// Without the last digits, in which a number in SI and back differs from what was written.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]
@@ -99,6 +114,10 @@ mod tests {
                 ],
             ),
             (
+                "rate = \"6000 rpm\"\nrate_limit = \"5000 rpm\"\n",
+                vec!["starts with `rate` 6000 rpm, beyond its `rate_limit` 5000 rpm"],
+            ),
+            (
                 "acceleration = \"1 rad/s^2\"\npower_limit = \"3 W\"\n",
                 vec!["the joint has no `torque` to limit"],
             ),
@@ -106,7 +125,10 @@ mod tests {
                 "rate = { ramp = \"1, 2 rad/s\", from = \"0 s\", to = \"1 s\" }\nrate_limit = \"3 rad/s\"\n",
                 vec!["a joint whose `rate` is a profile has no `rate_limit`"],
             ),
-            ("speed_limit = \"3 m/s\"\n", vec!["unknown key", "did you mean"]),
+            ("speed_limit = \"3 m/s\"\n", vec!["unknown key", "did you mean `rate_limit`?"]),
+            ("speed = \"3 m/s\"\n", vec!["unknown key", "did you mean `rate`?"]),
+            ("max_speed = \"6000 rpm\"\n", vec!["unknown key", "did you mean `rate_limit`?"]),
+            ("max_torque = \"1 N m\"\n", vec!["unknown key", "did you mean `torque_limit`?"]),
         ] {
             let shown = errors(keys);
             for part in parts {
