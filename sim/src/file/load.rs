@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Node, TEXT_MAX, Table, Value, parse};
+use super::integrator::give_way;
 use crate::nearest::did_you_mean_file;
 use crate::opened::open;
 
@@ -150,6 +151,7 @@ fn with_bases(mut node: Node, folder: &Path, files: &mut Files, reports: &mut Di
 
 /// Puts the keys of a table over those of another.
 fn merge(below: &mut Table, above: Table) {
+    give_way(below, &above);
     let keys = below.entries.iter().map(|entry| entry.key.clone()).zip(0..);
     let places: HashMap<String, usize> = keys.collect();
     for entry in above.entries {

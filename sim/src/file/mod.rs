@@ -11,6 +11,7 @@
 mod budget;
 pub mod diagnostic;
 mod document;
+mod integrator;
 mod keys;
 mod load;
 mod measurement;

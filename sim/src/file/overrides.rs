@@ -12,6 +12,7 @@
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Entry, Node, Table, Value, parse};
+use super::integrator::override_steps;
 use super::load::{Override, is_other_profile, named};
 use crate::units::parse_quantity;
 
@@ -28,6 +29,7 @@ pub(super) fn apply(
     (overrides, numbers): (&[Override], Numbers),
     reports: &mut Diagnostics,
 ) {
+    let files = reports.sources.len();
     for text in overrides {
         match plain(node, text) {
             Ok(texts) => texts.iter().for_each(|text| one(node, (text, numbers), reports)),
@@ -36,6 +38,7 @@ pub(super) fn apply(
             }
         }
     }
+    override_steps(node, files);
 }
 
 /// What is wrong, and the remedy.
