@@ -116,6 +116,19 @@ fn evaluate_check_and_compare_tell_what_they_find() {
     let checked = text(&precess(&["check", &file]).stdout);
     assert!(checked.contains("total mass") && checked.contains("354 kg"), "{checked}");
     assert!(checked.contains("U_s 1 g cm"), "{checked}");
+    let limited = checked.lines().find(|line| line.contains("torque limit")).expect("a table");
+    assert!(!limited.contains("stiffness") && checked.contains("0.2 N m"), "{checked}");
+    // A panel on its spring: degrees per second, and its frequency where all else is held: 30 N m/rad on
+    // 2.8 kg m^2 and 8 kg at 1 m from the axis.
+    let panel = folder.join("panel.toml");
+    fs::write(&panel, precess(&["new", "hinged_panel"]).stdout).expect("a file");
+    let panel = panel.to_str().expect("text");
+    let checked =
+        text(&precess(&["check", panel, "--set", "device.panel1.panel.rate=2 deg/s"]).stdout);
+    let hertz = (30.0_f64 / (2.8 + 8.0)).sqrt() / std::f64::consts::TAU;
+    for part in ["its spring", "2 deg/s", "30 N m/rad", &format!("{hertz:.6}")[..6]] {
+        assert!(checked.contains(part), "{part} in {checked}");
+    }
     let out = folder.join("out");
     assert!(run(&file, &out, &["--no-report"]).status.success());
     let result = out.join("wheel.csv");

@@ -5,10 +5,11 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, units};
+use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, Passive, units};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::limits_and_springs::{limits_and_springs, shown_rate};
 use super::options::{Files, Form};
 use super::table::{aligned, six};
 use super::terminal::{note, print};
@@ -52,7 +53,9 @@ impl Check {
                         continue;
                     }
                     print(&properties(&scenario))?;
-                    if !reports.all.is_empty() {
+                    if reports.has_errors() {
+                        note(&reports.to_string());
+                    } else if !reports.all.is_empty() {
                         print(&format!("\n{reports}"))?;
                     }
                 }
@@ -119,6 +122,7 @@ fn properties(scenario: &Scenario) -> String {
     text.push_str(&aligned(&rows));
     let matrix = MassMatrix::from_spacecraft(scenario, &spacecraft);
     text.push_str(&joints(scenario, matrix.as_ref().ok()));
+    text.push_str(&limits_and_springs(scenario, matrix.as_ref().ok()));
     text.push_str(&sources::sources(scenario));
     if let Ok(MassMatrix { condition: Some(condition), .. }) = &matrix {
         let _ = writeln!(
@@ -165,22 +169,19 @@ fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
     ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     for (name, member) in scenario.members() {
-        for (info, body) in member.joints().iter().zip(&member.bodies()) {
+        let springs = member.passive();
+        for ((info, body), spring) in member.joints().iter().zip(&member.bodies()).zip(&springs) {
             let [_, rate] = states.next().unwrap_or_default();
             let JointInertia { held, free } = inertias.next().copied().unwrap_or_default();
-            let [rate, unit] = if info.slides {
-                [format!("{} m/s", six(rate)), "kg".to_owned()]
-            } else {
-                [format!("{} rpm", six(units::to_rpm(rate))), "kg m^2".to_owned()]
-            };
+            let unit = if info.slides { "kg" } else { "kg m^2" };
             let inertia = |inertia: Option<f64>| {
                 inertia.map_or_else(|| "-".to_owned(), |value| format!("{} {unit}", six(value)))
             };
             rows.push(vec![
                 format!("{name}.{}", joint_key(info)),
-                drives.next().map_or("", |drive| driven_by(drive, info)).to_owned(),
+                drives.next().map_or("", |drive| driven_by(drive, info, spring)).to_owned(),
                 format!("{} kg", six(body.mass)),
-                rate,
+                shown_rate(info, rate),
                 inertia(held),
                 inertia(free),
                 match member.device() {
@@ -207,11 +208,14 @@ fn shown_imbalance(device: &BuiltIn) -> String {
 }
 
 /// What moves a joint at the start.
-fn driven_by(drive: &Drive, info: &JointInfo) -> &'static str {
+fn driven_by(drive: &Drive, info: &JointInfo, spring: &Passive) -> &'static str {
     match drive {
         _ if !info.driven => "its kind, at its rate",
         Drive::Locked => "nothing: locked",
         Drive::Acceleration(_) => "a prescribed motion",
+        Drive::Torque { profile, .. } if profile.is_zero() && spring.stiffness != 0.0 => {
+            "its spring"
+        }
         Drive::Torque { profile, .. } if profile.is_zero() => "no torque: free",
         Drive::Torque { .. } if info.slides => "a force",
         Drive::Torque { .. } => "a torque",

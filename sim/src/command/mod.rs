@@ -14,6 +14,7 @@ mod export;
 mod fit;
 mod jitter;
 mod kinds;
+mod limits_and_springs;
 mod new;
 mod options;
 mod outputs;

@@ -235,7 +235,7 @@ fn check_solves_what_a_run_solves() {
     for name in ["locked-pendulum.toml", "locked-gyro.toml", "prescribed-pendulum.toml"] {
         let checked = precess(&["check", &case(name)]);
         assert_eq!(checked.code, Some(0), "{}", checked.error);
-        assert!(!checked.out.contains("cannot be solved"), "{name}: {}", checked.out);
+        assert!(!checked.error.contains("cannot be solved"), "{name}: {}", checked.error);
         assert!(checked.out.contains("condition number of the mass matrix"), "{name}");
         let ran = precess(&["run", &case(name), "--out", out]);
         assert_eq!(ran.code, Some(0), "{name}: {}", ran.error);
@@ -244,9 +244,9 @@ fn check_solves_what_a_run_solves() {
     let released = ["--set", "platform.p.z_turn.locked=false"];
     let checked = precess(&[&["check", &case("locked-pendulum.toml")], &released[..]].concat());
     assert!(
-        checked.out.contains("the initial state cannot be solved: `p`: pivot"),
+        checked.error.contains("the initial state cannot be solved: `p`: pivot"),
         "{}",
-        checked.out
+        checked.error
     );
     assert_eq!(checked.code, Some(1));
     let run = ["run", &case("locked-pendulum.toml"), "--out", out, "--force"];
@@ -338,5 +338,5 @@ fn a_y_turn_at_ninety_degrees_is_named() {
     assert!(said.contains("`p`: its y turn is at 90"), "{said}");
     assert!(said.contains("away from 90 deg"), "{said}");
     let checked = precess(&["check", &file]);
-    assert!(checked.out.contains("with the y turn at 90 degrees"), "{}", checked.out);
+    assert!(checked.error.contains("with the y turn at 90 degrees"), "{}", checked.error);
 }
