@@ -35,7 +35,7 @@ pub use error::{DrawError, ReportError};
 
 use run::chart::{Chart, ScaledChart, drawn};
 use run::extremes::{Extremes, Magnitude};
-use run::limits::limits;
+use run::limits::{limits, stated_unit};
 use run::replay::Collector;
 use run::{grouping, summary};
 
@@ -139,7 +139,7 @@ impl Report {
         let [first, last] = [&collected.first, &collected.row];
         let stated = (self.scenario.requirements.as_slice(), &collected.header);
         let scaled = |chart| {
-            let mut drawn = drawn(chart, buckets, first, last);
+            let mut drawn = drawn(chart, buckets, [first, last], stated_unit(chart, stated));
             drawn.limits = limits((chart, &drawn), stated, first);
             drawn
         };
@@ -151,7 +151,8 @@ impl Report {
         let Some(collected) = &self.collected else { return Vec::new() };
         let buckets = collected.history.buckets();
         let [first, last] = [&collected.first, &collected.row];
-        let charts = collected.charts.iter().map(|chart| drawn(chart, buckets, first, last));
+        let drawn = |chart| drawn(chart, buckets, [first, last], None);
+        let charts = collected.charts.iter().map(drawn);
         charts.filter(ScaledChart::is_zero).map(|drawn| drawn.title).collect()
     }
 }

@@ -56,6 +56,37 @@ pub(super) fn power_of_ten(exponent: i32) -> String {
     std::iter::once("10".to_owned()).chain(digits.chars().map(superscript)).collect()
 }
 
+/// A message with its powers of ten as superscripts, `2.5e-4` as `2.5×10⁻⁴`; what is between backticks, to be written into a
+/// file, stays.
+pub(super) fn with_powers(message: &str) -> String {
+    let parts = message.split('`').enumerate();
+    let parts = parts.map(|(k, part)| if k % 2 == 0 { powers(part) } else { part.to_owned() });
+    parts.collect::<Vec<_>>().join("`")
+}
+
+/// A text with powers of ten instead of exponents after a digit.
+fn powers(text: &str) -> String {
+    let mut pieces = text.split('e');
+    let mut out = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let digits = piece.strip_prefix('-').unwrap_or(piece);
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        let (exponent, rest) = piece.split_at(piece.len() - digits.len() + end);
+        match exponent.parse() {
+            Ok(exponent) if out.ends_with(|c: char| c.is_ascii_digit()) => {
+                out.push('×');
+                out.push_str(&power_of_ten(exponent));
+                out.push_str(rest);
+            }
+            _ => {
+                out.push('e');
+                out.push_str(piece);
+            }
+        }
+    }
+    out
+}
+
 /// A number with its thousands set apart.
 pub(super) fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -98,5 +129,9 @@ mod tests {
             ("1234".into(), "1\u{202f}234\u{202f}567".into())
         );
         assert_eq!(with_unit(2.0, 3, "N m"), "2.00 N m");
+        let message =
+            "it drifts at 5.59980e-4 rad/s and -1e12 m; write `step = \"1e-5 s\"`, see e-4 the end";
+        let shown = "it drifts at 5.59980×10⁻⁴ rad/s and -1×10¹² m; write `step = \"1e-5 s\"`, see e-4 the end";
+        assert_eq!(with_powers(message), shown);
     }
 }

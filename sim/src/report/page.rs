@@ -218,7 +218,8 @@ fn warnings(report: &Report) -> Vec<Block> {
     if report.warnings.is_empty() {
         return vec![Block::Text { text: "There are no warnings.".to_owned() }];
     }
-    vec![Block::List { style: "warnings", items: report.warnings.clone() }]
+    let items = report.warnings.iter().map(|text| number::with_powers(text)).collect();
+    vec![Block::List { style: "warnings", items }]
 }
 
 fn scenario_text(report: &Report) -> Vec<Block> {

@@ -145,7 +145,8 @@ pub(crate) fn waterfall(
             dots.push([place(axis, *value), *frequency, amplitude / largest]);
         }
     }
-    let top = dots.iter().map(|dot| dot[1]).fold(0.0, f64::max);
+    // Room above the highest line, so that orders reach it below the title.
+    let top = dots.iter().map(|dot| dot[1]).fold(0.0, f64::max) / BELOW_TITLE;
     let order = |order: &f64| {
         // A straight line only over the rate itself.
         let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;

@@ -19,6 +19,12 @@ const fn unit(name: &'static str, per_si: f64, from: f64) -> Unit {
     Unit { name, per_si, from }
 }
 
+/// The peak of a unit that is only used where a limit is stated in it.
+const STATED: f64 = f64::INFINITY;
+/// Peaks that are readable in a unit.
+const READABLE: std::ops::Range<f64> = 1e-3..1e6;
+/// Units are one where their sizes differ by no more than this share: both are products of a few rounded numbers.
+const SAME: f64 = 1e-9;
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 /// Revolutions in a radian.
@@ -32,6 +38,8 @@ pub(super) const SMALL_ANGLE: &Family = &[
     unit("deg", DEGREES, 1e-2),
     unit("mrad", 1e3, 1e-3),
     unit("µrad", 1e6, 1e-6),
+    unit("arcsec", 3600.0 * DEGREES, STATED),
+    unit("mas", 3.6e6 * DEGREES, STATED),
     unit("nrad", 1e9, 0.0),
 ];
 pub(super) const MODAL: &Family = &[
@@ -43,7 +51,11 @@ pub(super) const MODAL: &Family = &[
 pub(super) const MODAL_RATE: &Family =
     &[unit("m kg^½/s", 1.0, 1.0), unit("mm kg^½/s", 1e3, 1e-3), unit("µm kg^½/s", 1e6, 0.0)];
 pub(super) const REVOLUTIONS: &Family = &[unit("rev", TURNS, 0.0)];
-pub(super) const ANGULAR_RATE: &Family = &[unit("deg/s", DEGREES, 0.0)];
+pub(super) const ANGULAR_RATE: &Family = &[
+    unit("deg/s", DEGREES, 0.0),
+    unit("arcsec/s", 3600.0 * DEGREES, STATED),
+    unit("µrad/s", 1e6, STATED),
+];
 pub(super) const WHEEL_RATE: &Family = &[unit("rpm", 60.0 * TURNS, 0.0)];
 pub(super) const ANGULAR_ACCELERATION: &Family = &[unit("deg/s²", DEGREES, 0.0)];
 pub(super) const WHEEL_ACCELERATION: &Family = &[unit("rpm/s", 60.0 * TURNS, 0.0)];
@@ -73,9 +85,29 @@ pub(super) fn for_peak(family: &Family, peak: f64) -> Unit {
     family.iter().find(fits).or(family.last()).copied().unwrap_or(unit("", 1.0, 0.0))
 }
 
+/// The unit of a family that has a size, SI, where values up to a peak, SI, are readable in it.
+pub(super) fn of_size(family: &Family, size: f64, peak: f64) -> Option<Unit> {
+    let is_it = |unit: &&Unit| {
+        (unit.per_si * size - 1.0).abs() < SAME && READABLE.contains(&(peak * unit.per_si))
+    };
+    family.iter().find(is_it).copied()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stated_unit_is_used_where_values_are_readable_in_it() {
+        let arcsec = std::f64::consts::PI / 648_000.0;
+        let of = |size: f64, peak: f64| of_size(SMALL_ANGLE, size, peak).map(|unit| unit.name);
+        assert_eq!(of(arcsec, 2.0 * arcsec), Some("arcsec"));
+        assert_eq!([of(arcsec, 1e-10 * arcsec), of(1.0, 1.0), of(arcsec, 0.0)], [None; 3]);
+        for peak in [1.0, 5e-3, 2e-5, 1e-9, 0.0] {
+            let name = for_peak(SMALL_ANGLE, peak).name;
+            assert!(!["arcsec", "mas"].contains(&name), "{peak}: {name}");
+        }
+    }
 
     #[test]
     fn a_unit_follows_the_peak() {

@@ -156,6 +156,28 @@ impl MassMatrix {
     }
 }
 
+/// Sum of the angular momenta of the hub and of each joint by itself, about the centre of mass, in the initial state, N m s: what a
+/// total that cancels is compared with. None where they cannot be computed.
+pub(crate) fn momentum_size(scenario: &Scenario) -> Option<f64> {
+    let spacecraft = scenario.spacecraft().ok()?;
+    let size = |state: &State<Set>| {
+        let momentum = spacecraft.momentum(state, About::CentreOfMass).ok()?;
+        Some(momentum.angular.norm())
+    };
+    let at_rest = at_rest(scenario, &spacecraft);
+    let mut hub = at_rest.clone();
+    hub.omega = scenario.initial.omega;
+    let mut sum = size(&hub)?;
+    for (joint, [_, rate]) in scenario.initial.devices.states().enumerate() {
+        let mut state = at_rest.clone();
+        if let Some([_, own]) = state.devices.states_mut().nth(joint) {
+            *own = rate;
+        }
+        sum += size(&state)?;
+    }
+    Some(sum)
+}
+
 /// The initial pose with B at the inertial origin, its axes along the inertial ones, at rest.
 fn at_rest(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> State<Set> {
     let mut state: State<Set, Quaternion> = State::at_rest_for(spacecraft);

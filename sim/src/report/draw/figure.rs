@@ -216,19 +216,23 @@ impl Line {
     /// As many bands as the picture can show, in runs without gaps.
     fn merged(&self) -> Vec<Vec<Band>> {
         let [of_line, of_band] = POINTS_MAX;
-        let is_line = self.bands.len() <= of_line && self.bands.iter().all(|b| b.min == b.max);
+        let is_finite = |band: &Band| band.min.is_finite() && band.max.is_finite();
+        let is_line = self.bands.len() <= of_line
+            && self.bands.iter().all(|band| band.min == band.max || !is_finite(band));
         let size = if is_line { 1 } else { self.bands.len().div_ceil(of_band).max(1) };
         let mut runs = vec![Vec::new()];
         for column in self.bands.chunks(size) {
-            let finite = || column.iter().filter(|b| b.min.is_finite() && b.max.is_finite());
-            let Some(band) = finite().copied().reduce(Band::with) else {
-                runs.push(Vec::new());
-                continue;
-            };
-            let ends = [column.first(), column.last()];
-            let time = ends.into_iter().flatten().map(|b| 0.5 * b.time).sum();
-            if let Some(run) = runs.last_mut() {
-                run.push(Band { time, ..band });
+            // What is not finite interrupts the curve, also within a chunk.
+            for (index, part) in column.split(|band| !is_finite(band)).enumerate() {
+                if index > 0 {
+                    runs.push(Vec::new());
+                }
+                let Some(band) = part.iter().copied().reduce(Band::with) else { continue };
+                let ends = [part.first(), part.last()];
+                let time = ends.into_iter().flatten().map(|b| 0.5 * b.time).sum();
+                if let Some(run) = runs.last_mut() {
+                    run.push(Band { time, ..band });
+                }
             }
         }
         runs.retain(|run| !run.is_empty());

@@ -13,11 +13,12 @@ use super::{JitterReport, RPM, metric, rpm};
 use crate::jitter::budget::{Assessed, outputs_of};
 use crate::jitter::model::Line;
 use crate::jitter::weight::Weight;
+use crate::spectra::float;
 
 /// A line is drawn in a waterfall from this square root of its share of the largest on.
 const DOT_MIN: f64 = 1e-2;
-/// Parts of the range of speeds of which a waterfall shows the largest lines.
-const WATERFALL_SPEEDS: f64 = 160.0;
+/// Parts of the range of speeds, at most, of which a waterfall shows the largest lines.
+const WATERFALL_PARTS: usize = 240;
 /// A metric is drawn over a logarithmic axis where its largest value is this many times its least.
 const DECADES: f64 = 30.0;
 /// A limit is drawn up to this many times the RMS.
@@ -178,12 +179,22 @@ impl JitterReport<'_> {
         [orders.first(), orders.last()].map(|order| of(order) * self.budget.speeds[1] / TAU)
     }
 
+    /// How many speeds of the budget, next to one another, are one part of a waterfall.
+    fn speeds_per_part(&self) -> usize {
+        self.budget.count.div_ceil(WATERFALL_PARTS).max(1)
+    }
+
     /// What a waterfall shows, for its caption.
-    pub(super) fn drawn_lines() -> String {
+    pub(super) fn drawn_lines(&self) -> String {
+        let of_part = match self.speeds_per_part() {
+            1 => String::new(),
+            several => {
+                format!(", of each tone the largest of {several} speeds next to one another")
+            }
+        };
         format!(
-            "lines over the speed, of each tone the largest in each of {WATERFALL_SPEEDS} equal parts of the range, without \
-             those below {} of the largest of all; the area of a dot is proportional to the square root of its amplitude. \
-             Straight lines are orders.",
+            "lines over the speed{of_part}, without those below {} of the largest of all; the area of a dot is \
+             proportional to the square root of its amplitude. Straight lines are orders.",
             short(DOT_MIN * DOT_MIN, 1)
         )
     }
@@ -193,7 +204,11 @@ impl JitterReport<'_> {
         let outputs = outputs_of(sight);
         let mut dots = Vec::new();
         let [from, to] = self.budget.speeds;
-        let part = |speed: f64| (WATERFALL_SPEEDS * (speed - from) / (to - from)).floor();
+        // Whole numbers of speeds are a part, each speed in the middle of its share: parts of another length would hold now one
+        // speed and now two, and leave regular gaps in a straight line.
+        let per_part = float(self.speeds_per_part());
+        let steps = float(self.budget.count.saturating_sub(1));
+        let part = |speed: f64| ((steps * (speed - from) / (to - from) + 0.5) / per_part).floor();
         let all: Vec<_> = self.sweep.speeds.iter().zip(&self.sweep.lines).collect();
         for near in all.chunk_by(|a, b| part(*a.0) == part(*b.0)) {
             for contributor in 0..self.sweep.contributors.len() {

@@ -45,11 +45,14 @@ fn degrees(angle: f64) -> String {
 }
 
 /// Moments of inertia of a body about its centre of mass, along its axes.
-fn moments(body: &BodyParameters<f64>, first: usize) -> String {
-    let moments: Vec<_> = (0..3)
-        .map(|step| short(body.inertia[((first + step) % 3, (first + step) % 3)], 5))
-        .collect();
-    moments.join(", ")
+fn moments(body: &BodyParameters<f64>, first: usize) -> [String; 3] {
+    [0, 1, 2].map(|step| short(body.inertia[((first + step) % 3, (first + step) % 3)], 5))
+}
+
+/// Those of a rotor, about its spin axis and across it; of equal ones across it one.
+fn moments_of_rotor(body: &BodyParameters<f64>, axis: usize) -> String {
+    let [about, across, other] = moments(body, axis);
+    if across == other { format!("{about}, {across}") } else { [about, across, other].join(", ") }
 }
 
 impl JitterReport<'_> {
@@ -112,7 +115,7 @@ impl JitterReport<'_> {
                 rotor,
                 self.place_of(name),
                 short(body.mass, 6),
-                moments(&body, info.axis),
+                moments_of_rotor(&body, info.axis),
                 u_s,
                 u_d,
                 phase,
@@ -122,11 +125,11 @@ impl JitterReport<'_> {
             ];
             ("", cells)
         };
-        let columns = [
+        let mut columns = vec![
             "Rotor",
             "Stands on",
             "Mass (kg)",
-            "Inertia about, across the spin axis (kg m²)",
+            "Spin and transverse inertia (kg m²)",
             "U_s (g cm)",
             "U_d (g cm²)",
             "Phase of U_d",
@@ -134,7 +137,15 @@ impl JitterReport<'_> {
             "Speed",
             "Imbalance",
         ];
-        inputs_table("Rotors", &columns, 2..8, rows.map(row).collect())
+        let mut rows: Rows = rows.map(row).collect();
+        // Where the imbalance of every rotor is coupled, as by default, that needs no column.
+        let is_coupled =
+            |(_, cells): &(&str, Vec<String>)| cells.last().is_none_or(|model| model == "coupled");
+        if rows.iter().all(is_coupled) {
+            columns.pop();
+            rows.iter_mut().for_each(|(_, cells)| drop(cells.pop()));
+        }
+        inputs_table("Rotors", &columns, 2..8, rows)
     }
 
     /// The node or position of a device, from B.
@@ -150,7 +161,8 @@ impl JitterReport<'_> {
             return node.map_or_else(String::new, |node| format!("node {}", node.name));
         }
         let origin = member.bodies().first().map_or([0.0; 3], |body| body.origin);
-        format!("hub, {} m", origin.map(|value| short(value, 4)).join(", "))
+        // Broken after the hub only.
+        format!("hub, {}\u{a0}m", origin.map(|value| short(value, 4)).join(",\u{a0}"))
     }
 
     fn other_joints(&self) -> Option<Block> {
@@ -177,7 +189,7 @@ impl JitterReport<'_> {
             let cells = vec![
                 format!("{name}.{}", joint_key(info)),
                 short(body.mass, 6),
-                moments(&body, 0),
+                moments(&body, 0).join(", "),
                 at,
                 format!("{} {unit}", short(rate, 4)),
                 short(stiffness, 5),

@@ -293,7 +293,7 @@ impl JitterReport<'_> {
             blocks.push(Block::Figure {
                 id: format!("figure-waterfall-{sight}"),
                 number: format!("W{}", sight + 1),
-                caption: format!("{}: {}", of.name, Self::drawn_lines()),
+                caption: format!("{}: {}", of.name, self.drawn_lines()),
                 svg: self.waterfall(sight).inline()?,
                 charts: Vec::new(),
             });

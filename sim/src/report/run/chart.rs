@@ -1,9 +1,10 @@
 //! [`Chart`]: the columns of one picture; [`ScaledChart`]: their values in the unit of the picture.
 
 use super::limits::DrawnLimit;
+use super::wraps::interrupt;
 use crate::record::Bucket;
 use crate::report::draw::figure::{Band, Figure, LimitLine, Line};
-use crate::report::unit::{Family, Unit, for_peak};
+use crate::report::unit::{Family, Unit, for_peak, of_size};
 
 /// Curves that are apart by no more than this share of the range of a figure, a fifth of a line's width, are seen as one.
 const APART_MIN: f64 = 2e-3;
@@ -21,6 +22,8 @@ pub(in crate::report) struct Chart {
     pub(in crate::report) axis: &'static str,
     /// The units it may have.
     pub(in crate::report) family: &'static Family,
+    /// By what a curve changes from one sample to the next only where it jumps, SI; none of curves that do not.
+    pub(in crate::report) jump: Option<f64>,
     /// The curves, at least one.
     pub(in crate::report) curves: Vec<Curve>,
 }
@@ -89,12 +92,13 @@ pub(in crate::report) struct DrawnCurve {
     pub(in crate::report) last: f64,
 }
 
-/// A chart with the values of buckets of samples, and of the first and last sample.
+/// A chart with the values of buckets of samples, and of the first and last sample; in the unit of the size `stated`, SI,
+/// where there is one that its values are readable in.
 pub(in crate::report) fn drawn(
     chart: &Chart,
     buckets: &[Bucket],
-    first: &[f64],
-    last: &[f64],
+    [first, last]: [&[f64]; 2],
+    stated: Option<f64>,
 ) -> ScaledChart {
     let of = |row: &[f64], index: usize| row.get(index).copied().unwrap_or(f64::NAN);
     let offset = |curve: &Curve| if curve.departure { of(first, curve.column) } else { 0.0 };
@@ -106,7 +110,8 @@ pub(in crate::report) fn drawn(
             peak = peak.max(low.abs()).max(high.abs());
         }
     }
-    let unit = for_peak(chart.family, peak);
+    let stated = stated.and_then(|size| of_size(chart.family, size, peak));
+    let unit = stated.unwrap_or_else(|| for_peak(chart.family, peak));
     let curves = chart.curves.iter().map(|curve| {
         let read = |value: f64| (value - offset(curve)) * unit.per_si;
         DrawnCurve {
@@ -117,6 +122,10 @@ pub(in crate::report) fn drawn(
             curve: curve.clone(),
         }
     });
+    let mut curves: Vec<DrawnCurve> = curves.collect();
+    if let Some(jump) = chart.jump {
+        interrupt(&mut curves, jump * unit.per_si);
+    }
     ScaledChart {
         part: chart.part,
         slug: chart.slug.clone(),
@@ -125,7 +134,7 @@ pub(in crate::report) fn drawn(
         unit,
         time: buckets.iter().map(|bucket| bucket.start).collect(),
         end: buckets.last().map_or(0.0, |bucket| bucket.end),
-        curves: curves.collect(),
+        curves,
         limits: Vec::new(),
     }
 }
@@ -177,9 +186,10 @@ impl ScaledChart {
         let ends = starts.iter().skip(1).chain([&self.end]);
         let middles: Vec<f64> = starts.iter().zip(ends).map(|(a, b)| 0.5 * (a + b)).collect();
         let lines = self.curves.iter().map(|curve| {
-            let is_band = curve.min != curve.max;
+            let pairs = || curve.min.iter().zip(&curve.max);
+            let is_band = pairs().any(|(min, max)| min != max && !min.is_nan());
             let times = if is_band { &middles } else { starts };
-            let values = times.iter().zip(curve.min.iter().zip(&curve.max));
+            let values = times.iter().zip(pairs());
             let bands = values.map(|(time, (min, max))| Band { time: *time, min: *min, max: *max });
             Line { name: curve.curve.label.clone(), bands: bands.collect() }
         });

@@ -12,6 +12,7 @@ use super::chart_texts::{
     ABOUT_CENTRE, ACCELERATION, ANGULAR, COORDINATE, ENERGY, FORCE, FRICTION, JointTexts, LINEAR,
     LoadTexts, MOMENT, MOTOR, MomentumTexts, RATE, WORK,
 };
+use super::wraps;
 use crate::names::file_names;
 use crate::record::columns::Quantity;
 use crate::record::{Column, Header};
@@ -47,7 +48,8 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
         };
         let (name, frame) = (column.name.clone(), column.frame.clone().unwrap_or_default());
         let curve = Curve { column: index, name, label, frame, departure };
-        let new = || Chart { part, slug, title, axis, family, curves: Vec::new() };
+        let jump = wraps::jump(column.quantity);
+        let new = || Chart { part, slug, title, axis, family, jump, curves: Vec::new() };
         groups.entry(key).or_insert_with(new).curves.push(curve);
     }
     if ledger {
@@ -65,6 +67,7 @@ pub(in crate::report) fn charts(header: &Header, scenario: &Scenario, ledger: bo
             title,
             axis: "Departure",
             family: unit::ENERGY,
+            jump: None,
             curves: vec![curve],
         };
         groups.insert((21, 0), chart);

@@ -24,6 +24,18 @@ pub(in crate::report) struct DrawnLimit {
     pub(in crate::report) window: [f64; 2],
 }
 
+/// Size, SI, of the unit in which the first limit on the columns of a chart is written.
+pub(in crate::report) fn stated_unit(
+    chart: &Chart,
+    (requirements, header): (&[Requirement], &Header),
+) -> Option<f64> {
+    let is_of_chart = |of: &&Requirement| {
+        let columns = header.quantity(&of.quantity).unwrap_or_default();
+        chart.curves.iter().any(|curve| columns.contains(&curve.column))
+    };
+    requirements.iter().find(is_of_chart).map(|of| of.unit.1)
+}
+
 /// The limits of the columns of a chart, whose values at the start are `first`, SI.
 pub(in crate::report) fn limits(
     (chart, drawn): (&Chart, &ScaledChart),

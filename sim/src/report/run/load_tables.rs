@@ -4,11 +4,15 @@ use crate::record::columns::Quantity;
 use crate::report::blocks::{Block, table};
 use crate::report::{Report, number};
 
+/// The column of frames, and how many columns of numbers there are after the unit.
+const FRAME: usize = 1;
+const NUMBERS: usize = 4;
+
 /// The table; empty where neither torques nor loads are recorded.
 pub(in crate::report) fn loads(report: &Report) -> Vec<Block> {
     let Some(collected) = &report.collected else { return Vec::new() };
     let columns = collected.header.columns.iter().zip(&collected.extremes).enumerate();
-    let rows: Vec<_> = columns
+    let mut rows: Vec<_> = columns
         .filter(|(_, (column, _))| {
             matches!(column.quantity, Quantity::Torque(_)) || column.quantity.is_load()
         })
@@ -29,7 +33,7 @@ pub(in crate::report) fn loads(report: &Report) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    let headings = [
+    let mut headings = vec![
         ("Column", ""),
         ("Expressed in", ""),
         ("Unit", ""),
@@ -38,7 +42,13 @@ pub(in crate::report) fn loads(report: &Report) -> Vec<Block> {
         ("RMS", ""),
         ("At the end", ""),
     ];
-    let mut blocks = vec![table("Motor torques and loads across joints", &headings, 3..7, rows)];
+    // Torques about the axes of joints are in no frame: a column for frames only beside loads.
+    if rows.iter().all(|(_, cells)| cells.get(FRAME).is_none_or(String::is_empty)) {
+        headings.remove(FRAME);
+        rows.iter_mut().for_each(|(_, cells)| drop(cells.remove(FRAME)));
+    }
+    let numbers = headings.len() - NUMBERS..headings.len();
+    let mut blocks = vec![table("Motor torques and loads across joints", &headings, numbers, rows)];
     if !collected.header.columns.iter().any(|column| column.quantity.is_load()) {
         let text = "Loads across joints and mounts are recorded where output.columns lists \
                     `loads` or a device's `name.loads`.";

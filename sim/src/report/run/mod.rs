@@ -15,3 +15,4 @@ mod slow_motion;
 mod stage;
 pub(super) mod summary;
 pub(super) mod tables;
+mod wraps;

@@ -13,14 +13,21 @@ use crate::record::Header;
 use crate::record::columns::Quantity;
 use crate::report::data::{doubles, singles};
 use crate::scenario::Scenario;
+use crate::scenario::mass::momentum_size;
 
 /// Most frames of the run.
 const FRAMES_MAX: usize = 600;
 /// Bytes of a page for them.
 const FRAMES_BYTES: usize = 110_000;
 
+/// A momentum below this share of the sum of those of hub and joints at the start is rounding: drawn as zero. Runs end with
+/// 1e-12 of the sum.
+const RESIDUE: f64 = 1e-9;
+
 /// Time, quaternion (4), angular velocity (3), angular momentum (3), coordinates, rates.
 pub(in crate::report) type Frame = Vec<f64>;
+/// Where in a frame the angular momentum is.
+const MOMENTUM: std::ops::Range<usize> = 8..11;
 /// Where in a frame the coordinates start.
 pub(in crate::report) const COORDINATES: usize = 11;
 
@@ -36,6 +43,8 @@ pub(in crate::report) struct Collector {
     samples: u64,
     last: Frame,
     turns: Turns,
+    /// A smaller angular momentum is drawn as zero, N m s.
+    residue: f64,
 }
 
 /// The columns of a frame's numbers.
@@ -92,6 +101,7 @@ impl Collector {
             stride: 1,
             samples: 0,
             last: Frame::new(),
+            residue: RESIDUE * momentum_size(scenario).unwrap_or(0.0),
         })
     }
 
@@ -126,9 +136,16 @@ impl Collector {
         if frames.len() < 2 || !frames.iter().flatten().all(|number| number.is_finite()) {
             return None;
         }
-        let mut windows = vec![Window::from_frames("whole run".to_owned(), &frames, 1.0)];
+        let is_residue = frames.iter().all(|frame| momentum_of(frame) < self.residue);
+        let window = |label: String, mut frames: Vec<Frame>, magnify: f64| {
+            if is_residue {
+                frames.iter_mut().for_each(|frame| frame[MOMENTUM].fill(0.0));
+            }
+            Window::from_frames(label, &frames, magnify)
+        };
+        let mut windows = vec![window("whole run".to_owned(), frames.clone(), 1.0)];
         if let Some((label, frames, magnify)) = self.turns.window() {
-            windows.push(Window::from_frames(label, &frames, magnify));
+            windows.push(window(label, frames, magnify));
         }
         let step = frames.windows(2).map(|pair| {
             let size = |frame: &Frame| frame[5..8].iter().map(|w| w * w).sum::<f64>().sqrt();
@@ -141,6 +158,11 @@ impl Collector {
             step: step.fold(0.0, f64::max),
         })
     }
+}
+
+/// Magnitude of the angular momentum of a frame.
+fn momentum_of(frame: &[f64]) -> f64 {
+    frame[MOMENTUM].iter().map(|of| of * of).sum::<f64>().sqrt()
 }
 
 impl Sources {

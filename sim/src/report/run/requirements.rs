@@ -1,10 +1,13 @@
 //! The requirements of a scenario: what was reached, and what the limit is.
 
-use crate::pointing::Index;
+use crate::pointing::{Index, Margin};
 use crate::record::Verdict;
 use crate::report::blocks::{Block, table};
 use crate::report::{Report, number, row_state};
 use crate::scenario::Statistic;
+
+/// From so many times the limit on, a margin is stated as such: -60013 % is read as a fault.
+const TIMES_MAX: f64 = 10.0;
 
 /// The table; empty where the scenario states no requirements.
 pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
@@ -72,13 +75,21 @@ fn limit(verdict: &Verdict) -> String {
 
 /// What is left of the limit, and limit by value in decibels.
 fn margin(verdict: &Verdict) -> String {
-    let Some(margin) = verdict.margin() else { return "–".to_owned() };
-    let percent = number::short(margin.percent(), 3);
+    verdict.margin().map_or_else(|| "–".to_owned(), shown_margin)
+}
+
+fn shown_margin(margin: Margin) -> String {
+    let times = margin.value / margin.limit;
+    let left = if times.is_finite() && times > TIMES_MAX {
+        format!("{} times the limit", number::short(times, 3))
+    } else {
+        format!("{} %", number::short(margin.percent(), 3))
+    };
     let decibels = margin.decibels();
     if !decibels.is_finite() {
-        return format!("{percent} %");
+        return left;
     }
-    format!("{percent} %, {} dB", number::short(decibels, 3))
+    format!("{left}, {} dB", number::short(decibels, 3))
 }
 
 fn statistic(statistic: Statistic) -> String {
@@ -112,4 +123,19 @@ fn statistic(statistic: Statistic) -> String {
 
 fn exposures(time: f64) -> String {
     format!("exposures of {} s", number::short(time, 6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Margin, shown_margin};
+
+    #[test]
+    fn far_above_the_limit_a_margin_is_a_multiple_of_it() {
+        let of = |value: f64, limit: f64| shown_margin(Margin { value, limit });
+        assert_eq!(of(0.5, 1.0), "50 %, 6.02 dB");
+        assert_eq!(of(1.5, 1.0), "−50 %, −3.52 dB");
+        assert_eq!(of(601.13, 1.0), "601 times the limit, −55.6 dB");
+        assert_eq!(of(0.0, 1.0), "100 %");
+        assert_eq!(of(1.0, 0.0), "−inf %");
+    }
 }
