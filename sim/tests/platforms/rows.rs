@@ -274,3 +274,58 @@ fn errors_of_rows_name_the_row_and_the_bound() {
         assert!(count == 1 && !shown.contains("`c`"), "{shown}");
     }
 }
+
+/// A panel by its cantilevered mode, by itself and with a wheel that is held on it; a slosh mass.
+#[test]
+fn corner_frequencies_are_those_of_what_is_outboard_of_a_joint() {
+    let text = r#"format = 1
+[hub]
+mass = "180 kg"
+inertia = "40, 35, 30 kg m^2"
+[[device]]
+name = "panel"
+kind = "hinged_panel"
+panel = { mass = "8 kg", centre_of_mass = "0.3, 1, 0.2 m", inertia = "2.7, 0.6, 2.8 kg m^2", corner_frequency = "0.4 Hz", damping_ratio = 0.005, angle = "20 deg" }
+[[device]]
+name = "bare"
+copy_of = "panel"
+position = "0, 1, 0 m"
+[[device]]
+name = "rw"
+kind = "reaction_wheel"
+on = "panel"
+position = "0.4, 0.1, 0.7 m"
+wheel = { mass = "3 kg", inertia = "0.01, 0.01, 0.01 kg m^2", rate = "120 rad/s" }
+[[device]]
+name = "tank"
+kind = "slosh_mass"
+slosh_mass = { mass = "10 kg", corner_frequency = "0.5 Hz", damping_ratio = 0.01, displacement = "1 cm" }
+[run]
+duration = "0.05 s"
+"#;
+    let scenario = read(text);
+    let axis = precess_dynamics::BuiltInKind::HingedPanel.joints()[0].axis;
+    let about =
+        |mass: f64, r: [f64; 3]| mass * (r.iter().map(|x| x * x).sum::<f64>() - r[axis] * r[axis]);
+    let bare = [2.7, 0.6, 2.8][axis] + about(8.0, [0.3, 1.0, 0.2]);
+    let with_wheel = bare + 0.01 + about(3.0, [0.4, 0.1, 0.7]);
+    for (name, size, hertz, ratio) in
+        [("bare", bare, 0.4, 0.005), ("panel", with_wheel, 0.4, 0.005), ("tank", 10.0, 0.5, 0.01)]
+    {
+        let mut members = scenario.members();
+        let (_, member) = members.find(|(known, _)| *known == name).expect("a member");
+        let spring = member.passive()[0];
+        let omega = std::f64::consts::TAU * hertz;
+        let expected = [size * omega * omega, 2.0 * ratio * size * omega];
+        for (found, expected) in [spring.stiffness, spring.viscous].into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{name}: {found} {expected}");
+        }
+    }
+    // What is written is the spring.
+    let written = to_toml(&scenario);
+    assert!(!written.contains("corner_frequency"), "{written}");
+    assert_eq!(to_toml(&read(&written)), written);
+    let both = text.replace("damping_ratio = 0.005", "stiffness = \"3 N m/rad\"");
+    let shown = errors(&both);
+    assert!(shown.contains("`stiffness` and `corner_frequency`"), "{shown}");
+}

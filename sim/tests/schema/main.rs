@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 49] = [
+const OTHERS: [&str; 50] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -84,6 +84,8 @@ const OTHERS: [&str; 49] = [
      [[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\" }",
     "[[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\", coulomb = \"1 mN\", \
      static_friction = \"2 mN\", stribeck_rate = \"1 mm/s\", quadratic_drag = \"3 N s^2/m^2\" }",
+    "[[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\n\
+     slosh_mass = { mass = \"1 kg\", corner_frequency = \"0.5 Hz\", damping_ratio = 0.01 }",
     "[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\"\n\
      mount = { axis = [0, 0, 1], angle = \"30 deg\" }\n[platform.coupled]\n\
      rest_turns = \"0, 0, 1 mrad\"\n\

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::Passive;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 
+use super::corner::{Corner, corner};
 use super::friction::friction;
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
@@ -18,6 +19,8 @@ use crate::units::{Measure, Plain};
 pub(in crate::file::read) struct Body {
     pub(in crate::file::read) parameters: BodyParameters<f64>,
     pub(in crate::file::read) joint: Joint,
+    /// What gives the spring of the joint instead of its stiffness.
+    pub(super) corner: Option<Corner>,
 }
 
 /// What the keys of a joint say.
@@ -66,6 +69,11 @@ pub(in crate::file::read) fn body(
         (Some(0.0), Vector3::zeros())
     };
     let inertia = if needs.inertia { inertia(keys) } else { Some(Matrix3::zeros()) };
+    let corner = corner(keys);
+    if !needs.joint.driven && keys.has("corner_frequency") {
+        let message = "the kind keeps the rate of the joint: no `corner_frequency`";
+        keys.error("corner_frequency", message, "remove it");
+    }
     let origin = needs.origin.then(|| keys.vector("origin", Measure::LENGTH)).flatten();
     let joint = joint(keys, needs.joint, &measures, folder);
     keys.finish();
@@ -75,7 +83,7 @@ pub(in crate::file::read) fn body(
         centre: centre.into(),
         inertia: inertia?,
     };
-    Some(Body { parameters, joint: joint? })
+    Some(Body { parameters, joint: joint?, corner: corner? })
 }
 
 /// The keys of a joint; what is wrong has been reported.

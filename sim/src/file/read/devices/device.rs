@@ -9,6 +9,7 @@ use precess_dynamics::{BuiltIn, BuiltInKind, Parameter, Platform, Suspension};
 
 use super::body::Joint;
 use super::copies::{help_of_copy, original, with_original};
+use super::corner::Corner;
 use super::device_bodies::DeviceBodies;
 use super::layout::{MountedPosition, layout, turned};
 use super::layout_members::members;
@@ -45,6 +46,8 @@ pub(in crate::file::read) struct Device {
     pub(in crate::file::read) drives: Vec<Drive>,
     pub(in crate::file::read) stops: Vec<Option<([f64; 2], StopAction)>>,
     pub(in crate::file::read) friction: Vec<Option<JointFriction>>,
+    /// Of each joint of a device what gives its spring; empty of a platform.
+    pub(super) corners: Vec<Option<Corner>>,
 }
 
 impl Device {
@@ -68,6 +71,7 @@ impl Device {
             drives: joints.iter().map(|joint| joint.drive.clone()).collect(),
             stops: joints.iter().map(|joint| joint.stop).collect(),
             friction: joints.iter().map(|joint| joint.friction).collect(),
+            corners: Vec::new(),
         }
     }
 
@@ -248,11 +252,7 @@ fn device(
             return None;
         }
     };
-    Some(Device::new(
-        name,
-        DeviceOrPlatform::BuiltIn(Box::new(device)),
-        mount.turns.clone(),
-        "hub",
-        &bodies.joints,
-    ))
+    let of = DeviceOrPlatform::BuiltIn(Box::new(device));
+    let device = Device::new(name, of, mount.turns.clone(), "hub", &bodies.joints);
+    Some(Device { corners: bodies.corners.clone(), ..device })
 }

@@ -7,6 +7,7 @@ use precess_dynamics::kind::{BodyParameters, ImbalanceModel, JointInfo, no_inert
 use precess_dynamics::{BuiltInKind, DeviceParameters, Imbalance, MAX_JOINTS, Passive};
 
 use super::body::{Body, BodyRequirements, Joint, body};
+use super::corner::Corner;
 use crate::file::document::Node;
 use crate::file::keys::Keys;
 use crate::scenario::body_key;
@@ -16,6 +17,8 @@ use crate::units::Measure;
 pub(super) struct DeviceBodies {
     pub(super) parameters: DeviceParameters,
     pub(super) joints: Vec<Joint>,
+    /// Of each joint.
+    pub(super) corners: Vec<Option<Corner>>,
 }
 
 impl DeviceBodies {
@@ -43,7 +46,8 @@ impl DeviceBodies {
         let bodies: Vec<Option<Body>> = kind.joints().iter().map(one).collect();
         let bodies = bodies.into_iter().collect::<Option<Vec<_>>>()?;
         let parameters = parameters(keys, &bodies, imbalance.as_ref(), model)?;
-        Some(Self { parameters, joints: bodies.into_iter().map(|body| body.joint).collect() })
+        let (joints, corners) = bodies.into_iter().map(|body| (body.joint, body.corner)).unzip();
+        Some(Self { parameters, joints, corners })
     }
 
     /// Of a member of a layout, whose own keys are over those of the layout.

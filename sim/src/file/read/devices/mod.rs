@@ -3,6 +3,7 @@
 pub(super) mod arrangement;
 pub(in crate::file) mod body;
 mod copies;
+mod corner;
 pub(super) mod device;
 pub(super) mod device_bodies;
 mod friction;

@@ -11,7 +11,6 @@
 //! with m their mass for a slide, and for a turn their moment of inertia about that axis through P,
 //! in the platform's axes.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
@@ -20,6 +19,7 @@ use precess_dynamics::{About, Hub, JointStates, Passive, Platform, State, platfo
 
 use super::arrangement::{arranged, standing_on};
 use super::body::{Joint, joint, mass};
+use super::corner::{Corner, corner, springs_of_devices};
 use super::device::{Device, DeviceOrPlatform, nodes, none_of_its_own};
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
@@ -30,14 +30,7 @@ use crate::file::read::structure::Structure;
 use crate::file::read::values::mount::rotation_of;
 use crate::file::read::values::turns::Mount;
 use crate::scenario::{Set, joint_key};
-use crate::units::{Measure, Plain};
-
-/// What a joint's spring is given by.
-struct Corner {
-    /// Hz.
-    frequency: f64,
-    ratio: f64,
-}
+use crate::units::Measure;
 
 /// Those of the joints of a platform, in order.
 type Corners = Vec<Option<Corner>>;
@@ -57,6 +50,7 @@ pub(in crate::file::read) fn with_platforms(
         platforms.push(platform);
     }
     let mut arranged = arranged(keys, devices, platforms, &tables);
+    springs_of_devices(keys, &mut arranged);
     for (keys, name, corners) in corners {
         spring(keys, &mut arranged, &name, &corners);
     }
@@ -130,10 +124,8 @@ fn spring(keys: &Keys<'_>, arranged: &mut [Device], name: &str, corners: &[Optio
         return;
     };
     for ((passive, corner), size) in of.0.passive.values_mut().zip(corners).zip(sizes) {
-        if let Some(Corner { frequency, ratio }) = corner {
-            let omega = TAU * frequency;
-            passive.stiffness = size * omega * omega;
-            passive.viscous = 2.0 * ratio * size * omega;
+        if let Some(corner) = corner {
+            corner.act(passive, size);
         }
     }
 }
@@ -165,38 +157,6 @@ fn of_joint(
     let found = joint(&table, info, &JointMeasures::of_joint(info), folder);
     table.finish();
     Some((found?, corner?))
-}
-
-/// `corner_frequency` and `damping_ratio`; nothing where they are wrong, which has been reported.
-#[expect(clippy::option_option, reason = "wrong, none, some")]
-fn corner(keys: &Keys<'_>) -> Option<Option<Corner>> {
-    let frequency = keys.quantity("corner_frequency", Measure::FREQUENCY);
-    let ratio = keys.number("damping_ratio");
-    if !keys.has("corner_frequency") {
-        if keys.has("damping_ratio") {
-            let message = "a damping ratio is of a corner frequency";
-            keys.error("damping_ratio", message, "give `corner_frequency`, or `damping` instead");
-            return None;
-        }
-        return Some(None);
-    }
-    for (key, other) in [("stiffness", "corner_frequency"), ("damping", "damping_ratio")] {
-        if keys.has(key) {
-            let message = format!("`{}` has `{key}` and `corner_frequency`", keys.path());
-            let help = format!("keep `{key}`, or `corner_frequency` with `damping_ratio`");
-            keys.error(if keys.has(other) { other } else { "corner_frequency" }, message, &help);
-            return None;
-        }
-    }
-    let (frequency, ratio) = (frequency?, ratio.unwrap_or(0.0));
-    for (key, value) in [("corner_frequency", frequency), ("damping_ratio", ratio)] {
-        if !(value >= 0.0 && value.is_finite()) {
-            let message = format!("`{}.{key}` is {}", keys.path(), Plain(value));
-            keys.error(key, message, "it is not negative");
-            return None;
-        }
-    }
-    Some(Some(Corner { frequency, ratio }))
 }
 
 /// Whether the solver rejects a platform or what stands on it.
