@@ -290,7 +290,8 @@ fn polynomials(u: f64, [plus, minus, twice]: [&Derivatives; 3]) -> [Derivatives;
 fn is_rounding(load: &DVector<Complex<f64>>, mass: &DMatrix<f64>) -> bool {
     let inertia = (3..COORDINATES).map(|k| mass[(k, k)]).fold(0.0, f64::max);
     let small = |(k, value): (usize, &Complex<f64>)| {
-        value.norm() <= HARMONIC_MIN * (mass[(k, k)].abs() * inertia).sqrt()
+        let own = mass.get((k, k)).copied().unwrap_or(0.0);
+        value.norm() <= HARMONIC_MIN * (own.abs() * inertia).sqrt()
     };
     load.iter().enumerate().all(small)
 }

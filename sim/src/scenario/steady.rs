@@ -43,7 +43,8 @@ impl SteadyJoints {
             if rate != 0.0 && !spins {
                 joints.stopped.push((format!("{name}, {}", info.rate), rate));
             }
-            let is_driven = matches!(drive, Drive::Torque { .. });
+            // What its kind keeps at its rate has no motor torque, whatever drives it.
+            let is_driven = info.driven && matches!(drive, Drive::Torque { .. });
             joints.motors.push(match motor {
                 _ if !is_driven => Motor::ConstantRate,
                 Motor::ConstantTorque if spins => Motor::ConstantTorque,

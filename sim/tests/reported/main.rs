@@ -11,6 +11,7 @@ mod motions;
 mod names;
 mod orbits;
 mod requirements;
+mod rotors;
 mod tables;
 mod units;
 

@@ -11,6 +11,7 @@ use crate::file::keys::Keys;
 use crate::file::read::devices::body::drive;
 use crate::file::read::devices::joint_measures::JointMeasures;
 use crate::file::read::devices::joints::Joints;
+use crate::file::read::devices::kept_rate::reject_brake;
 use crate::file::read::values::drive::profile;
 use crate::scenario::{
     Action, AppliedWrench, BodyPoint, Change, Profile, Settings, Target, WrenchAxes,
@@ -53,6 +54,9 @@ fn change(keys: &Keys<'_>, joints: &Joints, duration: f64, folder: &Path) -> Opt
         let message = "a brake locks the joint, and a controller moves it";
         keys.error("controlled", message, "keep one of them");
         return None;
+    }
+    if brake && !info.driven {
+        reject_brake(keys);
     }
     let action = match (brake, given) {
         (true, None) => Action::Brake,

@@ -8,6 +8,7 @@ use super::corner::{Corner, corner};
 use super::friction::friction;
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
+use super::kept_rate::{reject_drives, reject_motion, reject_spring};
 use super::motion::{motion, only_motion};
 use super::motor_limits::{motor_limits, starts_within};
 use crate::file::keys::Keys;
@@ -98,6 +99,10 @@ pub(in crate::file::read) fn joint(
     let (state, motion) = motion(keys, joint, measures, folder);
     let drive = drive(keys, joint, measures, folder);
     let drive = match motion {
+        Some((key, _)) if !joint.driven => {
+            reject_motion(keys, key);
+            drive
+        }
         Some((key, motion)) => {
             only_motion(keys, key);
             motion.map(Drive::Acceleration)
@@ -108,6 +113,9 @@ pub(in crate::file::read) fn joint(
         starts_within(keys, joint, measures, [state[1], limit]);
     }
     let stop = stop(keys, measures, state[0]);
+    if !joint.driven {
+        reject_spring(keys, &passive, stop);
+    }
     Some(Joint { passive, friction, state, drive: drive?, stop })
 }
 
@@ -163,14 +171,17 @@ pub(in crate::file::read) fn drive(
         .map(|node| profile(keys, "acceleration", node, measures.acceleration, folder));
     let profile_of_torque =
         keys.node(torque).map(|node| profile(keys, torque, node, measures.torque, folder));
+    if !joint.driven {
+        reject_drives(keys, torque, acceleration.flatten().as_ref(), locked);
+        return Some(Drive::Acceleration(Profile::ZERO));
+    }
     if locked {
         return Some(Drive::Locked);
     }
     match (acceleration, profile_of_torque) {
         (Some(profile), _) => profile.map(Drive::Acceleration),
         (None, Some(profile)) => profile.map(|profile| Drive::Torque { profile, limit }),
-        (None, None) if joint.driven => Some(Drive::Torque { profile: Profile::ZERO, limit }),
-        (None, None) => Some(Drive::Acceleration(Profile::ZERO)),
+        (None, None) => Some(Drive::Torque { profile: Profile::ZERO, limit }),
     }
 }
 

@@ -11,6 +11,7 @@ pub(in crate::file) mod inertia;
 pub(super) mod initial;
 pub(super) mod joint_measures;
 pub(super) mod joints;
+pub(super) mod kept_rate;
 mod layout;
 mod layout_members;
 mod motion;

@@ -1,0 +1,81 @@
+//! Rotors in steady spin: rates that their kind keeps, settled starts, budgets over their speed.
+
+use std::fs;
+use std::path::Path;
+
+use super::{CommandResult, folder, precess};
+
+/// The examples of `new`, written into a folder.
+fn examples(name: &str, all: &[&str]) -> std::path::PathBuf {
+    let folder = folder(name);
+    for of in all {
+        let text = precess(&["new", of]).out;
+        fs::write(folder.join(format!("{of}.toml")), text).expect("it is written");
+    }
+    folder
+}
+
+/// A command about a file of a folder, with overrides.
+fn with(command: &str, folder: &Path, file: &str, overrides: &[&str]) -> CommandResult {
+    let path = folder.join(file);
+    let mut arguments = vec![command, path.to_str().expect("text")];
+    let out = folder.join("out");
+    if command != "check" {
+        arguments.extend(["--force", "--out", out.to_str().expect("text")]);
+    }
+    arguments.extend(overrides.iter().flat_map(|of| ["--set", of]));
+    precess(&arguments)
+}
+
+#[track_caller]
+fn shows(ended: &CommandResult, code: i32, parts: &[&str]) {
+    let text = format!("{}{}", ended.out, ended.error);
+    assert_eq!(ended.code, Some(code), "{text}");
+    for part in parts {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+const GYROS: [(&str, &str); 5] = [
+    ("gyros", "cmg"),
+    ("sgcmg", "cmg1"),
+    ("dgcmg", "cmg1"),
+    ("balanced_sgcmg", "cmg1"),
+    ("balanced_dgcmg", "cmg1"),
+];
+
+/// `check` panicked on a torque; a lock and a motion it passed, which `run` refused without a line; a spring it took.
+#[test]
+fn what_a_wheel_at_the_rate_of_its_kind_does_not_have_is_an_error_with_its_place() {
+    let all = GYROS.map(|(template, _)| template);
+    let folder = examples("kept_rates", &all);
+    for (template, device) in GYROS {
+        for settled in ["true", "false"] {
+            let torque = format!("device.{device}.wheel.torque=0.1 N m");
+            let settled = format!("initial.settled={settled}");
+            let ended = with("check", &folder, &format!("{template}.toml"), &[&torque, &settled]);
+            let key = format!("--set device.{device}.wheel.torque");
+            shows(&ended, 1, &["the kind keeps the rate of the joint: no `torque`", &key]);
+        }
+    }
+    for (key, value, named) in [
+        ("torque", "0 N m", "no `torque`"),
+        ("locked", "true", "no `locked`"),
+        ("acceleration", "1 rad/s^2", "no `acceleration`"),
+        ("stiffness", "1 N m/rad", "no `stiffness`"),
+        ("at_stop", "lock", "no `at_stop`"),
+        ("rate", "{ ramp = \"0, 1 rad/s\", from = \"0 s\", to = \"1 s\" }", "`rate` is no profile"),
+    ] {
+        let one = format!("device.cmg1.wheel.{key}={value}");
+        let stop = "device.cmg1.wheel.upper_stop=1 rev";
+        let ended = with("check", &folder, "gyros.toml", &[&one, stop]);
+        shows(&ended, 1, &[named, &format!("--set device.cmg1.wheel.{key}")]);
+    }
+    // What changes nothing is taken, as a written scenario has it.
+    let zero = ["device.cmg1.wheel.acceleration=0 rad/s^2", "device.cmg1.wheel.locked=false"];
+    shows(&with("check", &folder, "gyros.toml", &zero), 0, &[]);
+    let text = fs::read_to_string(folder.join("gyros.toml")).expect("it is there");
+    let brake = "\n[[at]]\ntime = \"1 s\"\njoint = \"cmg1.wheel\"\nbrake = true\n";
+    fs::write(folder.join("brake.toml"), text + brake).expect("it is written");
+    shows(&with("check", &folder, "brake.toml", &[]), 1, &["no `brake`", "brake.toml:"]);
+}
