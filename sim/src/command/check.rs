@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, Passive, units};
+use precess_dynamics::{About, BuiltIn, Imbalance, Passive, units};
 
 use super::error::CommandError;
 use super::exit::Exit;
@@ -155,7 +155,7 @@ fn unsolvable(scenario: &Scenario) -> Option<String> {
 
 /// A row for each joint.
 fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
-    let mut states = scenario.initial.devices.states();
+    let mut states = scenario.mean_joints();
     let mut drives = scenario.drives.iter();
     let mut inertias = matrix.into_iter().flat_map(|matrix| &matrix.joints);
     let heads = [

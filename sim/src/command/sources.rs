@@ -1,7 +1,5 @@
 //! The sources of a scenario as rows of `check`: what each acts on, and what it exerts.
 
-use precess_dynamics::JointStates as _;
-
 use super::table::{aligned, six};
 use crate::disturbance::{Broadband, Disturbance, Model, SourceTarget};
 use crate::scenario::{Scenario, joint_key};
@@ -42,7 +40,7 @@ fn joint_name(scenario: &Scenario, joint: usize) -> String {
 }
 
 fn exerts(scenario: &Scenario, of: &Disturbance) -> String {
-    let rate = of.wheel.and_then(|wheel| scenario.initial.devices.states().nth(wheel));
+    let rate = of.wheel.and_then(|wheel| scenario.mean_joints().nth(wheel));
     match &of.model {
         Model::Harmonic(tones) => {
             let [_, rate] = rate.unwrap_or_default();

@@ -137,6 +137,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
     let rate = SAMPLES * fastest / turn;
     let window = wanted.min(LONGEST).min(SAMPLES_MAX / rate);
     let mut run = scenario.clone();
+    run.start_in_mean();
     steady_spin(&mut run, scenario, &model, &steady, speed)?;
     add_vibration(&mut run, &model, speed)?;
     run.settings.duration = window;

@@ -17,8 +17,8 @@ use crate::scenario::Scenario;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::{COORDINATES, Fault};
 
-/// Adds the vibration of the rotors at their initial rates to the initial state. Returns the sources that it has not, each
-/// with the reason.
+/// Adds the vibration of the rotors at their initial rates to the initial state, and keeps the state without it as the mean.
+/// Returns the sources that it has not, each with the reason.
 ///
 /// # Errors
 /// Those of [`Model::new`]; [`Fault::Unbounded`] where a tone is at a resonance without damping.
@@ -30,6 +30,7 @@ pub fn settle(scenario: &mut Scenario) -> Result<Vec<String>, Fault> {
     let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: None };
     let mut model = Model::new(scenario, &[], &steady)?;
     let left_out = model.add_sources(scenario)?;
+    scenario.mean = Some(scenario.present_mean());
     add_vibration(scenario, &model, 0.0)?;
     Ok(left_out)
 }

@@ -6,7 +6,6 @@
 //! `theta_0 + Omega t` is `Re(-i exp(i (phi + h theta_0)) C Omega^2 exp(i h Omega t))`.
 
 use nalgebra::{Complex, Vector3};
-use precess_dynamics::JointStates;
 
 use super::model::Model;
 use crate::disturbance::{
@@ -124,7 +123,7 @@ impl Model {
         if *own != mount {
             return Ok(Some("its wheel stands on another mount"));
         }
-        let angle = scenario.initial.devices.states().nth(joint).map_or(0.0, |[angle, _]| angle);
+        let angle = scenario.mean_joints().nth(joint).map_or(0.0, |[angle, _]| angle);
         let backwards = device.rotors.get(rotor).is_some_and(|rotor| rotor.rate(1.0) < 0.0);
         for tone in tones {
             let mut force = [Complex::new(0.0, 0.0); COORDINATES];

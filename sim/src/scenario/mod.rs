@@ -15,6 +15,7 @@ mod description;
 mod disturbances;
 mod friction;
 pub mod mass;
+mod mean;
 mod member;
 mod motor;
 mod orbital_frame;
@@ -43,6 +44,7 @@ pub(crate) use controller::{COMMANDED_MAX, steered};
 pub use description::UndescribedError;
 pub use friction::{DryFriction, JointFriction};
 pub use mass::{MassMatrix, MassProperties};
+pub use mean::MeanState;
 pub use member::{Member, Set, members, set_of};
 pub(crate) use member::{body_key, joint_key, with_device};
 pub use motor::MotorLimits;
@@ -84,6 +86,8 @@ pub struct Scenario {
     pub structure: Option<ModalStructure>,
     /// Initial state.
     pub initial: State<Set>,
+    /// The state about which a settled run vibrates; none where it starts in `initial` without more.
+    pub mean: Option<MeanState>,
     /// The attitude that the columns `rotation` are from.
     pub reference: Quaternion,
     /// Mode of the hub.

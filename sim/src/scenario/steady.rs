@@ -1,8 +1,6 @@
 //! Devices of a scenario in steady spin: which joints turn, which are free, which are held, for small motions
 //! about it.
 
-use precess_dynamics::JointStates;
-
 use super::{Drive, Member, Scenario, members};
 use crate::structure::dynamic_mass::Motor;
 
@@ -20,14 +18,15 @@ pub struct SteadyJoints {
 }
 
 impl SteadyJoints {
-    /// Of the devices and platforms of a scenario with these numbers, at their initial coordinates.
+    /// Of the devices and platforms of a scenario with these numbers, at their initial coordinates: of a settled run those of
+    /// its mean motion.
     ///
     /// The last joint of a device spins, with its initial rate and the motor that is stated. Of the others, those with
     /// a spring are free if `sprung`; all others, and all that the scenario locks or prescribes, are held.
     #[must_use]
     pub fn new(scenario: &Scenario, chosen: &[usize], motor: Motor, sprung: bool) -> Self {
         let (mut joints, members) = (Self::default(), members(&scenario.devices));
-        let states = scenario.initial.devices.states().zip(&scenario.drives);
+        let states = scenario.mean_joints().zip(&scenario.drives);
         for ((device, name, info), ([coordinate, rate], drive)) in scenario.joints().zip(states) {
             if !chosen.contains(&device) {
                 continue;

@@ -79,3 +79,21 @@ fn what_a_wheel_at_the_rate_of_its_kind_does_not_have_is_an_error_with_its_place
     fs::write(folder.join("brake.toml"), text + brake).expect("it is written");
     shows(&with("check", &folder, "brake.toml", &[]), 1, &["no `brake`", "brake.toml:"]);
 }
+
+/// Wheels of a settled scenario had other speeds than those of its file, so that their tones no longer added.
+#[test]
+fn a_budget_of_a_settled_scenario_is_that_of_its_file() {
+    let folder = examples("settled_budget", &["wheels", "budget"]);
+    let same = ["device.wheel*.wheel.rate=6000 rpm", "budget.speed.rotors=[\"wheel1.wheel\"]"];
+    let of = |settled: &str| {
+        let settled = format!("initial.settled={settled}");
+        let ended = with("jitter", &folder, "budget.toml", &[same[0], same[1], &settled]);
+        shows(&ended, 0, &["coupled run at 6000 rpm", "within 1 % off resonance"]);
+        let lines = folder.join("out/budget-lines.csv");
+        (ended.out, fs::read_to_string(lines).expect("the lines"))
+    };
+    assert_eq!(of("true"), of("false"));
+    let ended = with("check", &folder, "wheels.toml", &same[..1]);
+    shows(&ended, 0, &[" 6000 rpm "]);
+    assert!(!ended.out.contains("5999."), "{}", ended.out);
+}

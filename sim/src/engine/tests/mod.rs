@@ -74,6 +74,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
             devices: Default::default(),
             modal: (),
         },
+        mean: None,
         reference: Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 },
         devices,
         hub_mode: HubMode::Free,

@@ -236,6 +236,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         structure,
         mounts: devices.into_iter().map(|device| device.turns).collect(),
         initial,
+        mean: None,
         reference,
         hub_mode,
         gravity,

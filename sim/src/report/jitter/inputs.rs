@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use precess_dynamics::kind::{BodyParameters, JointInfo};
-use precess_dynamics::{Imbalance, JointStates, units};
+use precess_dynamics::{Imbalance, units};
 
 use super::super::blocks::{Block, table};
 use super::super::number::short;
@@ -75,7 +75,7 @@ impl JitterReport<'_> {
         &self,
     ) -> impl Iterator<Item = (usize, &str, Member<'_>, &'static JointInfo, BodyParameters<f64>, [f64; 2])>
     {
-        let mut states = self.scenario.initial.devices.states();
+        let mut states = self.scenario.mean_joints();
         let members = self.scenario.members();
         let joints = members.flat_map(|(name, member)| {
             let bodies = member.bodies().into_iter();
