@@ -24,7 +24,9 @@ use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
 use crate::names::column_heads;
 use crate::pointing::RequirementState;
-use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
+use crate::report::jitter::{
+    AGREEMENT, JitterReport, disagreements, intervals, metric, rpm, worst_speed,
+};
 use crate::scenario::Scenario;
 
 pub(super) const HELP: &str = "\
@@ -128,6 +130,10 @@ impl Jitter {
             note(&format!("warning: {warning}"));
         }
         let found = self.find(&scenario, &budget, prepared)?;
+        for text in disagreements(&found.compared) {
+            note(&format!("warning: {text}"));
+            warnings.push(text);
+        }
         let mut text = std::fs::read_to_string(&self.file)
             .map_err(|source| CommandError::Io { path: self.file.clone(), source })?;
         for set in &self.set {
@@ -273,7 +279,7 @@ fn summary(budget: &Budget, found: &JitterResults) -> String {
             format!("{} {unit}", six(of.margin.value / size)),
             format!("{} {unit}", six(of.limit.limit / size)),
             format!("{:.1}", of.margin.decibels()),
-            found.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
+            worst_speed(&found.sweep.speeds, of.worst, of.is_flat()),
             intervals(&of.keep_out),
         ]);
     }

@@ -10,6 +10,8 @@ use super::weight::Weight;
 use crate::pointing::{Limit, LineOfSight, Margin, NoData, PointingError, RequirementState};
 use crate::structure::dynamic_mass::Motor;
 
+/// A metric that varies over the speed by less than this part of it is the same at every speed: it varies by rounding.
+const VARIATION_MIN: f64 = 1e-9;
 /// A smaller share of a mean square is left out.
 const SHARE_MIN: f64 = 1e-9;
 
@@ -77,6 +79,8 @@ pub struct ByPhases {
     pub phases: Phases,
     /// The number of the speed at which the metric is largest.
     pub worst: usize,
+    /// Whether it is the same at every speed, but for rounding.
+    pub is_flat: bool,
     /// The margin there.
     pub margin: Margin,
 }
@@ -90,6 +94,12 @@ impl ByPhases {
 }
 
 impl Assessed {
+    /// Whether the metric is the same at every speed, but for rounding.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.by_phases.first().is_some_and(|of| of.is_flat)
+    }
+
     /// What became of the limit, by the budget's assumption about phases.
     #[must_use]
     pub fn state(&self) -> RequirementState {
@@ -168,7 +178,12 @@ impl Budget {
                     let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
                     let worst = worst.unwrap_or(0);
                     let value = values.get(worst).copied().unwrap_or(f64::NAN);
-                    ByPhases { phases, worst, margin: Margin { value, limit: limit.limit } }
+                    ByPhases {
+                        phases,
+                        worst,
+                        is_flat: is_flat(values),
+                        margin: Margin { value, limit: limit.limit },
+                    }
                 };
                 let values = over_speed(self.phases);
                 let stated = largest(self.phases, &values);
@@ -199,6 +214,14 @@ impl Budget {
             })
             .collect()
     }
+}
+
+/// Whether values of several speeds are the same, but for rounding.
+#[must_use]
+pub fn is_flat(values: &[f64]) -> bool {
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    values.len() > 1 && most - least <= VARIATION_MIN * most
 }
 
 /// Outputs of a line of sight.

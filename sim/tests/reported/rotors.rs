@@ -97,3 +97,38 @@ fn a_budget_of_a_settled_scenario_is_that_of_its_file() {
     shows(&ended, 0, &[" 6000 rpm "]);
     assert!(!ended.out.contains("5999."), "{}", ended.out);
 }
+
+/// A run that contradicts the lines was in a table only.
+#[test]
+fn a_coupled_run_above_its_bound_is_in_the_summary() {
+    let folder = examples("contradicted", &["wheels", "budget"]);
+    // Rotors whose moments across the spin axis differ, on a hub that is light beside them.
+    let unequal = [
+        "hub.mass=5 kg",
+        "hub.inertia=0.1, 0.1, 0.1 kg m^2",
+        "device.wheel*.wheel.inertia=288, 130, 400 kg cm^2",
+    ];
+    let ended = with("jitter", &folder, "budget.toml", &unequal);
+    let found = "the coupled run differs from the lines by";
+    let text = format!("{}{}", ended.out, ended.error);
+    assert!(ended.error.contains(found) && ended.out.contains("above 1 %"), "{text}");
+    let page = fs::read_to_string(folder.join("out/budget.html")).expect("a report");
+    let at = page.find(found).expect("it is in the report");
+    assert!(at < page.find("id=\"requirements\"").expect("a section"), "it is in the summary");
+    let plain = with("jitter", &folder, "budget.toml", &[]);
+    assert!(!plain.error.contains(found), "{}", plain.error);
+}
+
+/// A speed at which the curve is largest by rounding was named as the worst one.
+#[test]
+fn a_curve_that_is_flat_has_no_worst_speed() {
+    let folder = examples("flat", &["wheels", "budget"]);
+    let ended = with("jitter", &folder, "budget.toml", &[]);
+    shows(&ended, 0, &["the same at every speed"]);
+    let band = [
+        "budget.requirement.stability.metric=displacement",
+        "budget.requirement.stability.exposure=20 ms",
+    ];
+    let ended = with("jitter", &folder, "budget.toml", &band);
+    assert!(!ended.out.contains("the same at every speed"), "{}", ended.out);
+}

@@ -23,6 +23,7 @@ use crate::jitter::sweep::Sweep;
 use crate::names::file_names;
 use crate::pointing::Metric;
 use crate::scenario::Scenario;
+pub(crate) use tables::disagreements;
 
 /// Revolutions per minute of one radian per second.
 pub(super) const RPM: f64 = 60.0 / TAU;
@@ -56,6 +57,14 @@ pub(crate) struct JitterReport<'a> {
 /// A speed in rpm.
 pub(crate) fn rpm(speed: f64) -> String {
     format!("{} rpm", short(speed * RPM, 5))
+}
+
+/// The speed at which a metric is largest, in words.
+pub(crate) fn worst_speed(speeds: &[f64], worst: usize, is_flat: bool) -> String {
+    if is_flat {
+        return "the same at every speed".to_owned();
+    }
+    speeds.get(worst).map_or_else(String::new, |speed| rpm(*speed))
 }
 
 /// What a metric is, in words.
@@ -141,7 +150,8 @@ impl JitterReport<'_> {
     fn summary(&self) -> Summary {
         let [from, to] = self.budget.speeds;
         let title = self.scenario.title.trim_end_matches('.');
-        let paragraphs = vec![format!("Spacecraft: {title}.")];
+        let mut paragraphs = vec![format!("Spacecraft: {title}.")];
+        paragraphs.extend(disagreements(self.compared));
         let rotors = if self.budget.swept.is_empty() {
             "all rotors".to_owned()
         } else {
@@ -180,9 +190,7 @@ impl JitterReport<'_> {
                 known(with_unit(of.margin.value / size, 4, unit)),
                 with_unit(of.limit.limit / size, 4, unit),
                 known(format!("{} dB", short(of.margin.decibels(), 3))),
-                known(
-                    self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
-                ),
+                known(worst_speed(&self.sweep.speeds, of.worst, of.is_flat())),
                 format!("{}, {sight}", metric(&of.limit.metric)),
                 known(intervals(&of.keep_out)),
             ];

@@ -2,8 +2,8 @@
 
 use super::super::blocks::{Block, table};
 use super::super::number::with_unit;
-use super::{JitterReport, rpm};
-use crate::jitter::budget::{Assessed, outputs_of};
+use super::{JitterReport, worst_speed};
+use crate::jitter::budget::{Assessed, is_flat, outputs_of};
 use crate::jitter::model::Line;
 use crate::jitter::weight::Weight;
 use crate::pointing::Metric;
@@ -34,16 +34,14 @@ impl JitterReport<'_> {
                 let (at, largest) =
                     all.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
                 let there = all.get(of.worst).copied()?;
-                let speed = |index: usize| {
-                    self.sweep.speeds.get(index).map_or_else(String::new, |speed| rpm(*speed))
-                };
+                let speed = |index, is_flat| worst_speed(&self.sweep.speeds, index, is_flat);
                 let cells = vec![
                     of.limit.name.clone(),
                     with_unit(of.margin.value / size, 4, unit),
                     with_unit(there / size, 4, unit),
-                    speed(of.worst),
+                    speed(of.worst, of.is_flat()),
                     with_unit(largest / size, 4, unit),
-                    speed(at),
+                    speed(at, is_flat(&all)),
                 ];
                 Some(("", cells))
             })

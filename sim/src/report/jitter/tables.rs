@@ -4,12 +4,36 @@ use super::super::blocks::{Block, table};
 use super::super::number::short;
 use super::{AGREEMENT, JitterReport, rpm};
 use crate::jitter::budget::Assessed;
+use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
 use crate::jitter::sweep::Phases;
 use crate::structure::dynamic_mass::Motor;
 
 /// Sensitivities that a table shows.
 const RANKED_MAX: usize = 12;
+
+/// What a run of the coupled equations may differ by, and where it is.
+fn bound(resonant: bool) -> (f64, &'static str) {
+    let [off, at] = AGREEMENT;
+    if resonant { (at, "at resonance") } else { (off, "off resonance") }
+}
+
+/// A sentence for each run of the coupled equations that differs by more than its bound.
+pub(crate) fn disagreements(compared: &[(Compared, bool)]) -> Vec<String> {
+    let one = |(of, resonant): &(Compared, bool)| {
+        let ((bound, place), difference) = (bound(*resonant), of.difference());
+        (difference > bound).then(|| {
+            format!(
+                "At {} the coupled run differs from the lines by {} %, above {} % {place}: the linear model does not hold \
+                 there, and a verdict by it is not confirmed.",
+                rpm(of.speed),
+                short(100.0 * difference, 3),
+                short(100.0 * bound, 2)
+            )
+        })
+    };
+    compared.iter().filter_map(one).collect()
+}
 
 impl JitterReport<'_> {
     pub(super) fn paths(&self) -> Vec<Block> {
@@ -21,10 +45,8 @@ impl JitterReport<'_> {
             };
             return vec![Block::Note { text: text.to_owned() }];
         }
-        let [off, at] = AGREEMENT;
         let rows = self.compared.iter().map(|(of, resonant)| {
-            let (bound, word) =
-                if *resonant { (at, "at resonance") } else { (off, "off resonance") };
+            let (bound, word) = bound(*resonant);
             let difference = of.difference();
             let state = if difference <= bound { "met" } else { "violated" };
             let cells = vec![

@@ -3,7 +3,7 @@
 use super::super::blocks::{Block, Verdict, table};
 use super::super::number::{short, with_unit};
 use super::super::row_state;
-use super::{JitterReport, intervals, rpm};
+use super::{JitterReport, intervals, worst_speed};
 use crate::jitter::budget::Assessed;
 use crate::jitter::sweep::Phases;
 
@@ -102,12 +102,7 @@ impl JitterReport<'_> {
                     known(with_unit(by.margin.value / size, 4, unit)),
                     with_unit(of.limit.limit / size, 4, unit),
                     known(format!("{} dB", short(by.margin.decibels(), 3))),
-                    known(
-                        self.sweep
-                            .speeds
-                            .get(by.worst)
-                            .map_or_else(String::new, |speed| rpm(*speed)),
-                    ),
+                    known(worst_speed(&self.sweep.speeds, by.worst, by.is_flat)),
                 ];
                 (row_state(&state), cells)
             })
