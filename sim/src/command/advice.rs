@@ -1,6 +1,6 @@
 //! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, or samples for a source, with
 //! what would do; where B is so far from the centre of mass that a central field about it is not enough; and where
-//! the start makes the hub drift.
+//! the start, or rotors of one speed, make the hub drift.
 //!
 //! ```text
 //! samples per turn = 2 pi rate / |omega|        at least 2, the sampling theorem
@@ -15,16 +15,17 @@
 //! torque of up to `2 n^2 m c^3 / R`, n the mean motion `sqrt(mu / R^3)`; it turns with the orbit, so the attitude is
 //! off by the order of `2 m c^3 / (R I) n t`.
 
+mod drift;
+
 use std::f64::consts::TAU;
 use std::fmt;
 
-use precess_dynamics::{Gravity, JointStates as _};
+use precess_dynamics::Gravity;
 
 use super::table::six;
 use crate::file::{Diagnostic, Severity};
-use crate::jitter::settled::settle;
 use crate::scenario::mass::MassProperties;
-use crate::scenario::{IntegratorChoice, Requirement, Scenario, Statistic, joint_key};
+use crate::scenario::{IntegratorChoice, Scenario, joint_key};
 
 /// Fewer, and a figure shows another frequency than the wheel's.
 const SAMPLES_PER_TURN_MIN: f64 = 2.0;
@@ -32,9 +33,6 @@ const SAMPLES_PER_TURN_MIN: f64 = 2.0;
 const SAMPLES_PER_TURN: f64 = 20.0;
 /// Fewer steps of RK4, and the phase of the wheel's force is off by more than 0.5 mrad a turn.
 const STEPS_PER_TURN_MIN: f64 = 20.0;
-
-/// Quantities of the hub that a mean rate or velocity is in.
-const MEAN_QUANTITIES: [&str; 5] = ["omega", "rotation", "sigma", "velocity", "position"];
 
 /// Less, and what a central field about B leaves out is less than two seconds of arc, rad.
 const FIELD_ERROR_MAX: f64 = 1e-5;
@@ -58,6 +56,13 @@ pub(super) enum Advice {
         /// The requirement.
         requirement: String,
         /// The mean rate, rad/s, and velocity, m/s: magnitudes.
+        mean: [f64; 2],
+    },
+    /// Rotors of one speed make the hub of a settled run drift, and a requirement has it.
+    SecondOrder {
+        /// The requirement.
+        requirement: String,
+        /// The mean accelerations, rad/s² and m/s²: magnitudes.
         mean: [f64; 2],
     },
     /// Samples do not resolve a source.
@@ -111,32 +116,12 @@ pub(super) fn advice(scenario: &Scenario, rates: impl Iterator<Item = f64>) -> V
 
 /// The advice at the initial rates.
 pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
-    let mut advice = advice(scenario, scenario.initial.devices.states().map(|[_, rate]| rate));
+    let mut advice = advice(scenario, scenario.mean_joints().map(|[_, rate]| rate));
     advice.extend(of_sources(scenario));
     advice.extend(of_field(scenario));
-    advice.extend(of_drift(scenario));
+    advice.extend(drift::at_rest(scenario));
+    advice.extend(drift::second_order(scenario));
     advice
-}
-
-/// The mean rate and velocity of a hub that starts at rest under rotors out of balance, where a requirement has them.
-fn of_drift(scenario: &Scenario) -> Option<Advice> {
-    let state = &scenario.initial;
-    if state.omega.norm() > 0.0 || state.r_b_n_dot.norm() > 0.0 {
-        return None;
-    }
-    let has_mean = |of: &&Requirement| {
-        let stem = of.quantity.trim_end_matches("_x").trim_end_matches("_y").trim_end_matches("_z");
-        let without = matches!(
-            of.statistic,
-            Statistic::BandRms(_) | Statistic::Smear(_) | Statistic::Jitter(_)
-        );
-        MEAN_QUANTITIES.contains(&stem) && !without
-    };
-    let requirement = scenario.requirements.iter().find(has_mean)?.name.clone();
-    let mut settled = scenario.clone();
-    settle(&mut settled).ok()?;
-    let mean = [settled.initial.omega.norm(), settled.initial.r_b_n_dot.norm()];
-    (mean != [0.0; 2]).then_some(Advice::Drift { requirement, mean })
 }
 
 /// What a central field about B leaves out over the run, where it shows.
@@ -161,7 +146,7 @@ fn of_field(scenario: &Scenario) -> Option<Advice> {
 fn of_sources(scenario: &Scenario) -> Option<Advice> {
     let rate = scenario.output.rate;
     let highest = scenario.disturbances.iter().map(|of| {
-        let wheel = of.wheel.and_then(|wheel| scenario.initial.devices.states().nth(wheel));
+        let wheel = of.wheel.and_then(|wheel| scenario.mean_joints().nth(wheel));
         let [_, rate] = wheel.unwrap_or_default();
         (of.model.highest_frequency(rate), &of.name)
     });
@@ -194,6 +179,9 @@ impl Advice {
             Self::Drift { .. } => {
                 "`initial.settled = true` starts in the vibration itself, without the mean"
                     .to_owned()
+            }
+            Self::SecondOrder { .. } => {
+                "a requirement on the vibration is one in a band: `statistic = \"band_rms\"` with `band`".to_owned()
             }
             Self::Source { highest, .. } => {
                 format!("record at more than {} Hz", six(2.0 * highest))
@@ -231,6 +219,14 @@ impl fmt::Display for Advice {
                  {} rad/s and {} m/s, and the requirement `{requirement}` counts that",
                 six(*rate),
                 six(*velocity)
+            ),
+            Self::SecondOrder { requirement, mean: [angular, linear] } => write!(
+                f,
+                "rotors out of balance that exchange power through the hub speed up and slow down, so it drifts beside its \
+                 vibration, at first at {} rad/s^2 and {} m/s^2, and the requirement `{requirement}` counts that: its value \
+                 depends on the time",
+                six(*angular),
+                six(*linear)
             ),
             Self::Field { centre: [x, y, z], error } => write!(
                 f,

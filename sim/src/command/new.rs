@@ -244,7 +244,8 @@ angular_velocity = "0, 0, 0 deg/s"
 # Or: { mrp = [0, 0, 0] }, { axis = [0, 0, 1], angle = "10 deg" },
 # { euler = "0, 0, 10 deg", sequence = "ZYX", direction = "N to B" }.
 attitude = { quaternion = [1, 0, 0, 0], scalar = "first" }
-# The run starts in the vibration of its wheels, about this state: without it a hub at rest drifts.
+# The run starts in the vibration of its wheels, about this state: without it a hub at rest drifts. Wheels of one speed
+# still make it drift, slowly: `check` warns where a requirement counts that.
 settled = true
 "#;
 

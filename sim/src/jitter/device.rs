@@ -244,6 +244,12 @@ impl SweptDevice {
         tone.order * rate.abs()
     }
 
+    /// Force of a tone on mount and free joints, as it is without their motion, N, N m and each joint's.
+    pub(super) fn force(&self, tone: &Tone, speed: f64) -> DVector<Complex<f64>> {
+        let rate = self.rotors.get(tone.rotor).map_or(0.0, |rotor| rotor.rate(speed));
+        &tone.load * Complex::new(-rate * rate, 0.0)
+    }
+
     /// Number among the joints of the device of each free joint, and the load that a tone puts on it by itself.
     pub(super) fn joint_loads(&self, tone: &Tone, speed: f64) -> DVector<Complex<f64>> {
         let rate = self.rotors.get(tone.rotor).map_or(0.0, |rotor| rotor.rate(speed));

@@ -30,6 +30,7 @@
 //! | what a limit is sensitive to | [`sensitivity`] |
 //! | the same by a run of the coupled equations | [`coupled`] |
 //! | the start of a run in the vibration of its rotors | [`settled`] |
+//! | how a settled run departs from its mean: the power that rotors of one speed exchange | [`mean_acceleration`] |
 //! | the usual `U_s Omega^2` on rigid devices, and its error | [`simplified`] |
 
 pub mod budget;
@@ -39,6 +40,7 @@ pub mod device;
 mod intervals;
 pub mod keep_out;
 mod magnitudes;
+pub mod mean_acceleration;
 pub mod model;
 pub mod noise;
 pub mod prepared;

@@ -17,26 +17,43 @@ use crate::scenario::Scenario;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::{COORDINATES, Fault};
 
+/// Rotors at their initial rates by motors of constant torque, other joints on springs free.
+pub(super) const STEADY: Steady<'_> =
+    Steady { motor: Motor::ConstantTorque, sprung: true, swept: None };
+
+/// What [`settle`] found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settled {
+    /// Sources that the vibration has not, each with the reason.
+    pub left_out: Vec<String>,
+    /// Of each joint the sum of the amplitudes of all tones: of its coordinate, rad or m, and of its rate.
+    pub amplitudes: Vec<[f64; 2]>,
+}
+
 /// Adds the vibration of the rotors at their initial rates to the initial state, and keeps the state without it as the mean.
-/// Returns the sources that it has not, each with the reason.
 ///
 /// # Errors
 /// Those of [`Model::new`]; [`Fault::Unbounded`] where a tone is at a resonance without damping.
-pub fn settle(scenario: &mut Scenario) -> Result<Vec<String>, Fault> {
+pub fn settle(scenario: &mut Scenario) -> Result<Settled, Fault> {
     // Of a fixed hub nothing moves but the devices.
     if scenario.hub_mode != HubMode::Free {
-        return Ok(Vec::new());
+        return Ok(Settled::default());
     }
-    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: None };
-    let mut model = Model::new(scenario, &[], &steady)?;
+    let mut model = Model::new(scenario, &[], &STEADY)?;
     let left_out = model.add_sources(scenario)?;
     scenario.mean = Some(scenario.present_mean());
-    add_vibration(scenario, &model, 0.0)?;
-    Ok(left_out)
+    let amplitudes = add_vibration(scenario, &model, 0.0)?;
+    Ok(Settled { left_out, amplitudes })
 }
 
-/// Adds the vibration of all tones at a speed of the swept rotors, rad/s, to the initial state.
-pub(super) fn add_vibration(run: &mut Scenario, model: &Model, speed: f64) -> Result<(), Fault> {
+/// Adds the vibration of all tones at a speed of the swept rotors, rad/s, to the initial state. Returns, of each joint, the
+/// sums of the amplitudes of its coordinate and rate.
+pub(super) fn add_vibration(
+    run: &mut Scenario,
+    model: &Model,
+    speed: f64,
+) -> Result<Vec<[f64; 2]>, Fault> {
+    let mut amplitudes = vec![[0.0; 2]; run.joint_count()];
     let mean = run.initial.attitude;
     // From B to N.
     let bn = mean.dcm();
@@ -79,15 +96,19 @@ pub(super) fn add_vibration(run: &mut Scenario, model: &Model, speed: f64) -> Re
                 let accelerations = &condensed.joints * cause;
                 for (joint, value) in device.free.iter().zip(accelerations.iter()) {
                     let joint = device.first_joint + joint;
+                    let phasors = [value * by_rate * by_rate, value * by_rate];
                     if let Some([x, x_dot]) = run.initial.devices.states_mut().nth(joint) {
-                        *x += (value * by_rate * by_rate).re;
-                        *x_dot += (value * by_rate).re;
+                        *x += phasors[0].re;
+                        *x_dot += phasors[1].re;
+                    }
+                    if let Some(sums) = amplitudes.get_mut(joint) {
+                        sums.iter_mut().zip(phasors).for_each(|(sum, of)| *sum += of.norm());
                     }
                 }
             }
         }
     }
-    Ok(())
+    Ok(amplitudes)
 }
 
 /// `a` then `b`, of unit length.

@@ -119,6 +119,77 @@ fn a_coupled_run_above_its_bound_is_in_the_summary() {
     assert!(!plain.error.contains(found), "{}", plain.error);
 }
 
+/// A limit on the rotation of a settled run counts a drift, by which its value depends on the time.
+#[test]
+fn a_drift_in_the_second_order_is_named_where_a_requirement_counts_it() {
+    let folder = examples("second_order", &["wheels"]);
+    let text = fs::read_to_string(folder.join("wheels.toml")).expect("it is there");
+    // It grows as the square of the imbalance, the vibration as the imbalance.
+    let text = text.replace("1 g cm", "30 g cm").replace("20 g cm^2", "600 g cm^2");
+    let limit = "[[requirement]]\nname = \"pointing\"\nquantity = \"rotation\"\nstatistic = \"rms\"\n\
+                 limit = \"1 deg\"\n";
+    fs::write(folder.join("limit.toml"), format!("{text}\n{limit}")).expect("it is written");
+    let band = limit.replace("\"rms\"", "\"band_rms\"\nband = \"10, 200 Hz\"");
+    fs::write(folder.join("band.toml"), format!("{text}\n{band}")).expect("it is written");
+    let short = ["run.duration=2 s", "output.rate=1 kHz"];
+    let ended = with("run", &folder, "limit.toml", &short);
+    shows(
+        &ended,
+        0,
+        &[
+            "rotors out of balance that exchange power",
+            "rad/s^2",
+            "the requirement `pointing` counts that",
+        ],
+    );
+    let page = fs::read_to_string(folder.join("out/limit.html")).expect("a report");
+    assert!(page.contains("the requirement `pointing` counts that"));
+    let ended = with("check", &folder, "limit.toml", &short);
+    shows(&ended, 0, &["`statistic = \"band_rms\"` with `band`"]);
+    let exchange = "exchange power";
+    let each = ["device.wheel2.wheel.rate=2500 rpm", "device.wheel3.wheel.rate=2000 rpm"];
+    for (file, overrides) in [("band.toml", &short), ("limit.toml", &each)] {
+        let ended = with("check", &folder, file, overrides);
+        shows(&ended, 0, &[]);
+        let text = format!("{}{}", ended.out, ended.error);
+        assert!(!text.contains(exchange), "{file}\n{text}");
+    }
+}
+
+/// `run` failed, or ended at its start, where `check` had no error of its own.
+#[test]
+fn a_vibration_beyond_a_stop_or_the_largest_rate_is_an_error_with_its_place() {
+    let folder = examples("excursions", &["wheels", "hinged_panel"]);
+    let limit = "device.wheel*.wheel.rate_limit=3000 rpm";
+    let ended = with("check", &folder, "wheels.toml", &[limit]);
+    shows(
+        &ended,
+        1,
+        &[
+            "of a settled run wheel1.wheel vibrates, up to 3000.",
+            "beyond its `rate_limit`, 3000",
+            "or remove `initial.settled`",
+        ],
+    );
+    let at_rest = [limit, "initial.settled=false"];
+    assert_eq!(with("check", &folder, "wheels.toml", &at_rest).error, "");
+    shows(
+        &with("check", &folder, "wheels.toml", &["device.wheel*.wheel.rate_limit=3001 rpm"]),
+        0,
+        &[],
+    );
+    let panel = precess(&["new", "hinged_panel"]).out;
+    let panel = &panel
+        [panel.find("[[device]]").expect("a panel")..panel.find("# What happens").expect("a run")];
+    let wheels = fs::read_to_string(folder.join("wheels.toml")).expect("it is there");
+    let panel = panel.replace("angle = \"1 deg\"", "angle = \"0 deg\"\nupper_stop = \"0 deg\"");
+    let both = wheels.replace("# What happens", &format!("{panel}\n# What happens"));
+    fs::write(folder.join("panel.toml"), both).expect("it is written");
+    let ended = with("check", &folder, "panel.toml", &[]);
+    shows(&ended, 1, &["beyond its `upper_stop`, 0 deg", "panel.toml:", "lock the joint"]);
+    shows(&with("check", &folder, "panel.toml", &["device.panel1.panel.locked=true"]), 0, &[]);
+}
+
 /// A speed at which the curve is largest by rounding was named as the worst one.
 #[test]
 fn a_curve_that_is_flat_has_no_worst_speed() {

@@ -2,6 +2,7 @@
 
 mod changes_and_wrenches;
 mod check;
+mod complete;
 mod controllers;
 pub(super) mod devices;
 mod hub;
@@ -20,6 +21,7 @@ use super::document::{Node, Value};
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
+use complete::complete;
 pub(crate) use devices::device_bodies::{has_inertia, has_mass, has_origin};
 
 use crate::names::NAME_MAX;
@@ -151,28 +153,6 @@ pub(super) fn scenario(
                 reports.error_anywhere(format!("{path} is no scenario"), "");
             }
             Err(reports)
-        }
-    }
-}
-
-/// Completes the initial state by what is known of the whole spacecraft only.
-fn complete(node: &Node, scenario: &mut Scenario, reports: &Reports) {
-    let Some(keys) = Keys::new(node, "", reports) else { return };
-    let whole = devices::initial::whole(&keys);
-    let Some(initial) = keys.table("initial") else { return };
-    if whole.of_centre
-        && let Err(error) = scenario.start_from_centre_of_mass()
-    {
-        initial.error("state_of", error.to_string(), "give the state of B");
-    }
-    if !whole.settled {
-        return;
-    }
-    match crate::jitter::settled::settle(scenario) {
-        Ok(left_out) => left_out.iter().for_each(|reason| initial.warn("settled", reason, "")),
-        Err(fault) => {
-            let message = format!("the vibration of the rotors cannot be computed: {fault}");
-            initial.error("settled", message, "remove `settled`, or give the state itself");
         }
     }
 }

@@ -52,6 +52,17 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
     }
 }
 
+/// The place of a key of a joint, or of the innermost table that is there.
+pub(super) fn place_of_joint(
+    root: &Node,
+    scenario: &Scenario,
+    joint: usize,
+    key: &str,
+) -> Option<Span> {
+    let (member, _, info) = scenario.joints().nth(joint)?;
+    spans::of_joint(root, (member, info), key, &spans::Tables::from_scenario(scenario))
+}
+
 fn warning(span: Option<Span>, message: String, help: &str) -> Diagnostic {
     let (severity, label) = (Severity::Warning, String::new());
     Diagnostic { severity, span, message, label, help: help.to_owned() }

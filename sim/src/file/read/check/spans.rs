@@ -3,11 +3,12 @@
 //! A path names tables, entries of lists by their `name` or number, and a key: `device.wheel.wheel.mass`,
 //! `wrench.0.point`. A key that is not there has the place of the innermost table that is, without one it has none.
 
+use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{ModesError, ParameterError, Part, Warning};
 
 use crate::file::diagnostic::Span;
 use crate::file::document::{Node, Value};
-use crate::scenario::{Member, Scenario, ScenarioError};
+use crate::scenario::{Member, Scenario, ScenarioError, joint_key};
 
 /// The path of each device and platform in the order of the set, and whether it is a platform.
 pub(super) struct Tables(Vec<(String, bool)>);
@@ -43,6 +44,16 @@ pub(super) fn of_dynamic_imbalance(root: &Node, device: usize, tables: &Tables) 
     let table = format!("{}.imbalance", tables.get(device)?.0);
     let place = find(root, &format!("{table}.dynamic"))?;
     (find(root, &table).as_ref() != Some(&place)).then_some(place)
+}
+
+/// The place of a key of a joint of a member.
+pub(super) fn of_joint(
+    root: &Node,
+    (member, info): (usize, &JointInfo),
+    key: &str,
+    tables: &Tables,
+) -> Option<Span> {
+    find(root, &format!("{}.{}.{key}", tables.get(member)?.0, joint_key(info)))
 }
 
 /// The place of a key of a requirement.
