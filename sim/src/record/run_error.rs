@@ -221,6 +221,20 @@ fn undecided(motor: bool) -> (&'static str, &'static str) {
     }
 }
 
+/// Writes an error of the solver, and the device that it is about.
+fn solve(
+    f: &mut fmt::Formatter<'_>,
+    time: f64,
+    device: Option<&str>,
+    source: &SolveError,
+) -> fmt::Result {
+    let time = Plain(time);
+    match device {
+        Some(device) => write!(f, "at t = {time} s, `{device}`: {source}"),
+        None => write!(f, "at t = {time} s: {source}"),
+    }
+}
+
 /// Writes an error of a controller.
 fn controller(
     f: &mut fmt::Formatter<'_>,
@@ -251,12 +265,7 @@ impl fmt::Display for RunError {
             }
             Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Modes(error) => write!(f, "structure rejected: {error}"),
-            Self::Solve { time, device: Some(device), source } => {
-                write!(f, "at t = {time} s, `{device}`: {source}", time = Plain(*time))
-            }
-            Self::Solve { time, device: None, source } => {
-                write!(f, "at t = {time} s: {source}", time = Plain(*time))
-            }
+            Self::Solve { time, device, source } => solve(f, *time, device.as_deref(), source),
             Self::TurnAtRightAngle { time, platform, angle, pivot: [pivot, bound] } => write!(
                 f,
                 "at t = {time} s, `{platform}`: its y turn is at {} deg, where the x turn is about the \
