@@ -58,7 +58,8 @@ pub struct Mekf {
     readings: VecDeque<Vector3<f64>>,
     past: Estimate,
     now: Estimate,
-    omega: Vector3<f64>,
+    /// The last reading of the gyro.
+    reading: Option<Vector3<f64>>,
 }
 
 impl Mekf {
@@ -101,7 +102,7 @@ impl Mekf {
             readings: VecDeque::with_capacity(longest_latency + 1),
             past: initial,
             now: initial,
-            omega: Vector3::zeros(),
+            reading: None,
         })
     }
 
@@ -114,7 +115,8 @@ impl Mekf {
     /// Estimated attitude, and the last reading of the gyro less the bias; a rate of zero before the first reading.
     #[must_use]
     pub fn motion(&self) -> Motion {
-        Motion { attitude: self.now.attitude, omega: self.omega - self.now.bias }
+        let omega = self.reading.map_or_else(Vector3::zeros, |reading| reading - self.now.bias);
+        Motion { attitude: self.now.attitude, omega }
     }
 
     /// Takes a sample of the gyro, expressed in B, rad/s: the filter is then at its time.
@@ -122,7 +124,7 @@ impl Mekf {
     /// Of an integrating gyro it is the mean rate since the sample before, as the equations have it; a sampled gyro's reading
     /// is taken for that.
     pub fn propagate(&mut self, reading: &Vector3<f64>) {
-        self.omega = *reading;
+        self.reading = Some(*reading);
         self.now = self.propagated(&self.now, reading);
         self.readings.push_back(*reading);
         if self.readings.len() > self.longest {

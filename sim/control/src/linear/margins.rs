@@ -33,16 +33,22 @@ pub struct AxisMargins {
 
 /// Delays looked at in a period.
 const PER_PERIOD: f64 = 8.0;
+/// A loop of this magnitude at the frequency zero integrates.
+const INTEGRATES: f64 = 1e9;
 /// Halvings of an interval of frequencies: to the last bit.
 const HALVINGS: u32 = 80;
 
 impl SampledLoop {
-    /// Margins of each command, from the given frequencies on, between which crossings are refined to rounding.
+    /// Margins of each command, crossings refined to rounding between [`Self::frequencies`]; none of a loop that is not
+    /// stable.
     ///
     /// # Errors
     ///
-    /// As [`Self::frequencies`], whose frequencies it takes.
-    pub fn margins(&self) -> Result<Vec<AxisMargins>, ControlError> {
+    /// As [`Self::frequencies`].
+    pub fn margins(&self) -> Result<Option<Vec<AxisMargins>>, ControlError> {
+        if !self.is_stable()? {
+            return Ok(None);
+        }
         let frequencies = self.frequencies()?;
         let responses: Vec<_> =
             frequencies.iter().filter_map(|omega| self.response(*omega)).collect();
@@ -51,7 +57,7 @@ impl SampledLoop {
             let curve = responses.iter().filter_map(|at| Some((at.omega, at.axis(axis)?)));
             self.margins_of(axis, &curve.collect::<Vec<_>>())
         };
-        Ok(axes.map(of).collect())
+        Ok(Some(axes.map(of).collect()))
     }
 
     fn margins_of(&self, axis: usize, curve: &[(f64, Complex<f64>)]) -> AxisMargins {
@@ -83,21 +89,28 @@ impl SampledLoop {
                 margins.sensitivity = peak;
             }
         }
-        // At the frequency of Nyquist the loop is real.
-        if let Some((omega, l)) = curve.last() {
-            margins.add_gain(l.re, *omega);
+        // At both ends the loop is real; at zero it may have a pole.
+        for omega in [0.0, self.nyquist()] {
+            if let Some(l) = at(omega)
+                && l.norm_sqr() < INTEGRATES * INTEGRATES
+            {
+                margins.add_gain(l.re, omega);
+            }
         }
         margins.sensitivity.value = libm::sqrt(margins.sensitivity.value);
         margins
     }
 
     /// The largest singular value of the sensitivity: the reciprocal of the smallest change of the whole loop, by all commands
-    /// together, that takes it to the limit of stability.
+    /// together, that takes it to the limit of stability. None of a loop that is not stable.
     ///
     /// # Errors
     ///
     /// As [`Self::frequencies`].
-    pub fn peak(&self) -> Result<AtFrequency, ControlError> {
+    pub fn peak(&self) -> Result<Option<AtFrequency>, ControlError> {
+        if !self.is_stable()? {
+            return Ok(None);
+        }
         let frequencies = self.frequencies()?;
         let at = |omega: f64| self.response(omega).map_or(0.0, |found| found.peak());
         let mut best = AtFrequency { value: 0.0, omega: 0.0 };
@@ -108,7 +121,7 @@ impl SampledLoop {
                 best = found;
             }
         }
-        Ok(best)
+        Ok(Some(best))
     }
 }
 

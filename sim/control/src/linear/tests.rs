@@ -51,7 +51,7 @@ fn margins_of_a_rate_loop() {
         let sampled = SampledPlant::new(&plant, sampling).expect("plant");
         let closed = SampledLoop::new(sampled, feedback.clone()).expect("loop");
         assert!(closed.is_stable().expect("poles"));
-        let margins = closed.margins().expect("margins")[0];
+        let margins = closed.margins().expect("poles").expect("stable")[0];
         let up = margins.gain_up.expect("a gain");
         assert!((up.value - 2.0 / a).abs() < CLOSED_FORM && (up.omega * PERIOD - PI).abs() < 1e-12);
         assert_eq!(margins.gain_down, None);
@@ -60,7 +60,10 @@ fn margins_of_a_rate_loop() {
         assert!((phase.omega * PERIOD - 2.0 * (a / 2.0).asin()).abs() < CLOSED_FORM);
         // |z - 1| / |z - 1 + a| rises to 2 / (2 - a) at z = -1.
         assert!((margins.sensitivity.value - 2.0 / (2.0 - a)).abs() < CLOSED_FORM);
-        assert!((closed.peak().expect("peak").value - 2.0 / (2.0 - a)).abs() < CLOSED_FORM);
+        assert!(
+            (closed.peak().expect("poles").expect("stable").value - 2.0 / (2.0 - a)).abs()
+                < CLOSED_FORM
+        );
         // With a delay of rho periods z² + (a (1 - rho) - 1) z + a rho: on the unit circle where a rho = 1.
         if a >= 1.0 {
             let found = delay_margin(&plant, sampling, &feedback).expect("poles").expect("a delay");
@@ -70,6 +73,24 @@ fn margins_of_a_rate_loop() {
     let (plant, feedback) = rate_loop(2.1, PERIOD);
     let sampling = Sampling { period: PERIOD, delay: 0.0 };
     assert_eq!(delay_margin(&plant, sampling, &feedback), Ok(Some(0.0)));
+    let sampled = SampledPlant::new(&plant, sampling).expect("plant");
+    let closed = SampledLoop::new(sampled, feedback).expect("loop");
+    assert_eq!((closed.margins(), closed.peak()), (Ok(None), Ok(None)));
+}
+
+/// `x' = x + u` with `u = -K x` is stable from K = 1 up to `coth(T / 2)`: both ends of its frequencies are real.
+#[test]
+fn an_unstable_plant_needs_a_least_gain() {
+    const PERIOD: f64 = 0.5;
+    const GAIN: f64 = 2.0;
+    let one = |value: f64| DMatrix::from_element(1, 1, value);
+    let plant = Plant { a: one(1.0), b: one(1.0), c: one(1.0) };
+    let sampled = SampledPlant::new(&plant, Sampling { period: PERIOD, delay: 0.0 });
+    let closed = SampledLoop::new(sampled.expect("plant"), Feedback::gain(one(-GAIN)));
+    let margins = closed.expect("loop").margins().expect("poles").expect("stable")[0];
+    let (down, up) = (margins.gain_down.expect("a least"), margins.gain_up.expect("a largest"));
+    assert!((down.value - 1.0 / GAIN).abs() < CLOSED_FORM && down.omega == 0.0);
+    assert!((up.value - (PERIOD / 2.0).tanh().recip() / GAIN).abs() < CLOSED_FORM);
 }
 
 #[test]
@@ -112,8 +133,8 @@ fn coupled_axes_with_gains_in_proportion_are_alike() {
         SampledLoop::new(plant, feedback).expect("loop")
     };
     let (coupled, single) = (of(&inertia), of(&DMatrix::identity(1, 1)));
-    let expected = single.margins().expect("margins")[0];
-    for axis in coupled.margins().expect("margins") {
+    let expected = single.margins().expect("poles").expect("stable")[0];
+    for axis in coupled.margins().expect("poles").expect("stable") {
         for (found, expected) in [
             (axis.gain_up, expected.gain_up),
             (axis.gain_down, expected.gain_down),
@@ -125,7 +146,10 @@ fn coupled_axes_with_gains_in_proportion_are_alike() {
         }
     }
     // The peak over all commands together is larger where the gains mix the axes, and no smaller.
-    let (all, alone) = (coupled.peak().expect("peak"), single.peak().expect("peak"));
+    let (all, alone) = (
+        coupled.peak().expect("poles").expect("stable"),
+        single.peak().expect("poles").expect("stable"),
+    );
     assert!(all.value >= alone.value * (1.0 - CLOSED_FORM));
 }
 
