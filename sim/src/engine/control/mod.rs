@@ -32,6 +32,8 @@ pub(crate) struct Controls<'a> {
     each: Vec<Control<'a>>,
     /// The devices on the hub.
     steering: Option<SteeringDevices>,
+    /// Whether each joint is that of a wheel.
+    wheels: Vec<bool>,
     duration: f64,
 }
 
@@ -99,7 +101,8 @@ impl<'a> Controls<'a> {
             let (on_hub, ..) = &scenario.devices;
             Some(SteeringDevices::new(on_hub).map_err(RunError::Parameters)?)
         };
-        Ok(Self { each, steering, duration: scenario.settings.duration })
+        let wheels = scenario.joints().map(|(.., info)| info.body == "wheel").collect();
+        Ok(Self { each, steering, wheels, duration: scenario.settings.duration })
     }
 
     /// The next time after this one at which a controller samples or something comes to act, s; infinite where there is
@@ -124,7 +127,7 @@ impl<'a> Controls<'a> {
         let Some(steering) = &mut self.steering else { return Ok(()) };
         for (index, control) in self.each.iter_mut().enumerate() {
             if control.samples.due(time) {
-                control.sample(index, (system, time, moment), steering)?;
+                control.sample(index, (system, time, moment), (steering, &self.wheels))?;
             }
         }
         for (index, control) in self.each.iter_mut().enumerate() {
@@ -155,12 +158,17 @@ impl Control<'_> {
         &mut self,
         index: usize,
         (system, time, moment): (&mut System<'_>, f64, &Moment),
-        steering: &mut SteeringDevices,
+        (steering, wheels): (&mut SteeringDevices, &[bool]),
     ) -> Result<(), RunError> {
         let state = &moment.state;
         let all: Vec<[f64; 2]> = state.devices.states().collect();
         let sums = steering.terms(all.iter().copied(), &state.omega);
-        let sums = sums.map_err(|error| self.error(time, error.into()))?;
+        let mut sums = sums.map_err(|error| self.error(time, error.into()))?;
+        // What the imbalance of a wheel requires turns with it: held, it would be a torque of its own.
+        let turning = sums.by_rate.iter_mut().zip(&sums.by_acceleration).zip(wheels);
+        for ((by_rate, n), _) in turning.filter(|(_, wheel)| **wheel) {
+            *by_rate = state.omega.cross(n);
+        }
         let elapsed = if self.sampled { 1.0 / self.of.rate } else { 0.0 };
         let of = Sample {
             motion: Motion { attitude: state.attitude, omega: state.omega },
