@@ -18,4 +18,5 @@ mod motion;
 mod motor_limits;
 pub(super) mod platform;
 pub(super) mod rows;
+mod springs;
 mod suspension;

@@ -19,11 +19,12 @@ use precess_dynamics::{About, Hub, JointStates, Passive, Platform, State, platfo
 
 use super::arrangement::{arranged, standing_on};
 use super::body::{Joint, joint, mass};
-use super::corner::{Corner, corner, springs_of_devices};
+use super::corner::{Corner, corner};
 use super::device::{Device, DeviceOrPlatform, nodes, none_of_its_own};
 use super::inertia::inertia;
 use super::joint_measures::JointMeasures;
 use super::rows::set_on;
+use super::springs::springs_of_devices;
 use super::suspension::suspension;
 use crate::file::keys::Keys;
 use crate::file::read::structure::Structure;
