@@ -20,7 +20,11 @@ pub(super) fn jump(quantity: Quantity) -> Option<f64> {
     }
 }
 
-/// Interrupts curves in the buckets in which one of them jumps; their first samples stay.
+/// One jump is found in this many buckets in a row at most: in its own, and by the first sample of the next.
+const OF_ONE: usize = 2;
+
+/// Interrupts curves in the buckets in which one of them jumps; their first samples stay. Where more buckets in a row have jumps,
+/// the chart does not resolve them: the band stays.
 pub(super) fn interrupt(curves: &mut [DrawnCurve], jump: f64) {
     let count = curves.iter().map(|curve| curve.min.len()).max().unwrap_or(0);
     let jumps = |bucket: usize| {
@@ -34,6 +38,8 @@ pub(super) fn interrupt(curves: &mut [DrawnCurve], jump: f64) {
         })
     };
     let found: Vec<usize> = (0..count).filter(|bucket| jumps(*bucket)).collect();
+    let runs = found.chunk_by(|before, after| before + 1 == *after);
+    let found: Vec<usize> = runs.filter(|run| run.len() <= OF_ONE).flatten().copied().collect();
     for curve in curves {
         for bucket in &found {
             for values in [&mut curve.min, &mut curve.max] {
@@ -72,6 +78,10 @@ mod tests {
         let mut curves = [drawn(&[0.5, -1.0, -0.8], &[0.7, 1.0, -0.5], &[0.5, 0.8, -0.8])];
         interrupt(&mut curves, 1.2);
         assert!(curves[0].max[1].is_nan() && curves[0].max[0] == 0.7);
+        // A turn in each bucket: a band, not a blank chart.
+        let mut curves = [drawn(&[-1.0; 5], &[1.0; 5], &[0.5, -0.9, 0.4, -0.2, 0.9])];
+        interrupt(&mut curves, 1.0);
+        assert!(curves[0].max.iter().all(|value| value.is_finite()));
         assert!(jump(Quantity::Energy).is_none() && jump(Quantity::Sigma(0)).is_some());
     }
 }
