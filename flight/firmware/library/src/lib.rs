@@ -2,7 +2,7 @@
 //! instructions `cargo xtask flight` measures.
 //!
 //! Each module has a set of devices and two functions over it, exported as
-//! `precess_dgvscmg_4_accelerations` and `precess_dgvscmg_4_step`. They take Rust's types by
+//! `precess_dgvscmg_4_accelerations` and `precess_dgvscmg_4_step`; three more steer four DGVSCMGs. They take Rust's types by
 //! reference and return whether it succeeded; the result is written to the caller's memory.
 
 #![no_std]
@@ -89,6 +89,59 @@ exports! {
     flexible_reaction_wheel_4 FlexibleReactionWheel 4;
     flexible_vscmg_1 FlexibleVscmg 1;
     flexible_vscmg_4 FlexibleVscmg 4;
+}
+
+/// What steers four DGVSCMGs.
+pub mod steering {
+    use super::{Inputs, Spacecraft, State};
+    use nalgebra::Vector3;
+    use precess_dynamics::{
+        Allocation, Dgvscmg, Servo, SteeringLaw, SteeringMatrix, SteeringTerms,
+    };
+
+    /// The devices.
+    pub type Set = [Dgvscmg; 4];
+
+    /// Their joints.
+    pub const JOINTS: usize = 12;
+
+    /// What rates and accelerations require about B; whether it could be found.
+    // SAFETY: no other symbol has the name.
+    #[unsafe(export_name = "precess_dgvscmg_4_steering_terms")]
+    pub extern "C" fn terms(
+        craft: &Spacecraft<Set>,
+        state: &State<Set>,
+        found: &mut SteeringTerms<f64, JOINTS>,
+    ) -> bool {
+        craft.steering_terms(state).map(|terms| *found = terms).is_ok()
+    }
+
+    /// Commands for a torque; whether they could be found.
+    // SAFETY: no other symbol has the name.
+    #[unsafe(export_name = "precess_dgvscmg_4_allocate")]
+    pub extern "C" fn allocate(
+        law: &SteeringLaw<f64, JOINTS>,
+        matrix: &SteeringMatrix<f64, JOINTS>,
+        torque: &Vector3<f64>,
+        found: &mut Allocation<f64, JOINTS>,
+    ) -> bool {
+        law.allocate(matrix, torque).map(|commands| *found = commands).is_ok()
+    }
+
+    /// Motor torques for commands, their derivatives zero; whether they could be found.
+    // SAFETY: no other symbol has the name.
+    #[unsafe(export_name = "precess_dgvscmg_4_servo")]
+    pub extern "C" fn servo(
+        craft: &Spacecraft<Set>,
+        servo: &Servo<f64, JOINTS>,
+        state: &State<Set>,
+        inputs: &Inputs<Set>,
+        commands: &[f64; JOINTS],
+        found: &mut [f64; JOINTS],
+    ) -> bool {
+        let torques = craft.servo(servo, state, inputs, commands, &[0.0; JOINTS]);
+        torques.map(|torques| *found = torques.torques).is_ok()
+    }
 }
 
 /// What a static library needs and cannot reach: the gate on panics shows that it is never linked.

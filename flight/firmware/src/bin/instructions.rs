@@ -1,5 +1,5 @@
 //! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and
-//! four.
+//! four, and of what steers four DGVSCMGs.
 //!
 //! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick
 //! every 40 instructions. Costs depend on the set, modes and gravity, not on the numbers: a free
@@ -14,8 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Accelerations, Angle, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
     BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, FlexibleVscmg,
-    HingedPanel, Hub, Inputs, JointStates, ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass,
-    SolveError, Spacecraft, State, Vscmg,
+    HingedPanel, Hub, Inputs, JointStates, ParameterError, ReactionWheel, Scalar, Servo, Sgcmg,
+    SloshMass, SolveError, Spacecraft, State, Steered, SteeringLaw, Vscmg,
 };
 use precess_firmware::board::{Options, Timer};
 use precess_firmware::random::Random;
@@ -127,6 +127,7 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
         flexible_vscmg_1 flexible_vscmg 1;
         flexible_vscmg_4 flexible_vscmg 4;
     }
+    counts.steering(dgvscmg)?;
     counts.baked()?;
     Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)
 }
@@ -146,12 +147,7 @@ impl Counts<'_> {
         evaluate: Evaluate<D>,
         step: Step<D>,
     ) -> Result<(), Stop> {
-        let hub = Hub {
-            m_b: 800.0,
-            r_bc_b: Vector3::new(0.1, -0.2, 0.3),
-            i_b_bc: Matrix3::new(900.0, 50.0, 30.0, 50.0, 800.0, 20.0, 30.0, 20.0, 600.0),
-        };
-        let craft = Spacecraft::new(&hub, devices).map_err(Stop::Parameters)?;
+        let craft = Spacecraft::new(&hub(), devices).map_err(Stop::Parameters)?;
         let (mut state, mut inputs) = (State::<D>::at_rest(), Inputs::<D>::none());
         moving(&mut state, &mut inputs);
         let mut found: Accelerations<D> =
@@ -162,6 +158,47 @@ impl Counts<'_> {
         self.line("", || evaluate(&craft, black_box(&state), &inputs, black_box(&mut found)))?;
         write!(self.out, "{name} step")?;
         self.line("", || step(&craft, black_box(&mut state), &inputs, STEP))
+    }
+
+    /// Terms, allocation of a torque, and servo of four DGVSCMGs: every gimbal by its rate, every wheel by its acceleration.
+    fn steering(&mut self, device: Dgvscmg) -> Result<(), Stop> {
+        use library::steering;
+        const JOINTS: usize = steering::JOINTS;
+        let mut devices = [device; 4];
+        // Along different axes: four gyros on one axis give no torque across it.
+        for (k, device) in devices.iter_mut().enumerate() {
+            if k % 2 == 1 {
+                device.mount = Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
+            }
+        }
+        let craft = Spacecraft::new(&hub(), &devices).map_err(Stop::Parameters)?;
+        let (mut state, mut inputs) =
+            (State::<steering::Set>::at_rest(), Inputs::<steering::Set>::none());
+        moving(&mut state, &mut inputs);
+        let steered = [Steered::Rate, Steered::Rate, Steered::Acceleration];
+        let steered: [Steered; JOINTS] = core::array::from_fn(|k| steered[k % 3]);
+        let mut terms = craft.steering_terms(&state).map_err(|_| Stop::Rejected)?;
+        let matrix = terms.matrix(&steered);
+        let (law, torque) = (SteeringLaw::exact(), Vector3::new(0.3, -0.2, 0.1));
+        let mut found = law.allocate(&matrix, &torque).map_err(|_| Stop::Rejected)?;
+        let servo = Servo { steered, gains: [20.0; JOINTS], limits: [f64::INFINITY; JOINTS] };
+        let mut torques = [0.0; JOINTS];
+        // By address, so that nothing is inlined.
+        let of_terms: extern "C" fn(&_, &_, &mut _) -> bool = black_box(steering::terms);
+        self.line("dgvscmg_4 steering_terms", || {
+            of_terms(&craft, black_box(&state), black_box(&mut terms))
+        })?;
+        let allocate: extern "C" fn(&_, &_, &_, &mut _) -> bool = black_box(steering::allocate);
+        self.line("dgvscmg_4 allocate", || {
+            allocate(&law, black_box(&matrix), &torque, black_box(&mut found))
+        })?;
+        let commands = [0.1; JOINTS];
+        let of_servo: extern "C" fn(&_, &_, &_, &_, &_, &mut _) -> bool =
+            black_box(steering::servo);
+        self.line("dgvscmg_4 servo", || {
+            let state = black_box(&state);
+            of_servo(&craft, &servo, state, &inputs, &commands, black_box(&mut torques))
+        })
     }
 
     /// An evaluation of a spacecraft by kernels of its own: four DGVSCMGs, gimbals locked.
@@ -220,6 +257,14 @@ impl Counts<'_> {
         self.lines += 1;
         // To the nearest.
         Ok(writeln!(self.out, "{name}: {}", (ticks * PER_TICK + CALLS / 2) / CALLS)?)
+    }
+}
+
+fn hub() -> Hub {
+    Hub {
+        m_b: 800.0,
+        r_bc_b: Vector3::new(0.1, -0.2, 0.3),
+        i_b_bc: Matrix3::new(900.0, 50.0, 30.0, 50.0, 800.0, 20.0, 30.0, 20.0, 600.0),
     }
 }
 

@@ -139,6 +139,8 @@ fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
     let exports = page::sets().flat_map(|set| {
         ["accelerations", "step"].map(|call| format!("precess_{}_{}_{call}", set.kind, set.devices))
     });
+    let steering = page::STEERING.map(|call| format!("precess_dgvscmg_4_{call}"));
+    let exports = exports.chain(steering);
     let library =
         Library { package: LIBRARY, features: &["standalone"], exports: exports.collect() };
     let image = gates::passed(board, &library);

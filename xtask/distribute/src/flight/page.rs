@@ -24,6 +24,15 @@ const BOUNDS: [(u32, u64); 2] = [(1, 3000), (4, 8500)];
 /// The same of four DGVSCMGs with locked gimbals, by kernels of their own.
 const BAKED: u64 = 5000;
 
+/// The same of an allocation of a torque to four DGVSCMGs.
+const ALLOCATION: u64 = 3000;
+
+/// Instructions of their servo at most, in tenths of an evaluation.
+const SERVO: u64 = 17;
+
+/// What steers four DGVSCMGs: its name in the library.
+pub(super) const STEERING: [&str; 3] = ["steering_terms", "allocate", "servo"];
+
 /// A set of devices that is measured.
 pub(super) struct Set {
     pub(super) kind: &'static str,
@@ -55,6 +64,8 @@ pub(super) struct Figures {
     parts: [u64; 2],
     /// Of an evaluation of the imaging satellite by kernels of its own.
     baked: u64,
+    /// Instructions, stack and code of each of [`STEERING`].
+    steering: [[u64; 3]; 3],
 }
 
 impl Figures {
@@ -78,7 +89,14 @@ impl Figures {
             ];
             Ok((format!("{kind} {devices}"), columns))
         };
+        let mut steering = [[0; 3]; 3];
+        for (columns, call) in steering.iter_mut().zip(STEERING) {
+            let export = format!("precess_dgvscmg_4_{call}");
+            let instructions = counted(&format!("dgvscmg_4 {call}"))?;
+            *columns = [instructions, image.stack(&export)?, image.reach(&export)?];
+        }
         Ok(Self {
+            steering,
             rows: sets().map(row).collect::<Result<_, String>>()?,
             text: image.text,
             parts: [counted("sin_cos")?, counted("sqrt")?],
@@ -118,6 +136,7 @@ pub(super) fn settle(
         text: figures.text - figures.text / 10,
         parts: figures.parts,
         baked: figures.baked - figures.baked / 10,
+        steering: figures.steering.map(|row| row.map(|n| n - n / 10)),
     };
     let caught = match held(figures, &page(compiler, &smaller)) {
         Ok(()) => Err("they passed: the gate is blind".to_owned()),
@@ -152,6 +171,16 @@ fn held(figures: &Figures, committed: &str) -> Result<(), String> {
     hold("whole library", figures.text, text);
     let baked = committed_row(committed, "imaging satellite, baked");
     hold("imaging satellite, baked", figures.baked, baked.and_then(|row| row.first().copied()));
+    for (call, columns) in STEERING.iter().zip(figures.steering) {
+        let name = format!("steering: {call}");
+        let before = committed_row(committed, &name);
+        for (index, (what, now)) in
+            ["instructions", "stack", "code"].iter().zip(columns).enumerate()
+        {
+            let before = before.as_ref().and_then(|row| row.get(index).copied());
+            hold(&format!("{name}, {what}"), now, before);
+        }
+    }
     if wrong.is_empty() {
         return Ok(());
     }
@@ -174,8 +203,8 @@ fn page(compiler: &str, figures: &Figures) -> String {
         include_str!("flight.md")
             .replace("{compiler}", compiler)
             .replace("{stack}", &LARGEST_STACK.to_string())
-            // An evaluation and a step each.
-            .replace("{exports}", &(2 * figures.rows.len()).to_string())
+            // An evaluation and a step each, and steering.
+            .replace("{exports}", &(2 * figures.rows.len() + STEERING.len()).to_string())
             .replace("{sin_cos}", &figures.parts[0].to_string())
             .replace("{sqrt}", &figures.parts[1].to_string())
             .replace("{bounds}", &bounds(figures))
@@ -187,6 +216,12 @@ fn page(compiler: &str, figures: &Figures) -> String {
         let _ = writeln!(text, "| `{name}` | {cells} |");
     }
     let _ = writeln!(text, "| `imaging satellite, baked` | {} | | | | | |", figures.baked);
+    text += "\n## What steers four DGVSCMGs\n\n`steering_terms`, `SteeringLaw::allocate` of the exact inverse for twelve joints, and `servo`, an evaluation with\n\
+             prescribed joints and inverse dynamics:\n\n| call | instructions | stack | code |\n|---|---:|---:|---:|\n";
+    for (call, columns) in STEERING.iter().zip(figures.steering) {
+        let cells = columns.map(|number| number.to_string()).join(" | ");
+        let _ = writeln!(text, "| `steering: {call}` | {cells} |");
+    }
     text
 }
 
@@ -195,7 +230,12 @@ fn bounds(figures: &Figures) -> String {
     let rows =
         BOUNDS.map(|(devices, bound)| (format!("{devices}"), bound, figures.instructions(devices)));
     let baked = "4, gimbals locked, [kernels of one spacecraft](bake.md)".to_owned();
-    let rows = rows.into_iter().chain([(baked, BAKED, figures.baked)]);
+    let [_, [allocation, ..], [servo, ..]] = figures.steering;
+    let steering = [
+        ("4, allocation of a torque".to_owned(), ALLOCATION, allocation),
+        ("4, servo: 1.7 evaluations".to_owned(), SERVO * figures.instructions(4) / 10, servo),
+    ];
+    let rows = rows.into_iter().chain([(baked, BAKED, figures.baked)]).chain(steering);
     let row = |(what, bound, now): (String, u64, u64)| {
         let verdict = if now <= bound {
             "holds".to_owned()
@@ -213,7 +253,13 @@ mod tests {
 
     fn figures(number: u64) -> Figures {
         let row = |Set { kind, devices }: Set| (format!("{kind} {devices}"), [number; 6]);
-        Figures { rows: sets().map(row).collect(), text: number, parts: [1, 2], baked: number }
+        Figures {
+            rows: sets().map(row).collect(),
+            text: number,
+            parts: [1, 2],
+            baked: number,
+            steering: [[number; 3]; 3],
+        }
     }
 
     #[test]
@@ -232,6 +278,11 @@ mod tests {
         let (first, rest) = rows.split_once('\n').unwrap();
         assert_eq!(first, "| 1 | 3000 | 3001 | does not hold, by 1 |");
         assert!(rest.starts_with("| 4 | 8500 | 3001 | holds |"), "{rest}");
-        assert!(rest.ends_with("(bake.md) | 5000 | 3001 | holds |"), "{rest}");
+        assert!(rest.contains("(bake.md) | 5000 | 3001 | holds |"), "{rest}");
+        assert!(
+            rest.contains("allocation of a torque | 3000 | 3001 | does not hold, by 1 |"),
+            "{rest}"
+        );
+        assert!(rest.ends_with("| 4, servo: 1.7 evaluations | 5101 | 3001 | holds |"), "{rest}");
     }
 }
