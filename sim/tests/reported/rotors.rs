@@ -167,7 +167,7 @@ fn a_vibration_beyond_a_stop_or_the_largest_rate_is_an_error_with_its_place() {
         1,
         &[
             "of a settled run wheel1.wheel vibrates, up to 3000.",
-            "beyond its `rate_limit`, 3000",
+            "beyond its `rate_limit`, 3000 rpm",
             "or remove `initial.settled`",
         ],
     );

@@ -9,6 +9,9 @@ use crate::jitter::settled::settle;
 use crate::scenario::{Scenario, joint_key};
 use crate::units::{Plain, parse_quantity, parse_unit};
 
+/// The digits of a message after the first, as a part of a number.
+const ROUNDING: f64 = 1e-9;
+
 /// Completes the initial state; reports where that cannot be.
 pub(super) fn complete(node: &Node, scenario: &mut Scenario, reports: &Reports) {
     let Some(keys) = Keys::new(node, "", reports) else { return };
@@ -51,7 +54,9 @@ fn check_excursions(node: &Node, scenario: &Scenario, amplitudes: &[[f64; 2]], r
                 Some((unit, size))
             });
             let (unit, size) = written.unwrap_or_else(|| (unit.to_owned(), 1.0));
-            let [reached, bound] = [reached, bound].map(|value| Plain(value / size));
+            // Further out by rounding: a limit that is moved to what is shown is not passed.
+            let reached = reached + (reached - bound).signum() * ROUNDING * reached.abs();
+            let [reached, bound] = [reached, bound].map(|value| Plain(rounded(value / size)));
             let message = format!(
                 "of a settled run {name} vibrates, up to {reached} {unit}: beyond its `{key}`, {bound} {unit}"
             );
@@ -77,4 +82,9 @@ fn check_excursions(node: &Node, scenario: &Scenario, amplitudes: &[[f64; 2]], r
             }
         }
     }
+}
+
+/// A number with ten digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
