@@ -89,12 +89,16 @@ mod tests {
             assert!(before.len() > 10, "{} has {} functions", kind.name, before.len());
             assert_eq!(before.len(), after.len());
             // `prepare` may: it computes what the others do not compute any more. So may `steer`, which is not hoisted:
-            // it reads the constants that others have, and factored they have others.
+            // it reads the constants that others have, and factored they have others. For the same reason
+            // `load_derivatives` of `balanced_dgvscmg` costs one operation more.
             let functions = before.into_iter().zip(after).skip(1);
             for ((function, before), (_, after)) in
                 functions.filter(|((function, _), _)| function != "steer")
             {
-                assert!(after <= before, "{} {function}: {before} -> {after}", kind.name);
+                let more = usize::from(
+                    (kind.name, function.as_str()) == ("balanced_dgvscmg", "load_derivatives"),
+                );
+                assert!(after <= before + more, "{} {function}: {before} -> {after}", kind.name);
             }
         }
     }
