@@ -20,9 +20,9 @@ const MEDIAN: f64 = 1e-13;
 /// What acts, in turn.
 fn options(seed: u64) -> Options {
     Options {
-        springs: seed % 2 == 0,
-        dry: seed % 4 == 0,
-        wrenches: seed % 3 == 0,
+        springs: seed.is_multiple_of(2),
+        dry: seed.is_multiple_of(4),
+        wrenches: seed.is_multiple_of(3),
         gravity: match seed % 5 {
             0 | 1 => Some(Gravity::Central { mu: 4e5 }),
             2 => Some(Gravity::Uniform(Vector3::new(3.0, -8.0, 2.0))),
@@ -70,7 +70,9 @@ fn errors<D: FixedSet<Scalar = f64> + WithNumbers>(
 fn check(name: &str, all: impl Iterator<Item = (Vec<f64>, bool)>) {
     let (mut figures, mut emitted, mut count) = (Figures::default(), 0, 0);
     for (errors, other_bits) in all {
-        errors.into_iter().for_each(|error| figures.add(error));
+        for error in errors {
+            figures.add(error);
+        }
         emitted += u32::from(other_bits);
         count += 1;
     }

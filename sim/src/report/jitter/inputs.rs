@@ -143,7 +143,9 @@ impl JitterReport<'_> {
             |(_, cells): &(&str, Vec<String>)| cells.last().is_none_or(|model| model == "coupled");
         if rows.iter().all(is_coupled) {
             columns.pop();
-            rows.iter_mut().for_each(|(_, cells)| drop(cells.pop()));
+            for (_, cells) in &mut rows {
+                cells.pop();
+            }
         }
         inputs_table("Rotors", &columns, 2..8, rows)
     }

@@ -45,7 +45,9 @@ pub(in crate::report) fn loads(report: &Report) -> Vec<Block> {
     // Torques about the axes of joints are in no frame: a column for frames only beside loads.
     if rows.iter().all(|(_, cells)| cells.get(FRAME).is_none_or(String::is_empty)) {
         headings.remove(FRAME);
-        rows.iter_mut().for_each(|(_, cells)| drop(cells.remove(FRAME)));
+        for (_, cells) in &mut rows {
+            cells.remove(FRAME);
+        }
     }
     let numbers = headings.len() - NUMBERS..headings.len();
     let mut blocks = vec![table("Motor torques and loads across joints", &headings, numbers, rows)];

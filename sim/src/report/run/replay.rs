@@ -139,7 +139,9 @@ impl Collector {
         let is_residue = frames.iter().all(|frame| momentum_of(frame) < self.residue);
         let window = |label: String, mut frames: Vec<Frame>, magnify: f64| {
             if is_residue {
-                frames.iter_mut().for_each(|frame| frame[MOMENTUM].fill(0.0));
+                for frame in &mut frames {
+                    frame[MOMENTUM].fill(0.0);
+                }
             }
             Window::from_frames(label, &frames, magnify)
         };

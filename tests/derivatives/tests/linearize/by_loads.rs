@@ -113,7 +113,7 @@ fn emitted_derivatives_of_wheels_on_bearings_are_exact_in_units_of_changes() {
 #[test]
 fn a_prescribed_hub_in_a_uniform_field_turns_the_field_under_its_joints() {
     // Of a free hub the attitude moves no joint; of a prescribed one it does.
-    let mut of = (SEED..SEED + SPACECRAFT).map(|seed| Drawn::new(seed)).find(|of| {
+    let mut of = (SEED..SEED + SPACECRAFT).map(Drawn::new).find(|of| {
         matches!(of.case.inputs.hub, HubMode::Prescribed { .. })
             && matches!(of.case.inputs.gravity, Gravity::Uniform(_))
             && of.case.inputs.modes.values().any(|mode| mode == Mode::Driven)
