@@ -83,8 +83,8 @@ pub enum DerivativeError<T = f64> {
         /// How many there are.
         found: usize,
     },
-    /// Every input is finite and so are the accelerations, but their derivatives' product with a direction or with
-    /// weights is not.
+    /// Every input is finite and so are the accelerations, but a direction, weights or their product with the derivatives
+    /// is not.
     NotFiniteProduct,
 }
 

@@ -83,8 +83,9 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The spacecraft linearised about a state and inputs.
     ///
     /// The matrices are exact to rounding: [`Self::derivatives`] computes the same columns, and can do so without a
-    /// heap. Of accelerations only, of a rigid hub, they are `-M⁻¹` times the emitted derivatives of the loads, several
-    /// times faster and rounded elsewhere.
+    /// heap. Of accelerations only they are `-M⁻¹` times the emitted derivatives of the loads, several times faster and
+    /// rounded elsewhere; but for a platform that carries nothing, and external kinds of more joints than
+    /// [`MAX_JOINTS`](crate::MAX_JOINTS).
     ///
     /// # Errors
     ///

@@ -86,7 +86,7 @@ impl<T: Scalar> Load<T> {
     }
 }
 
-/// A device has no emitted derivatives: a platform, the lumped model.
+/// A device has no emitted derivatives: a platform, the lumped model, more joints than [`MAX_JOINTS`].
 #[derive(Debug)]
 pub(crate) struct NotEmitted;
 
@@ -302,7 +302,7 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
-        if device.lumped.is_some() {
+        if device.lumped.is_some() || K::JOINTS.len() > MAX_JOINTS {
             return Err(NotEmitted);
         }
         let Self { omega, hub, found, .. } = self;

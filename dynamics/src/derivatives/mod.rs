@@ -1,13 +1,16 @@
 //! Derivatives of accelerations, momenta and loads by state, inputs and parameters, exact to
-//! rounding: the solver runs over [`Dual`](crate::Dual) numbers, through the same kernels.
+//! rounding: those of accelerations by the emitted derivatives of the loads, others by the solver over
+//! [`Dual`](crate::Dual) numbers, through the same kernels.
 //!
 //! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
 //! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
 //! step. `products` has the derivatives along a direction and of a weighted sum, without matrices. Of accelerations
-//! `linearization` needs no dual numbers: `by_loads` has the columns of a rigid hub from the emitted derivatives of the
-//! loads (`load_columns`) and the mass matrix (`mass_system`); `by_tree` has them where carriers stand between hub and
-//! devices and under whatever acts (`device_loads`, `applied_columns`, `base_motion`, `tree_members`, `tree_system`).
-//! Neither does [`parameters`]: `parameter_loads` has the loads of one device change with its bodies (`device_motion`,
+//! `linearization` and `step` need no dual numbers: `by_loads` has the columns of devices on a rigid hub in a uniform
+//! field from the emitted derivatives of the loads (`load_columns`) and the mass matrix (`mass_system`); `by_tree` has
+//! them with carriers and flexible structures, and under wrenches on bodies, in a central field and with lumped imbalance
+//! (`device_loads`, `applied_columns`, `base_motion`, `tree_members`, `tree_system`). Where `by_loads` has columns,
+//! `products` (`load_products`, `mass_solution`) and [`parameters`] need no dual numbers either, the latter also under
+//! wrenches on bodies: `parameter_loads` has the loads of one device change with its bodies (`device_motion`,
 //! `rigid_body`).
 
 #[cfg(feature = "alloc")]

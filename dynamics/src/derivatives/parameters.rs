@@ -93,7 +93,7 @@ impl<D: WithNumbers> Spacecraft<D> {
     /// spacecraft of this hub and these devices: `column` is called with each variable and its
     /// derivatives, in the order of `variables`. Returns the accelerations.
     ///
-    /// Exact to rounding. With the feature `alloc`, accelerations only, without platforms, lumped imbalance and a
+    /// Exact to rounding. With the feature `alloc`, accelerations only, without carriers, lumped imbalance and a
     /// central field: `-M⁻¹` times what the loads of one device, or of the hub, change by at these accelerations, by
     /// Newton's and Euler's equations of its bodies, with one elimination for all variables. Otherwise as
     /// [`Self::derivatives`], six variables an evaluation and without a heap: the constants of the kernels are prepared

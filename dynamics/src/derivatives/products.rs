@@ -47,9 +47,9 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// what `c` and `d` of [`Linearization`](crate::Linearization) give times the direction, without them.
     ///
     /// The direction has a number of each of [`Self::state_variables`], the attitude by a small rotation about the axes
-    /// of B, and of each of [`Self::input_variables`]. No heap (but that of a list of devices). Where
-    /// [`Self::linearize`](Spacecraft::linearize) has emitted derivatives, it costs two evaluations and the
-    /// derivatives of the loads; elsewhere one evaluation in dual numbers.
+    /// of B, and of each of [`Self::input_variables`]. No heap (but that of a list of devices). Costs two evaluations
+    /// and the emitted derivatives of the loads; in a central field, with wrenches on bodies, carriers, a flexible
+    /// structure or lumped imbalance one more evaluation, in dual numbers.
     ///
     /// ```
     /// # use nalgebra::{Matrix3, Vector3};
@@ -81,7 +81,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// # Errors
     ///
     /// As [`Self::accelerations`]; [`DerivativeError::Length`] for a direction of other variables,
-    /// [`DerivativeError::NotFiniteProduct`].
+    /// [`DerivativeError::NotFiniteProduct`], also for a direction that is not finite.
     pub fn jvp<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, S>,
@@ -91,6 +91,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let accelerations = self.accelerations(state, inputs)?;
         same_length(self.state_variables(inputs).count(), direction.0.len())?;
         same_length(self.input_variables(inputs).count(), direction.1.len())?;
+        check_finite(direction.0.iter().chain(direction.1).copied())?;
         let along = match self.jvp_by_loads(state, inputs, &accelerations, direction) {
             Some(along) => along,
             None => self.jvp_by_dual_numbers(state, inputs, direction)?,
@@ -103,12 +104,13 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// product): the weights times `c` and `d` of [`Linearization`](crate::Linearization), without them.
     ///
     /// `gradient` becomes the derivatives by [`Self::state_variables`] and by [`Self::input_variables`]. Without a heap
-    /// and at the cost of [`Self::jvp`] where that has emitted derivatives; elsewhere at that of the matrices, or
-    /// without the feature `alloc` of [`Self::derivatives`].
+    /// and at the cost of [`Self::jvp`] where that has emitted derivatives; elsewhere (a central field, wrenches on
+    /// bodies, carriers, a flexible structure, lumped imbalance) by the matrices, on a heap, or without the feature
+    /// `alloc` by the columns of [`Self::derivatives`].
     ///
     /// # Errors
     ///
-    /// As [`Self::jvp`]; the gradient then has no meaning.
+    /// As [`Self::jvp`], with the weights for the direction; the gradient then has no meaning.
     pub fn vjp<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A, S>,
@@ -121,6 +123,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         same_length(self.state_variables(inputs).count(), by_states.len())?;
         same_length(self.input_variables(inputs).count(), by_inputs.len())?;
         same_length(rows(&accelerations).count(), rows(weights).count())?;
+        check_finite(rows(weights))?;
         let gradient = (&mut *by_states, &mut *by_inputs);
         if self.vjp_by_loads(state, inputs, &accelerations, weights, gradient).is_none() {
             let gradient = (&mut *by_states, &mut *by_inputs);

@@ -32,6 +32,8 @@ impl Product {
         to: &mut [f64],
     ) {
         self.pack(matrix);
+        // Of a matrix of zeros no row is packed.
+        to.fill(0.0);
         for first in (0..width).step_by(COLUMNS) {
             self.changes.clear();
             let rows = self.filled.iter().map(|row| {

@@ -8,8 +8,10 @@ use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::attitude::quaternion::{Quaternion, rate};
+use crate::derivatives::by_loads::are_finite;
 use crate::derivatives::column::Outputs;
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::linearization::columns_of;
 use crate::derivatives::parameters::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::stage_chain::{StageChain, StageDerivatives, numbers};
@@ -67,7 +69,7 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
     ///
     /// # Errors
     ///
-    /// As [`Self::step`] and [`Self::derivatives`].
+    /// As [`Self::step`] and [`Self::derivatives`]; [`DerivativeError::NotFinite`] counts the states, then the inputs.
     pub fn linearize_step(
         &self,
         state: &State<D, Quaternion, S>,
@@ -126,8 +128,12 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
             let turns = rate(numbers(stage.attitude), components(&stage.omega));
             last.iter_mut().zip(turns).for_each(|(to, from)| *to += weight * from);
         }
-        chain.finish(last, hub, [a, b]);
-        Ok(next)
+        chain.finish(last, hub, [&mut *a, &mut *b]);
+        let mut columns = columns_of(a).chain(columns_of(b));
+        match columns.position(|column| !are_finite(column)) {
+            Some(variable) => Err(DerivativeError::NotFinite { variable }),
+            None => Ok(next),
+        }
     }
 }
 
@@ -137,7 +143,8 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
     ///
     /// # Errors
     ///
-    /// As [`Self::step`] and [`Self::parameter_derivatives`].
+    /// As [`Self::step`] and [`Self::parameter_derivatives`]; [`DerivativeError::NotFinite`] of the first variable where
+    /// a derivative by the state is not finite.
     pub fn step_parameter_derivatives(
         hub: &Hub,
         devices: &D,
@@ -154,22 +161,25 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             |stage: &_, found: &_, [by_states, by_held]: [&mut DMatrix<f64>; 2]| {
                 let at = (stage, inputs);
                 let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
-                craft.output_columns(
-                    at,
-                    found,
-                    &none,
-                    (&states, &[]),
-                    [by_states, &mut no_inputs],
-                )?;
+                let into = [by_states, &mut no_inputs];
+                let by_states = craft.output_columns(at, found, &none, (&states, &[]), into);
+                by_states.map_err(of_first_variable)?;
                 let by = variables.iter().copied();
                 let mut columns = by_held.column_iter_mut();
-                Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
+                craft.parameter_columns((hub, devices), at, found, &none, by, |_, column| {
                     let Some(mut to) = columns.next() else { return };
                     to.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
-                })?;
-                Ok(())
+                })
             };
         craft.chained((state, inputs), dt, [&mut a, &mut b], &mut derivatives)?;
         Ok(b)
+    }
+}
+
+/// An error of derivatives by the state, through which all columns pass, as that of the first variable.
+fn of_first_variable<T>(error: DerivativeError<T>) -> DerivativeError<T> {
+    match error {
+        DerivativeError::NotFinite { .. } => DerivativeError::NotFinite { variable: 0 },
+        error => error,
     }
 }

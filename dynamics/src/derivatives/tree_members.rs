@@ -116,6 +116,9 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
+        if K::JOINTS.len() > MAX_JOINTS {
+            return Err(NotEmitted);
+        }
         let Some(base) = self.bases.get_mut(self.base) else { return Ok(()) };
         let BaseMotion { omega, acceleration: r_b_n_ddot, omega_dot, .. } = base.motion;
         let hub = HubAccelerations { r_b_n_ddot, omega_dot };

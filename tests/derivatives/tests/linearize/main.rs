@@ -14,4 +14,5 @@ mod products;
 mod rejected;
 mod route;
 mod step;
+mod step_modes;
 mod zeros;

@@ -28,7 +28,7 @@ pub(crate) fn magnitude(case: &Case<Wide>, variable: Variable, spins: bool) -> f
 }
 
 /// The case with a variable changed.
-pub(crate) fn changed(case: &Case<Wide>, variable: Variable, by: Wide) -> Case<Wide> {
+pub(crate) fn changed<T: Scalar>(case: &Case<T>, variable: Variable, by: T) -> Case<T> {
     let mut case = case.clone();
     let (state, inputs) = (&mut case.state, &mut case.inputs);
     let of = match variable {

@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    Axis, BalancedReactionWheel, Component, DerivativeError, Dgvscmg, Gravity, Hub, Inputs,
-    Outputs, ParameterVariable, Passive, Sgcmg, SolveError, Spacecraft, State, Variable,
+    Axis, BalancedReactionWheel, Component, DerivativeError, Dgvscmg, Gravity, Hub, HubMode,
+    Inputs, Outputs, ParameterVariable, Passive, Sgcmg, SolveError, Spacecraft, State, Variable,
 };
 
 type Set = (Dgvscmg, Sgcmg, BalancedReactionWheel);
@@ -132,4 +132,47 @@ fn a_derivative_that_is_not_finite_is_rejected() {
     assert!(craft.accelerations(&state, &inputs).is_ok());
     let found = craft.derivatives(&state, &inputs, &OUTPUTS, by, |_, _| ());
     assert_eq!(found, Err(DerivativeError::NotFinite { variable: 7 }));
+}
+
+/// A long step moves the hub finitely far, by one order of the step less than its derivative by the angular velocity:
+/// which variable, the states first.
+#[test]
+fn a_derivative_of_a_step_that_is_not_finite_is_rejected() {
+    let (hub, set) = set();
+    let craft = Spacecraft::new(&hub, &set).unwrap();
+    let (state, mut inputs) = (State::<Set>::at_rest(), Inputs::none());
+    let rejected = |inputs: &Inputs<Set>, dt| {
+        assert!(craft.linearize(&state, inputs, &OUTPUTS).is_ok());
+        assert!(craft.step(&state, inputs, dt).is_ok());
+        match craft.linearize_step(&state, inputs, dt) {
+            Err(DerivativeError::NotFinite { variable }) => variable,
+            found => panic!("{:?}", found.map(|_| ())),
+        }
+    };
+    let place = |of| craft.state_variables(&inputs).position(|other| other == of).unwrap();
+    let (turning, states) =
+        (place(Variable::Omega(Axis::Y)), craft.state_variables(&inputs).count());
+    // Nothing moves; of a force the position is by half the square of the step, over the mass.
+    assert_eq!(rejected(&inputs, 1e156), states);
+    inputs.force.x = 1.0;
+    assert_eq!(rejected(&inputs, 1e110), turning);
+}
+
+/// A wheel of nearly no inertia turns far, but finitely far, in a long step.
+#[test]
+fn a_derivative_of_a_step_by_a_parameter_that_is_not_finite_is_rejected() {
+    let (hub, mut set) = set();
+    set.2.j_11 = 1e-9;
+    let craft = Spacecraft::new(&hub, &set).unwrap();
+    let (state, mut inputs) = (State::<Set>::at_rest(), Inputs::<Set>::none());
+    (inputs.hub, inputs.motors.2.u_w) = (HubMode::Fixed, 1e-5);
+    let dt = 1e150;
+    assert!(craft.step(&state, &inputs, dt).is_ok());
+    let named = |name| ParameterVariable::Device { device: 2, name, component: Component::Number };
+    let by = [ParameterVariable::HubMass, named("j_11")];
+    let at = (&state, &inputs);
+    let found = Spacecraft::parameter_derivatives(&hub, &set, at, &OUTPUTS, by, |_, _| ());
+    assert!(found.is_ok());
+    let found = Spacecraft::step_parameter_derivatives(&hub, &set, at, dt, &by);
+    assert_eq!(found, Err(DerivativeError::NotFinite { variable: 1 }));
 }

@@ -1,13 +1,17 @@
 //! A linearised step of RK4 against the step over dual numbers.
 
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::JointStates;
+use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
     Axis, Component, Dual, Gravity, Hub, Inputs, ParameterVariable, Passive, Quaternion,
     ReactionWheel, SloshMass, Spacecraft, State, Variable,
 };
+use precess_tests::differences::index;
 
 type Set = (SloshMass, ReactionWheel);
-type Number = Dual<f64, 6>;
+/// With derivatives by six variables.
+pub(crate) type Number = Dual<f64, 6>;
 type Dualed = (SloshMass<Number>, ReactionWheel<Number>);
 
 const DT: f64 = 0.05;
@@ -25,7 +29,7 @@ fn spacecraft() -> (Hub, Set) {
     (hub, (slosh, wheel))
 }
 
-/// By dual numbers, and by emitted derivatives.
+/// By emitted derivatives of a tree, and of devices on the hub.
 const FIELDS: [Gravity; 3] =
     [Gravity::Central { mu: 40.0 }, Gravity::Uniform(Vector3::new(3.0, -8.0, 2.0)), Gravity::None];
 
@@ -87,16 +91,18 @@ fn over_dual_numbers(gravity: Gravity) -> State<Dualed> {
 }
 
 /// What of a state belongs to a variable, by a number of the six.
-fn row(state: &State<Dualed>, variable: Variable, number: usize) -> f64 {
-    let index = |axis| Axis::ALL.iter().position(|other| *other == axis).unwrap();
+pub(crate) fn row<D: WithNumbers<Scalar = Number>>(
+    state: &State<D>,
+    variable: Variable,
+    number: usize,
+) -> f64 {
+    let joint = |joint| state.devices.states().nth(joint).unwrap();
     let of = match variable {
         Variable::Position(axis) => state.r_b_n[index(axis)],
         Variable::Velocity(axis) => state.r_b_n_dot[index(axis)],
         Variable::Omega(axis) => state.omega[index(axis)],
-        Variable::Coordinate(0) => state.devices.0.x,
-        Variable::Coordinate(_) => state.devices.1.theta,
-        Variable::Rate(0) => state.devices.0.x_dot,
-        Variable::Rate(_) => state.devices.1.spin,
+        Variable::Coordinate(of) => joint(of)[0],
+        Variable::Rate(of) => joint(of)[1],
         Variable::Attitude(axis) => {
             let Quaternion { q0, q1, q2, q3 } = state.attitude;
             let q = [q0, q1, q2, q3];
@@ -148,11 +154,15 @@ fn compare_with_dual_numbers(gravity: Gravity) {
     }
 }
 
-/// By the wheel's offset: half the difference of two steps, which errs by the square of the change.
 #[test]
 fn step_by_a_parameter_is_the_difference_of_steps() {
+    FIELDS.into_iter().for_each(compare_with_difference);
+}
+
+/// By the wheel's offset: half the difference of two steps, which errs by the square of the change.
+fn compare_with_difference(gravity: Gravity) {
     let (hub, devices) = spacecraft();
-    let (state, inputs) = start(Gravity::Central { mu: 40.0 });
+    let (state, inputs) = start(gravity);
     let variable = ParameterVariable::Device { device: 1, name: "d", component: Component::Number };
     let at = (&state, &inputs);
     let found =
