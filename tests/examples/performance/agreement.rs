@@ -12,13 +12,29 @@ use crate::subject::Subject;
 /// Largest difference of results, of a block: only the order of summation differs.
 const AGREEMENT: f64 = 1e-11;
 
-/// What a contender finds: accelerations of hub and joints in a row, or what moved, or derivatives, by name.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum ContenderResult {
-    Accelerations(Vec<f64>),
-    Motion(BTreeMap<String, Vec<f64>>),
-    Derivatives(BTreeMap<String, Vec<f64>>),
+/// What a contender finds: accelerations of hub and joints in a row, what moved, derivatives by name.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ContenderResult {
+    accelerations: Option<Vec<f64>>,
+    motion: Option<BTreeMap<String, Vec<f64>>>,
+    derivatives: Option<BTreeMap<String, Vec<f64>>>,
+}
+
+impl ContenderResult {
+    /// The numbers of each form, by block: of accelerations the hub's two vectors, and those of all joints of one name.
+    fn forms(&self) -> [Option<Vec<Vec<f64>>>; 3] {
+        let named = |of: &BTreeMap<String, Vec<f64>>| of.values().cloned().collect();
+        let accelerations = self.accelerations.as_ref().map(|all| {
+            let mut blocks = vec![Vec::new(); 5];
+            for (number, value) in all.iter().enumerate() {
+                let block = if number < 6 { number / 3 } else { 2 + number % 3 };
+                blocks[block].push(*value);
+            }
+            blocks
+        });
+        [accelerations, self.motion.as_ref().map(named), self.derivatives.as_ref().map(named)]
+    }
 }
 
 /// Subjects whose results are compared with each other.
@@ -40,28 +56,13 @@ pub(crate) fn check(
             let all: Vec<_> = contenders.iter().filter(takes).collect();
             let mut results = Vec::new();
             for contender in &all {
-                results.push((contender, contender.query("check", folder, &case)?));
+                let found: ContenderResult = contender.query("check", folder, &case)?;
+                results.push((*contender, found.forms()));
             }
-            // Of one subject some find accelerations, others their derivatives.
-            let form = |of: &ContenderResult| core::mem::discriminant(of);
-            for (contender, found) in &results {
-                let mut alike = results.iter().filter(|(_, of)| form(of) == form(found));
-                let peer = alike.clone().find(|(who, _)| !who.is_ours());
-                let Some((reference, expected)) = peer.or_else(|| alike.next()) else { continue };
-                let found = deviation(found, expected);
-                let found = found.ok_or_else(|| {
-                    format!("{} and {} differ in form, {case}", contender.name, reference.name)
-                })?;
-                if found > AGREEMENT {
-                    return Err(format!(
-                        "{} and {} disagree on {case}: by {found:.1e} of a block, bound \
-                         {AGREEMENT:.0e}; nothing is timed",
-                        contender.name, reference.name
-                    ));
-                }
-                match worst.iter_mut().find(|(name, _)| *name == contender.name) {
+            for (name, found) in compared(&results, &case)? {
+                match worst.iter_mut().find(|(other, _)| *other == name) {
                     Some((_, largest)) => *largest = largest.max(found),
-                    None => worst.push((contender.name.clone(), found)),
+                    None => worst.push((name, found)),
                 }
             }
         }
@@ -72,14 +73,45 @@ pub(crate) fn check(
     Ok(worst)
 }
 
+/// A contender with what it finds, by forms.
+type Results<'a> = [(&'a Contender, [Option<Vec<Vec<f64>>>; 3])];
+
+/// The deviation of each contender in each form that it finds: of one subject some find accelerations, others also
+/// their derivatives.
+fn compared(results: &Results<'_>, case: &str) -> Result<Vec<(String, f64)>, String> {
+    let mut deviations = Vec::new();
+    for (contender, forms) in results {
+        if forms.iter().all(Option::is_none) {
+            return Err(format!("{} finds nothing of {case}", contender.name));
+        }
+        for (form, found) in forms.iter().enumerate() {
+            let Some(found) = found else { continue };
+            let mut alike =
+                results.iter().filter_map(|(who, forms)| Some((who, forms[form].as_ref()?)));
+            let peer = alike.clone().find(|(who, _)| !who.is_ours());
+            let Some((reference, expected)) = peer.or_else(|| alike.next()) else { continue };
+            let found = deviation(found, expected).ok_or_else(|| {
+                format!("{} and {} differ in form, {case}", contender.name, reference.name)
+            })?;
+            if found > AGREEMENT {
+                return Err(format!(
+                    "{} and {} disagree on {case}: by {found:.1e} of a block, bound {AGREEMENT:.0e}; nothing is timed",
+                    contender.name, reference.name
+                ));
+            }
+            deviations.push((contender.name.clone(), found));
+        }
+    }
+    Ok(deviations)
+}
+
 /// The largest difference in units of the largest magnitude of its block, over all blocks.
-fn deviation(found: &ContenderResult, expected: &ContenderResult) -> Option<f64> {
-    let (found, expected) = (blocks(found), blocks(expected));
+fn deviation(found: &[Vec<f64>], expected: &[Vec<f64>]) -> Option<f64> {
     if found.len() != expected.len() {
         return None;
     }
     let mut worst = 0.0_f64;
-    for (found, expected) in found.iter().zip(&expected) {
+    for (found, expected) in found.iter().zip(expected) {
         // A service may compare fewer states of a batch.
         let length = found.len().min(expected.len());
         let whole = length > 0 && found.len() % length == 0 && expected.len() % length == 0;
@@ -97,23 +129,6 @@ fn deviation(found: &ContenderResult, expected: &ContenderResult) -> Option<f64>
     Some(worst)
 }
 
-/// The numbers by block: of accelerations the hub's two vectors, and those of all joints of one name.
-fn blocks(found: &ContenderResult) -> Vec<Vec<f64>> {
-    match found {
-        ContenderResult::Motion(blocks) | ContenderResult::Derivatives(blocks) => {
-            blocks.values().cloned().collect()
-        }
-        ContenderResult::Accelerations(all) => {
-            let mut blocks = vec![Vec::new(); 5];
-            for (number, value) in all.iter().enumerate() {
-                let block = if number < 6 { number / 3 } else { 2 + number % 3 };
-                blocks[block].push(*value);
-            }
-            blocks
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::{ContenderResult, deviation};
@@ -124,7 +139,12 @@ mod tests {
         let mut found = expected.clone();
         found[0] = 1.5;
         found[8] = 101.0;
-        let of = |numbers: &[f64]| ContenderResult::Accelerations(numbers.to_vec());
+        let of = |numbers: &[f64]| {
+            let found =
+                ContenderResult { accelerations: Some(numbers.to_vec()), ..Default::default() };
+            let [accelerations, ..] = found.forms();
+            accelerations.unwrap()
+        };
         assert_eq!(deviation(&of(&found), &of(&expected)), Some(0.125));
         assert_eq!(deviation(&of(&found), &of(&expected[..8])), None);
     }

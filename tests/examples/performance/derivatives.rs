@@ -124,8 +124,9 @@ impl Page {
 }
 
 /// Service, what its time is compared with, and its title.
-const SERVICES: [[&str; 3]; 6] = [
+const SERVICES: [[&str; 3]; 7] = [
     ["evaluation", "evaluation", "an evaluation"],
+    ["derivatives", "evaluation", "`derivatives`: by states and inputs"],
     ["linearized", "evaluation", "`linearize`: by states and inputs"],
     ["differences", "evaluation", "central differences by the same variables"],
     ["by-parameters", "evaluation", "`parameter_derivatives`: by six parameters a device"],

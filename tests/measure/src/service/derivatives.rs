@@ -49,6 +49,13 @@ impl<const N: usize> Derivatives<N> {
         let (state, inputs) = (black_box(&self.state), &self.inputs);
         let none = Outputs::accelerations();
         match self.name {
+            Name::Derivatives => {
+                let by = self.variables.iter().copied();
+                let each = |_, column: &_| {
+                    black_box(column);
+                };
+                Ok(self.craft.derivatives(state, inputs, &none, by, each)?.omega_dot)
+            }
             Name::Linearized => {
                 let found = self.craft.linearize(state, inputs, &none)?;
                 Ok(black_box(&found).accelerations.omega_dot)
@@ -143,27 +150,44 @@ fn imbalance_of(device: usize) -> [ParameterVariable<'static>; 6] {
 
 impl<const N: usize> Derivatives<N> {
     /// The derivatives of the accelerations by kind of row and kind of variable, as the peers print them.
-    fn blocks(&self) -> Result<Value, Rejected> {
-        let found = self.craft.linearize(&self.state, &self.inputs, &Outputs::accelerations())?;
-        let mut blocks: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    fn blocks(&self) -> Result<BTreeMap<String, Vec<f64>>, Rejected> {
+        let (state, inputs, none) = (&self.state, &self.inputs, Outputs::accelerations());
+        let mut blocks = BTreeMap::new();
+        if matches!(self.name, Name::Derivatives) {
+            let by = self.variables.iter().copied();
+            self.craft.derivatives(state, inputs, &none, by, |variable, column| {
+                add_column(&mut blocks, variable, column.outputs());
+            })?;
+            return Ok(blocks);
+        }
+        let found = self.craft.linearize(state, inputs, &none)?;
         for (variables, matrix) in [(&found.states, &found.c), (&found.inputs, &found.d)] {
             for (variable, column) in variables.iter().zip(matrix.column_iter()) {
-                let by = match variable {
-                    Variable::Coordinate(_) => "angles",
-                    Variable::Omega(_) => "omega",
-                    Variable::Rate(_) => "rates",
-                    Variable::Force(_) => "force",
-                    Variable::TorqueB(_) => "torque_b",
-                    Variable::Motor(_) => "motors",
-                    _ => continue,
-                };
-                for (row, element) in column.iter().enumerate() {
-                    let name = if row < 6 { ROWS[row / 3] } else { ROWS[2 + row % 3] };
-                    blocks.entry(format!("{name} by {by}")).or_default().push(*element);
-                }
+                add_column(&mut blocks, *variable, column.iter().copied());
             }
         }
-        Ok(json!({ "derivatives": blocks }))
+        Ok(blocks)
+    }
+}
+
+/// Adds a column to the blocks; the peers have none by position, velocity and attitude.
+fn add_column(
+    blocks: &mut BTreeMap<String, Vec<f64>>,
+    variable: Variable,
+    column: impl Iterator<Item = f64>,
+) {
+    let by = match variable {
+        Variable::Coordinate(_) => "angles",
+        Variable::Omega(_) => "omega",
+        Variable::Rate(_) => "rates",
+        Variable::Force(_) => "force",
+        Variable::TorqueB(_) => "torque_b",
+        Variable::Motor(_) => "motors",
+        _ => return,
+    };
+    for (row, element) in column.enumerate() {
+        let name = if row < 6 { ROWS[row / 3] } else { ROWS[2 + row % 3] };
+        blocks.entry(format!("{name} by {by}")).or_default().push(element);
     }
 }
 
@@ -173,10 +197,11 @@ const ROWS: [&str; 5] = ["r_b_n_ddot", "omega_dot", "gamma_o_ddot", "gamma_i_ddo
 impl<const N: usize> Service for Derivatives<N> {
     fn check(&mut self) -> Result<Value, Rejected> {
         self.call()?;
-        if matches!(self.name, Name::Linearized) {
-            return self.blocks();
+        let mut found = flat(&self.craft.accelerations(&self.state, &self.inputs)?);
+        if matches!(self.name, Name::Derivatives | Name::Linearized) {
+            found["derivatives"] = json!(self.blocks()?);
         }
-        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
+        Ok(found)
     }
 
     fn run(&mut self, calls: u32) -> Result<(), Rejected> {

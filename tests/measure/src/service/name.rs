@@ -52,6 +52,9 @@ pub(crate) enum Name {
     /// One evaluation, what derivatives of accelerations are compared with
     #[cfg(feature = "lanes")]
     Evaluation,
+    /// Derivatives of accelerations by the same variables, over dual numbers
+    #[cfg(feature = "lanes")]
+    Derivatives,
     /// Accelerations linearised about a state and inputs
     #[cfg(feature = "lanes")]
     Linearized,
@@ -112,6 +115,7 @@ impl Name {
             Self::Baked => ("baked kernels", "baked", None, 1),
             Self::Flexible => ("one state, dispatched", "flexible", None, 1),
             Self::Evaluation => ("an evaluation", "derivatives", None, 1),
+            Self::Derivatives => ("`derivatives`", "derivatives", None, 1),
             Self::Linearized => ("`linearize`", "derivatives", None, 1),
             Self::Differences => ("central differences", "derivatives", None, 1),
             Self::ByParameters => ("`parameter_derivatives`", "derivatives", None, 1),

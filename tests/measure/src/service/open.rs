@@ -65,6 +65,7 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         Name::Flexible => of_flexible(&Listed::read(file)?),
         #[cfg(feature = "lanes")]
         Name::Evaluation
+        | Name::Derivatives
         | Name::Linearized
         | Name::Differences
         | Name::ByParameters
