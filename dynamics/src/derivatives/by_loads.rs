@@ -9,8 +9,8 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::load_columns::{EachDevice, Load, LoadColumns, Moving, Place};
-use crate::derivatives::mass_system::{MassSystem, Six};
+use crate::derivatives::load_columns::{EachDevice, LoadColumns, Moving, Place};
+use crate::derivatives::mass_system::{MassSystem, Reduced, Six};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -167,7 +167,7 @@ impl<T: Scalar> ByLoads<T> {
     }
 
     #[inline(always)]
-    fn by_joint(&self, joint: usize, of: &[Load<T>], joints: &mut [T]) -> Six<T> {
+    fn by_joint(&self, joint: usize, of: &[Reduced<T>], joints: &mut [T]) -> Six<T> {
         let Some((reduced, place)) = of.get(joint).zip(self.devices.places.get(joint)) else {
             return self.followed([zero(); 6], joints);
         };

@@ -1,19 +1,18 @@
 //! [`DeviceLoads`]: derivatives of the loads of a device of a tree, by its emitted kernel, with what acts on it.
 
 use crate::derivatives::applied_columns::Applied;
+use crate::derivatives::device_kernel::{NotEmitted, load_derivatives};
 use crate::derivatives::load_columns::Load;
-use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::gravity::Central;
 use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::load_sums::HubAccelerations;
-use crate::equations::system::Solution;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kind, LoadColumn};
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one};
-use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed};
+use crate::numbers::vec3::{Columns, Vec3, components, rotate};
 
 /// Those of one device, for whose hub its base stands.
 #[derive(Clone, Copy, Debug)]
@@ -73,25 +72,14 @@ impl<T: Scalar> DeviceLoads<T> {
         columns.zip(more).for_each(|(to, from)| to.add(one(), from));
     }
 
-    /// Of a device on a base that moves so, in a field; with what acts on it from outside. None where it has no emitted
-    /// derivatives.
+    /// Of a device on a base that moves so, in a field; with what acts on it from outside.
     pub(super) fn new<K: Kind<Scalar = T>>(
         device: &Device<K>,
         (joints, given, accelerations): (&K::Joints<T>, &DeviceInputs<'_, K>, &K::Accelerations<T>),
         (omega, base): (Vec3<T>, &HubAccelerations<T>),
         field: Option<&Central<T>>,
-    ) -> Option<(Self, Option<Applied<T>>)> {
-        let within = |v| rotate_transposed(&device.mount, v);
-        let HubAccelerations { r_b_n_ddot, omega_dot } = *base;
-        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
-        let found = K::load_derivatives(
-            &device.constants,
-            &K::pose(joints),
-            joints,
-            &expressed_in_b(within(omega)),
-            &hub.expressed_in_b(),
-            accelerations,
-        )?;
+    ) -> Result<(Self, Option<Applied<T>>), NotEmitted> {
+        let found = load_derivatives(device, (joints, accelerations), (omega, base))?;
         let each = |columns: &K::PerJoint<LoadColumn<K>>| {
             let mut loads = [Load::none(); MAX_JOINTS];
             for (to, from) in loads.iter_mut().zip(columns.values()) {
@@ -131,6 +119,6 @@ impl<T: Scalar> DeviceLoads<T> {
         if let Some(applied) = &applied {
             columns.add_applied(applied);
         }
-        Some((columns, applied))
+        Ok((columns, applied))
     }
 }

@@ -4,28 +4,26 @@
 
 use alloc::vec::Vec;
 
-use crate::derivatives::mass_system::{Gains, JointElimination, Six};
+use crate::derivatives::device_kernel::{NotEmitted, check_count, check_coupled, load_derivatives};
+use crate::derivatives::mass_system::{Gains, JointElimination, Reduced, Six};
 use crate::equations::arithmetic::Arithmetic;
-use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::load_sums::HubAccelerations;
-use crate::equations::system::Solution;
 use crate::isolation::carrier::Carrier;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kind, LoadColumn, LoadDerivatives};
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::vec3::{Columns, Vec3, components, rotate, rotate_transposed};
+use crate::numbers::vec3::{Columns, Vec3, components, rotate};
 use crate::sets::bundle::{Bundle, Given, Shared};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Visit};
 use crate::sets::per_device as data;
 
 /// By one variable: force and moment about B that the hub exerts on a device, B axes, and what each of its motors exerts
-/// less spring and friction. With its joints eliminated: what is left for the hub's equations, on their right side, and by
-/// how much less its joints accelerate on a hub whose accelerations do not change.
+/// less spring and friction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Load<T> {
     pub(crate) hub: Six<T>,
@@ -47,10 +45,10 @@ pub(super) struct Place {
 #[derive(Debug)]
 pub(super) struct LoadColumns<T> {
     pub(super) places: Vec<Place>,
-    pub(super) coordinates: Vec<Load<T>>,
-    pub(super) rates: Vec<Load<T>>,
+    pub(super) coordinates: Vec<Reduced<T>>,
+    pub(super) rates: Vec<Reduced<T>>,
     /// By the motor of a free joint, by the acceleration of one whose acceleration is given.
-    pub(super) driven: Vec<Load<T>>,
+    pub(super) driven: Vec<Reduced<T>>,
     /// By the angular velocity of the hub, B axes: what is left for the hub, of all devices.
     pub(super) omega: [Six<T>; 3],
     /// The same, of each joint.
@@ -85,10 +83,6 @@ impl<T: Scalar> Load<T> {
         Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
     }
 }
-
-/// A device has no emitted derivatives: a platform, the lumped model, more joints than [`MAX_JOINTS`].
-#[derive(Debug)]
-pub(crate) struct NotEmitted;
 
 /// Evaluates the kernel of each device.
 pub(super) struct EachDevice<T> {
@@ -142,7 +136,7 @@ fn numbers<T: Scalar>(values: impl Iterator<Item = T>) -> [T; MAX_JOINTS] {
 }
 
 /// What the kernel of a device is called with.
-struct DeviceMotion<'a, K: Kind> {
+struct KernelInputs<'a, K: Kind> {
     device: &'a Device<K>,
     joints: &'a K::Joints<K::Scalar>,
     accelerations: &'a K::Accelerations<K::Scalar>,
@@ -150,24 +144,18 @@ struct DeviceMotion<'a, K: Kind> {
     hub: HubAccelerations<K::Scalar>,
 }
 
-impl<K: Kind> DeviceMotion<'_, K> {
+impl<K: Kind> KernelInputs<'_, K> {
     #[inline(always)]
-    fn load_derivatives(&self) -> Option<LoadDerivatives<K>> {
-        let Self { device, joints, accelerations, .. } = self;
-        let within = |v| rotate_transposed(&device.mount, v);
-        let HubAccelerations { r_b_n_ddot, omega_dot } = self.hub;
-        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
-        let omega = expressed_in_b(within(self.omega));
-        let pose = K::pose(joints);
-        let hub = hub.expressed_in_b();
-        K::load_derivatives(&device.constants, &pose, joints, &omega, &hub, accelerations)
+    fn load_derivatives(&self) -> Result<LoadDerivatives<K>, NotEmitted> {
+        let Self { device, joints, accelerations, omega, hub } = self;
+        load_derivatives(device, (joints, accelerations), (*omega, hub))
     }
 }
 
 /// A device by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 struct Dispatched<'a, 'b, K: Kind> {
-    motion: DeviceMotion<'a, K>,
+    inputs: KernelInputs<'a, K>,
     given: DeviceInputs<'a, K>,
     found: &'b mut LoadColumns<K::Scalar>,
 }
@@ -178,9 +166,9 @@ impl<K: Kind> pulp::WithSimd for Dispatched<'_, '_, K> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
-        let Self { motion, given, found } = self;
-        let kernel = motion.load_derivatives().ok_or(NotEmitted)?;
-        found.add(motion.device, motion.joints, &given, &kernel);
+        let Self { inputs, given, found } = self;
+        let kernel = inputs.load_derivatives()?;
+        found.add(inputs.device, inputs.joints, &given, &kernel);
         Ok(())
     }
 }
@@ -188,12 +176,12 @@ impl<K: Kind> pulp::WithSimd for Dispatched<'_, '_, K> {
 // Never inlined: one copy for all sets.
 #[inline(never)]
 fn portable<K: Kind>(
-    motion: &DeviceMotion<'_, K>,
+    inputs: &KernelInputs<'_, K>,
     given: &DeviceInputs<'_, K>,
     found: &mut LoadColumns<K::Scalar>,
 ) -> Result<(), NotEmitted> {
-    let kernel = motion.load_derivatives().ok_or(NotEmitted)?;
-    found.add(motion.device, motion.joints, given, &kernel);
+    let kernel = inputs.load_derivatives()?;
+    found.add(inputs.device, inputs.joints, given, &kernel);
     Ok(())
 }
 
@@ -236,7 +224,7 @@ impl<T: Scalar> LoadColumns<T> {
                     reduced.joints[joint] = -one::<T>();
                     reduced
                 }
-                _ => Load::none(),
+                _ => Reduced::none(),
             });
         }
         self.add_states::<K>(device, joints, kernel, &eliminated);
@@ -286,7 +274,7 @@ impl<T: Scalar> LoadColumns<T> {
         let of_joints = by_b(&by_axes.map(|column| numbers(column.joints.values())), mount);
         let mut by_joint = [[zero(); 3]; MAX_JOINTS];
         for (axis, (hub, own)) in of_hub.iter().zip(&of_joints).enumerate() {
-            let Load { hub, joints } = eliminated.reduced(hub, own);
+            let Reduced { hub, joints } = eliminated.reduced(hub, own);
             self.omega[axis].iter_mut().zip(hub).for_each(|(to, from)| *to = *to + from);
             by_joint.iter_mut().zip(joints).for_each(|(to, from)| to[axis] = from);
         }
@@ -302,15 +290,14 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
-        if device.lumped.is_some() || K::JOINTS.len() > MAX_JOINTS {
-            return Err(NotEmitted);
-        }
+        check_coupled(device)?;
+        check_count::<K>()?;
         let Self { omega, hub, found, .. } = self;
-        let motion = DeviceMotion { device, joints, accelerations, omega: *omega, hub: *hub };
+        let inputs = KernelInputs { device, joints, accelerations, omega: *omega, hub: *hub };
         match self.by {
             #[cfg(feature = "lanes")]
-            Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { motion, given, found }),
-            Arithmetic::Portable => portable(&motion, &given, found),
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { inputs, given, found }),
+            Arithmetic::Portable => portable(&inputs, &given, found),
         }
     }
 

@@ -1,10 +1,9 @@
 //! [`AlongDirection`], [`ByWeights`]: products of the emitted derivatives of the loads, device by device, with a
 //! direction of state and inputs, and with weights of hub and joints. Nothing of a device is kept.
 
-use crate::equations::assembly::expressed_in_b;
+use crate::derivatives::device_kernel::{NotEmitted, check_coupled, load_derivatives};
 use crate::equations::device::Device;
 use crate::equations::load_sums::HubAccelerations;
-use crate::equations::system::Solution;
 use crate::isolation::carrier::Carrier;
 use crate::model::kind::{Kind, LoadColumn, LoadDerivatives};
 use crate::model::mode::Mode;
@@ -17,10 +16,6 @@ use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Visit};
 use crate::sets::per_device as data;
-
-/// A device has no emitted derivatives: a platform, the lumped model.
-#[derive(Debug)]
-pub(super) struct NotEmitted;
 
 /// How the hub moves, seen from a frame that falls with a uniform field, B axes.
 #[derive(Clone, Copy, Debug)]
@@ -41,16 +36,8 @@ impl<T: Scalar> HubMotion<T> {
         joints: &K::Joints<T>,
         accelerations: &K::Accelerations<T>,
     ) -> Result<LoadDerivatives<K>, NotEmitted> {
-        if device.lumped.is_some() {
-            return Err(NotEmitted);
-        }
-        let within = |v| rotate_transposed(&device.mount, v);
-        let HubAccelerations { r_b_n_ddot, omega_dot } = self.accelerations;
-        let hub = Solution { r_b_n_ddot: within(r_b_n_ddot), omega_dot: within(omega_dot) };
-        let (constants, pose) = (&device.constants, K::pose(joints));
-        let omega = expressed_in_b(within(self.omega));
-        let hub = hub.expressed_in_b();
-        K::load_derivatives(constants, &pose, joints, &omega, &hub, accelerations).ok_or(NotEmitted)
+        check_coupled(device)?;
+        load_derivatives(device, (joints, accelerations), (self.omega, &self.accelerations))
     }
 }
 

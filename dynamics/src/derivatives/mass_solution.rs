@@ -1,6 +1,6 @@
 //! [`Spacecraft::mass_solution`]: accelerations by loads only, `M⁻¹ r`, by the elimination of an evaluation, without a heap.
 
-use crate::derivatives::load_products::NotEmitted;
+use crate::derivatives::device_kernel::NotEmitted;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;

@@ -113,6 +113,21 @@ impl<T: Scalar> MassSystem<T> {
     }
 }
 
+/// What a [`Load`] of a device is with its joints eliminated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reduced<T> {
+    /// What is left for the hub's equations, on their right side.
+    pub(super) hub: Six<T>,
+    /// By how much less its joints accelerate on a hub whose accelerations do not change.
+    pub(super) joints: [T; MAX_JOINTS],
+}
+
+impl<T: Scalar> Reduced<T> {
+    pub(super) fn none() -> Self {
+        Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
+    }
+}
+
 /// The joints of one device, eliminated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointElimination<T> {
@@ -183,8 +198,8 @@ impl<T: Scalar> JointElimination<T> {
 
     /// Loads of the hub and of the joints, those of the joints eliminated.
     #[inline(always)]
-    pub(super) fn reduced(&self, hub: &Six<T>, joints: &[T; MAX_JOINTS]) -> Load<T> {
-        let mut found = Load { hub: hub.map(|load| -load), joints: [zero(); MAX_JOINTS] };
+    pub(super) fn reduced(&self, hub: &Six<T>, joints: &[T; MAX_JOINTS]) -> Reduced<T> {
+        let mut found = Reduced { hub: hub.map(|load| -load), joints: [zero(); MAX_JOINTS] };
         let columns = self.inverse.iter().zip(joints).take(self.count);
         for (column, load) in columns {
             for (to, entry) in found.joints.iter_mut().zip(column).take(self.count) {
@@ -201,9 +216,9 @@ impl<T: Scalar> JointElimination<T> {
 
     /// By the motor of a free joint, which takes one from the joint's load.
     #[inline(always)]
-    pub(super) fn motor(&self, joint: usize) -> Load<T> {
+    pub(super) fn motor(&self, joint: usize) -> Reduced<T> {
         let (gains, column) = (self.gains.get(joint), self.inverse.get(joint));
-        let mut found = Load::none();
+        let mut found = Reduced::none();
         found.hub.iter_mut().zip(gains.into_iter().flatten()).for_each(|(to, of)| *to = -*of);
         let own = found.joints.iter_mut().zip(column.into_iter().flatten()).take(self.count);
         own.for_each(|(to, of)| *to = -*of);

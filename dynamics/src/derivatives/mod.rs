@@ -22,6 +22,7 @@ mod by_loads;
 #[cfg(feature = "alloc")]
 mod by_tree;
 pub(crate) mod column;
+pub(crate) mod device_kernel;
 #[cfg(feature = "alloc")]
 mod device_loads;
 #[cfg(feature = "alloc")]

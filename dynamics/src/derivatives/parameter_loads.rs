@@ -11,7 +11,7 @@ use crate::derivatives::column::Column;
 use crate::derivatives::device_motion::{DeviceMotion, GivenJoint, LoadChange};
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::load_columns::{EachDevice, Load, LoadColumns, Moving};
-use crate::derivatives::mass_system::{MassSystem, Six};
+use crate::derivatives::mass_system::{MassSystem, Reduced, Six};
 use crate::derivatives::parameter_change::{add_change, add_hub_change, unit};
 use crate::derivatives::parameters::ParameterVariable;
 use crate::derivatives::rigid_body::{Motion, RigidBody};
@@ -137,7 +137,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
     fn accelerated(&mut self, device: Option<usize>, load: &Load<D::Scalar>) -> Six<D::Scalar> {
         let eliminated = device.and_then(|device| self.columns.eliminated.get(device));
         let reduced = eliminated.map_or_else(
-            || Load { hub: load.hub.map(|load| -load), ..Load::none() },
+            || Reduced { hub: load.hub.map(|load| -load), ..Reduced::none() },
             |of| of.reduced(&load.hub, &load.joints),
         );
         let base = self.system.hub(&reduced.hub, [zero(); 6]);

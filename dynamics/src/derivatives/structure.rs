@@ -3,7 +3,9 @@
 #[cfg(feature = "alloc")]
 use crate::derivatives::base_motion::BaseMotion;
 #[cfg(feature = "alloc")]
-use crate::derivatives::load_columns::{Moving, NotEmitted};
+use crate::derivatives::device_kernel::NotEmitted;
+#[cfg(feature = "alloc")]
+use crate::derivatives::load_columns::Moving;
 #[cfg(feature = "alloc")]
 use crate::derivatives::modal_columns::ModalColumns;
 #[cfg(feature = "alloc")]

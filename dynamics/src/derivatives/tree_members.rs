@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 
 use crate::derivatives::applied_columns::{Applied, by_wrenches};
 use crate::derivatives::base_motion::{BaseMotion, Link, Moments, spatial};
+use crate::derivatives::device_kernel::{NotEmitted, check_count};
 use crate::derivatives::device_loads::DeviceLoads;
-use crate::derivatives::load_columns::{Load, Moving, NotEmitted};
+use crate::derivatives::load_columns::{Load, Moving};
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::gravity::Central;
@@ -116,19 +117,16 @@ impl<T: Scalar> Visit<T, Moving> for Members<T> {
         device: &Device<K>,
         (joints, given, accelerations): <Moving as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), NotEmitted> {
-        if K::JOINTS.len() > MAX_JOINTS {
-            return Err(NotEmitted);
-        }
+        check_count::<K>()?;
         let Some(base) = self.bases.get_mut(self.base) else { return Ok(()) };
         let BaseMotion { omega, acceleration: r_b_n_ddot, omega_dot, .. } = base.motion;
         let hub = HubAccelerations { r_b_n_ddot, omega_dot };
-        let found = DeviceLoads::new(
+        let (columns, applied) = DeviceLoads::new(
             device,
             (joints, &given, accelerations),
             (omega, &hub),
             base.field.as_ref(),
-        );
-        let (columns, applied) = found.ok_or(NotEmitted)?;
+        )?;
         if given.bodies.is_some() {
             self.by_wrenches.extend(by_wrenches(device, joints));
         }

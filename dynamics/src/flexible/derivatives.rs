@@ -5,7 +5,9 @@ use core::convert::Infallible;
 #[cfg(feature = "alloc")]
 use crate::derivatives::base_motion::BaseMotion;
 #[cfg(feature = "alloc")]
-use crate::derivatives::load_columns::{Moving, NotEmitted};
+use crate::derivatives::device_kernel::NotEmitted;
+#[cfg(feature = "alloc")]
+use crate::derivatives::load_columns::Moving;
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::StructureDerivatives;
