@@ -30,7 +30,8 @@ pub(super) fn check_count<K: Kind>() -> Result<(), NotEmitted> {
 #[inline(always)]
 pub(super) fn load_derivatives<K: Kind>(
     device: &Device<K>,
-    (joints, accelerations): (&K::Joints<K::Scalar>, &K::Accelerations<K::Scalar>),
+    joints: &K::Joints<K::Scalar>,
+    accelerations: &K::Accelerations<K::Scalar>,
     (omega, base): (Vec3<K::Scalar>, &HubAccelerations<K::Scalar>),
 ) -> Result<LoadDerivatives<K>, NotEmitted> {
     let within = |v| rotate_transposed(&device.mount, v);

@@ -79,7 +79,7 @@ impl<T: Scalar> DeviceLoads<T> {
         (omega, base): (Vec3<T>, &HubAccelerations<T>),
         field: Option<&Central<T>>,
     ) -> Result<(Self, Option<Applied<T>>), NotEmitted> {
-        let found = load_derivatives(device, (joints, accelerations), (omega, base))?;
+        let found = load_derivatives(device, joints, accelerations, (omega, base))?;
         let each = |columns: &K::PerJoint<LoadColumn<K>>| {
             let mut loads = [Load::none(); MAX_JOINTS];
             for (to, from) in loads.iter_mut().zip(columns.values()) {

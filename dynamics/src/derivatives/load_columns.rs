@@ -148,7 +148,7 @@ impl<K: Kind> KernelInputs<'_, K> {
     #[inline(always)]
     fn load_derivatives(&self) -> Result<LoadDerivatives<K>, NotEmitted> {
         let Self { device, joints, accelerations, omega, hub } = self;
-        load_derivatives(device, (joints, accelerations), (*omega, hub))
+        load_derivatives(device, joints, accelerations, (*omega, hub))
     }
 }
 

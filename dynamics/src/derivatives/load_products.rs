@@ -37,7 +37,7 @@ impl<T: Scalar> HubMotion<T> {
         accelerations: &K::Accelerations<T>,
     ) -> Result<LoadDerivatives<K>, NotEmitted> {
         check_coupled(device)?;
-        load_derivatives(device, (joints, accelerations), (self.omega, &self.accelerations))
+        load_derivatives(device, joints, accelerations, (self.omega, &self.accelerations))
     }
 }
 
