@@ -14,13 +14,15 @@
 //! {"torque":[x,y,z]}    or    {"motors":[u,..]}    or    {"error":"why"}
 //! ```
 //!
-//! At the end of a run its standard input is closed; it then has the time limit of a sample to end, and is ended otherwise.
+//! The time limit of a sample is that of writing its line and of reading the answer. A line that nothing has asked for is an
+//! error: it would shift every later answer. At the end of a run its standard input is closed; it then has the time limit of
+//! a sample to end, and is ended otherwise; what it still writes is not kept.
 
 use std::fmt::Write as _;
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{self, BufRead as _, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command as Program, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -37,13 +39,31 @@ const LINE_MAX: u64 = 1 << 20;
 /// How often it is looked whether a program has ended.
 const PATIENCE: Duration = Duration::from_millis(5);
 
+/// Events of pipes that wait to be read: an answer, and that its sample is written. A thread that has more waits.
+const EVENTS: usize = 2;
+
 /// A program that answers samples.
 pub struct ProgramController {
     child: Child,
-    /// None once it is closed.
-    input: Option<ChildStdin>,
-    answers: Receiver<std::io::Result<String>>,
+    /// Lines to write; none once its standard input is to be closed.
+    lines: Option<SyncSender<String>>,
+    events: Receiver<Event>,
     limit: Duration,
+}
+
+/// What has happened on the pipes of a program.
+#[derive(Debug)]
+enum Event {
+    /// A line was written to it.
+    Written,
+    /// A line could not be written.
+    NotWritten(io::Error),
+    /// It has written a line, and this beside it at once.
+    Line(String, String),
+    /// What it writes cannot be read.
+    NotRead(io::Error),
+    /// It writes no more.
+    Ended,
 }
 
 /// What a program is told at its start.
@@ -85,31 +105,62 @@ impl ProgramController {
         let mut child =
             started.map_err(|error| because(&format!("`{name}` does not start: {error}")))?;
         let (input, output) = (child.stdin.take(), child.stdout.take());
-        let (to, answers) = channel();
-        if let Some(output) = output {
-            thread::spawn(move || {
-                let mut lines = BufReader::new(output);
-                loop {
-                    let mut line = String::new();
-                    let read = std::io::Read::take(&mut lines, LINE_MAX).read_line(&mut line);
-                    // At its end nothing more is read. Nobody listens once the run has ended.
-                    if matches!(read, Ok(0)) || to.send(read.map(|_| line)).is_err() {
-                        return;
-                    }
-                }
-            });
+        let (to, events) = sync_channel(EVENTS);
+        let (lines, to_write) = sync_channel(EVENTS);
+        if let (Some(input), Some(output)) = (input, output) {
+            let written = to.clone();
+            thread::spawn(move || write_lines(input, &to_write, &written));
+            thread::spawn(move || read_lines(output, &to));
         }
         let limit = Duration::try_from_secs_f64(limit).unwrap_or(Duration::MAX);
-        let mut controller = Self { child, input, answers, limit };
-        let line = greeting.line();
-        controller.write(&line)?;
+        let mut controller = Self { child, lines: Some(lines), events, limit };
+        controller.exchange(greeting.line(), false)?;
         Ok(controller)
     }
 
-    fn write(&mut self, line: &str) -> Result<(), ControllerError> {
-        let Some(input) = &mut self.input else { return Err(because("the program was closed")) };
-        let written = input.write_all(line.as_bytes()).and_then(|()| input.flush());
-        written.map_err(|error| self.ended(&format!("does not read: {error}")))
+    /// Writes a line; returns the answer, or nothing where none is awaited.
+    fn exchange(&mut self, line: String, answers: bool) -> Result<String, ControllerError> {
+        if let Ok(event) = self.events.try_recv() {
+            return Err(self.failed(event));
+        }
+        let begun = Instant::now();
+        // The one before has been written, so this one does not wait.
+        let sent = self.lines.as_ref().is_some_and(|lines| lines.send(line).is_ok());
+        if !sent {
+            return Err(self.ended("does not read"));
+        }
+        let (mut written, mut answer) = (false, None);
+        loop {
+            match self.events.recv_timeout(self.limit.saturating_sub(begun.elapsed())) {
+                Ok(Event::Written) => written = true,
+                Ok(Event::Line(line, more)) if answers && answer.is_none() && more.is_empty() => {
+                    answer = Some(line);
+                }
+                Ok(event) => return Err(self.failed(event)),
+                Err(RecvTimeoutError::Timeout) => {
+                    let limit = self.limit.as_secs_f64();
+                    let what = if written { "answer" } else { "read its standard input" };
+                    return Err(because(&format!("its program does not {what} within {limit} s")));
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(self.ended("does not answer")),
+            }
+            if written && (answer.is_some() || !answers) {
+                return Ok(answer.unwrap_or_default());
+            }
+        }
+    }
+
+    /// What is wrong where something else happens than is awaited.
+    fn failed(&mut self, event: Event) -> ControllerError {
+        match event {
+            Event::Written | Event::Ended => self.ended("does not answer"),
+            Event::NotWritten(error) => self.ended(&format!("does not read: {error}")),
+            Event::NotRead(error) => self.ended(&format!("cannot be read: {error}")),
+            Event::Line(line, more) => {
+                let unasked = shown(if more.is_empty() { &line } else { &more });
+                because(&format!("its program answers before it is asked: {unasked}"))
+            }
+        }
     }
 
     /// That a program has ended, with how it did.
@@ -129,22 +180,15 @@ impl ProgramController {
 
 impl Controller for ProgramController {
     fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError> {
-        self.write(&line_of(sample))?;
-        match self.answers.recv_timeout(self.limit) {
-            Ok(Ok(line)) => answer(&line),
-            Ok(Err(error)) => Err(self.ended(&format!("cannot be read: {error}"))),
-            Err(RecvTimeoutError::Timeout) => {
-                let limit = self.limit.as_secs_f64();
-                Err(because(&format!("its program does not answer within {limit} s")))
-            }
-            Err(RecvTimeoutError::Disconnected) => Err(self.ended("does not answer")),
-        }
+        answer(&self.exchange(line_of(sample), true)?)
     }
 }
 
 impl Drop for ProgramController {
     fn drop(&mut self) {
-        drop(self.input.take());
+        drop(self.lines.take());
+        // Nobody listens: what it writes until it ends is read and left.
+        self.events = sync_channel(0).1;
         let until = Instant::now() + self.limit.min(Duration::from_secs(10));
         while Instant::now() < until {
             match self.child.try_wait() {
@@ -155,6 +199,41 @@ impl Drop for ProgramController {
         // It may have ended meanwhile.
         let _ = self.child.kill();
         let _ = self.child.wait();
+    }
+}
+
+/// Writes lines as they come; then closes the standard input of the program.
+fn write_lines(mut to: ChildStdin, lines: &Receiver<String>, written: &SyncSender<Event>) {
+    for line in lines {
+        let event = match to.write_all(line.as_bytes()).and_then(|()| to.flush()) {
+            Ok(()) => Event::Written,
+            Err(error) => Event::NotWritten(error),
+        };
+        if written.send(event).is_err() {
+            return;
+        }
+    }
+}
+
+/// Reads lines to the end, and leaves them once nobody listens.
+fn read_lines(from: impl Read, to: &SyncSender<Event>) {
+    let mut from = BufReader::new(from);
+    loop {
+        let mut line = String::new();
+        let event = match (&mut from).take(LINE_MAX).read_line(&mut line) {
+            Ok(0) => Event::Ended,
+            Ok(_) => Event::Line(line, String::from_utf8_lossy(from.buffer()).into_owned()),
+            Err(error) => Event::NotRead(error),
+        };
+        let last = !matches!(event, Event::Line(..));
+        if to.send(event).is_err() {
+            // It fails where the program has ended.
+            let _ = io::copy(&mut from, &mut io::sink());
+            return;
+        }
+        if last {
+            return;
+        }
     }
 }
 
@@ -213,9 +292,10 @@ fn numbers(of: &[f64]) -> String {
 
 /// What a program answers.
 fn answer(line: &str) -> Result<Command, ControllerError> {
-    let shown = || line.trim_end().chars().take(100).collect::<String>();
-    let wrong =
-        || because(&format!("its program answers no `torque`, `motors` or `error`: {}", shown()));
+    let wrong = || {
+        let shown = shown(line);
+        because(&format!("its program answers no `torque`, `motors` or `error`: {shown}"))
+    };
     let Ok(Value::Object(map)) = serde_json::from_str::<Value>(line) else { return Err(wrong()) };
     let list = |value: &Value| {
         let list = value.as_array()?;
@@ -234,6 +314,66 @@ fn answer(line: &str) -> Result<Command, ControllerError> {
     }
 }
 
+/// The start of the first line of what a program writes.
+fn shown(of: &str) -> String {
+    of.lines().next().unwrap_or_default().chars().take(100).collect()
+}
+
 fn because(reason: &str) -> ControllerError {
     ControllerError::Program { reason: reason.to_owned() }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use super::*;
+
+    /// Lines without end, counted.
+    struct Endless(Arc<AtomicU64>);
+
+    impl Read for Endless {
+        fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+            to.fill(b'\n');
+            let count = to.len().try_into().unwrap_or(u64::MAX);
+            // Ends what would otherwise fill the memory.
+            let before = self.0.fetch_add(count, Ordering::SeqCst);
+            Ok(if before < 1 << 24 { to.len() } else { 0 })
+        }
+    }
+
+    #[test]
+    fn what_nobody_asks_for_is_not_kept() {
+        let count = Arc::new(AtomicU64::new(0));
+        let (to, events) = sync_channel(EVENTS);
+        let from = Endless(Arc::clone(&count));
+        let reader = thread::spawn(move || read_lines(from, &to));
+        assert!(matches!(events.recv(), Ok(Event::Line(..))));
+        thread::sleep(Duration::from_millis(100));
+        // One buffer of the reader.
+        assert!(count.load(Ordering::SeqCst) <= 1 << 16, "{count:?}");
+        // At the end of a run what is written is read and left.
+        drop(events);
+        reader.join().expect("a thread");
+        assert!(count.load(Ordering::SeqCst) > 1 << 24);
+    }
+
+    #[test]
+    fn the_time_limit_is_that_of_writing_as_well() {
+        // More than a pipe holds, to a program that does not read.
+        let name = "a".repeat(1 << 20);
+        let greeting = Greeting {
+            name: &name,
+            times: [1.0, 0.0, 0.0],
+            joints: &[],
+            inertia: Matrix3::identity(),
+        };
+        let command = ["sleep", "20"].map(str::to_owned);
+        let begun = Instant::now();
+        let started = ProgramController::start(&command, Path::new(""), 0.2, &greeting);
+        let error = started.err().expect("it does not read").to_string();
+        assert_eq!(error, "its program does not read its standard input within 0.2 s");
+        assert!(begun.elapsed() < Duration::from_secs(15), "{:?}", begun.elapsed());
+    }
 }

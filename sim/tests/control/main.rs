@@ -1,6 +1,7 @@
-//! Controllers in scenarios: a loop with delay against its exact solution, the order at one time, what replaces a controller, controllers of one's own, written scenarios, errors with their places.
+//! Controllers in scenarios: a loop with delay against its exact solution, the order at one time, limits of motors, what replaces a controller, controllers of one's own, written scenarios, errors with their places.
 
 mod errors;
+mod limits;
 mod own;
 mod sampling;
 mod steered;

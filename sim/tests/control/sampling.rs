@@ -1,6 +1,11 @@
 //! When controllers sample and what they command acts: exact solutions, the same at the start as later.
 
-use precess::record::Samples;
+use std::sync::{Arc, Mutex};
+
+use nalgebra::Vector3;
+use precess::control::{Command, Controller, ControllerError, ControllerSample};
+use precess::engine::{Advance, Run, RunQuantities};
+use precess::record::{End, Samples};
 
 use super::{BUS, I_Z, K, P, column, controller, ran, read};
 
@@ -115,4 +120,56 @@ fn times_that_differ_by_rounding_are_one() {
     let (outcome, _) = ran(&read(&text));
     // 20 s of 12.5 ms each: none is cut to a rounding.
     assert!(outcome.steps.accepted <= 1601, "{}", outcome.steps.accepted);
+}
+
+/// With an offset of 0.1 s at 10 Hz the sample of 0.8 s is at 0.7999999999999999 s: a change at 0.8 s comes before it, and
+/// at the end of a run at 0.8 s there is none.
+#[test]
+fn a_sample_that_differs_by_rounding_from_a_change_comes_after_it() {
+    let spinning = BUS.replace(
+        "mount = { spin_axis = [0, 0, 1] }\nwheel = { ",
+        "mount = { spin_axis = [0, 0, 1] }\nwheel = { rate = \"300 rad/s\", ",
+    );
+    let brake = "[[at]]\ntime = \"0.8 s\"\njoint = \"rwz.wheel\"\nbrake = true\n";
+    let keys =
+        "offset = \"0.1 s\"\nallocation = { inverse = \"singularity_robust\", lambda = 1e-6 }";
+    for integrator in [DOP853, RK4] {
+        let text =
+            format!("{spinning}{TURNED}{}{brake}{}", controller(keys, ""), run_of(integrator));
+        let text = text.replace("\"4 Hz\"", "\"10 Hz\"").replace("\"20 s\"", "\"1 s\"");
+        let (outcome, samples) = ran(&read(&text));
+        let [torque, omega] = ["aocs.torque_z", "omega_z"].map(|name| column(&samples, name));
+        assert!((omega[8] - omega[7]).abs() > 0.1, "{omega:?}");
+        for (k, wanted) in law_at(&samples).iter().enumerate().take(10).skip(1) {
+            assert!((wanted - torque[k]).abs() < 1e-12, "{k}: {wanted} {}", torque[k]);
+        }
+        let braked: Vec<_> = outcome.events.iter().map(|event| event.time).collect();
+        assert_eq!(braked, [0.8]);
+    }
+}
+
+/// A controller that keeps the times at which it samples.
+struct Times(Arc<Mutex<Vec<f64>>>);
+
+impl Controller for Times {
+    fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError> {
+        self.0.lock().expect("no panic").push(sample.time);
+        Ok(Command::Torque(Vector3::zeros()))
+    }
+}
+
+#[test]
+fn no_controller_samples_at_the_end() {
+    let keys = "offset = \"0.1 s\"";
+    let text = format!("{BUS}{}{}", controller(keys, ""), run_of(RK4));
+    let text = text.replace("\"4 Hz\"", "\"10 Hz\"").replace("\"20 s\"", "\"0.8 s\"");
+    let scenario = read(&text);
+    let times = Arc::new(Mutex::new(Vec::new()));
+    let own: Vec<(String, Box<dyn Controller>)> =
+        vec![("aocs".to_owned(), Box::new(Times(Arc::clone(&times))))];
+    let mut run = Run::with_controllers(&scenario, RunQuantities::All, own).expect("a run");
+    while let Advance::Stepped = run.advance().expect("a step") {}
+    assert_eq!(run.time().to_bits(), 0.8_f64.to_bits());
+    assert!(matches!(run.end(), Some(End::Finished)));
+    assert_eq!(times.lock().expect("no panic").len(), 7, "0.1 s to 0.7 s");
 }

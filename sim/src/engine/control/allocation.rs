@@ -12,7 +12,8 @@
 use nalgebra::Vector3;
 use precess_craft::SteeringSums;
 use precess_dynamics::{
-    Dither, Inverse, Steered, SteeringError, SteeringLaw, SteeringMatrix, steering_weights,
+    Allocation, Dither, Inverse, Steered, SteeringError, SteeringLaw, SteeringMatrix,
+    steering_weights,
 };
 
 use crate::scenario::{AllocationInverse, COMMANDED_MAX, MotorLimits, SampledController};
@@ -25,7 +26,8 @@ const PHASES: [f64; 3] = [0.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI
 /// What a controller's torque is divided by.
 #[derive(Clone, Debug)]
 pub(super) struct Allocator {
-    /// The momentum that makes lambda and the measure dimensionless; of the first sample where none is stated, N m s.
+    /// The momentum that makes lambda and the measure dimensionless, N m s; where none is stated, that of the first sample
+    /// at which there is one.
     reference: Option<f64>,
 }
 
@@ -47,6 +49,8 @@ pub(super) struct Available {
     pub(super) limits: MotorLimits,
     /// Whether nothing has taken the place of its controller.
     pub(super) commanded: bool,
+    /// Whether its motor is at its largest power or rate.
+    pub(super) at_limit: bool,
 }
 
 /// The joints at a sample.
@@ -81,7 +85,11 @@ impl Allocator {
             *to = of.steered;
         }
         let matrix = matrix(&steered, joints, rates, sums);
-        let reference = *self.reference.get_or_insert_with(|| largest(&matrix));
+        if self.reference.is_none() {
+            self.reference = largest(&matrix, &steered, joints);
+        }
+        // Of the first sample at which a joint is available.
+        let reference = self.reference.unwrap_or(1.0);
         let settings = &of.allocation;
         let has_gimbals = steered.contains(&Steered::Rate);
         let weight = |of: Steered| match of {
@@ -96,7 +104,7 @@ impl Allocator {
         let demand = torque - turning;
         let matrix = only(&matrix, &steered, |of| weight(of) > 0.0);
         let found = if settings.inverse == AllocationInverse::LeastLargest {
-            matrix.least_largest(&demand)?
+            clipped(matrix.least_largest(&demand)?, &matrix, &bounds(joints, &matrix))
         } else {
             let weights = [settings.gimbal_weight, settings.wheel_weight];
             let law = SteeringLaw {
@@ -151,11 +159,34 @@ fn only(
     kept
 }
 
-/// The largest column: the momentum of a wheel for gimbals.
-fn largest(matrix: &SteeringMatrix<f64, COMMANDED_MAX>) -> f64 {
-    let sizes = matrix.columns.iter().map(Vector3::norm);
-    let largest = sizes.fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
+/// The largest column, of gimbals where the controller has any: the momentum of a wheel; of wheels by themselves an inertia.
+/// None where no such joint is available.
+fn largest(
+    matrix: &SteeringMatrix<f64, COMMANDED_MAX>,
+    steered: &Padded<Steered>,
+    joints: &[Available],
+) -> Option<f64> {
+    let has_gimbals = joints.iter().any(|of| of.steered == Steered::Rate);
+    let counts = |of: Steered| of == Steered::Rate || !has_gimbals;
+    let sizes = only(matrix, steered, counts).columns.map(|column| column.norm());
+    Some(sizes.into_iter().fold(0.0, f64::max)).filter(|largest| *largest > 0.0)
+}
+
+/// Commands within bounds: what they no longer give is an error of the torque, `-q x`.
+fn clipped(
+    mut of: Allocation<f64, COMMANDED_MAX>,
+    matrix: &SteeringMatrix<f64, COMMANDED_MAX>,
+    bounds: &Padded<[f64; 2]>,
+) -> Allocation<f64, COMMANDED_MAX> {
+    for ((command, column), [lower, upper]) in
+        of.commands.iter_mut().zip(&matrix.columns).zip(bounds)
+    {
+        let within = command.clamp(*lower, *upper);
+        of.bounded += usize::from(within != *command);
+        of.torque_error += column * (*command - within);
+        *command = within;
+    }
+    of
 }
 
 fn inverse(of: AllocationInverse, time: f64) -> Inverse {
@@ -185,4 +216,31 @@ fn bounds(joints: &[Available], matrix: &SteeringMatrix<f64, COMMANDED_MAX>) -> 
         }
     }
     bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn available(steered: Steered) -> Available {
+        let limits = MotorLimits::default();
+        Available { joint: 0, steered, limits, commanded: true, at_limit: false }
+    }
+
+    /// Columns of wheels, kg m², are not compared with those of gimbals, N m s.
+    #[test]
+    fn the_reference_momentum_is_that_of_a_gimbal() {
+        let joints = [Steered::Rate, Steered::Acceleration].map(available);
+        let mut steered = [Steered::Nothing; COMMANDED_MAX];
+        let mut columns = [Vector3::zeros(); COMMANDED_MAX];
+        (columns[0], columns[1]) = (Vector3::new(0.0, 2.0, 0.0), Vector3::new(5.0, 0.0, 0.0));
+        let matrix = SteeringMatrix { columns, drift: Vector3::zeros() };
+        (steered[0], steered[1]) = (Steered::Rate, Steered::Acceleration);
+        assert_eq!(largest(&matrix, &steered, &joints), Some(2.0));
+        // The gimbal is not available: no reference yet, and not that of a wheel.
+        steered[0] = Steered::Nothing;
+        assert_eq!(largest(&matrix, &steered, &joints), None);
+        // Wheels by themselves.
+        assert_eq!(largest(&matrix, &steered, &joints[1..]), Some(5.0));
+    }
 }

@@ -15,6 +15,7 @@ use precess_control::{Motion, Sample};
 use precess_craft::{SteeringDevices, SteeringSums};
 use precess_dynamics::{JointStates, Steered};
 
+use super::equations::motors::{MotorState, POWER};
 use super::equations::system::System;
 use super::integration::Moment;
 use crate::control::{
@@ -52,7 +53,9 @@ struct Control<'a> {
     present: Option<Vec<f64>>,
     /// Whether there was a sample before.
     sampled: bool,
-    /// Whether commands or torques were at a limit at the last one.
+    /// How many commands were at a bound at the last one.
+    bounded: usize,
+    /// Whether commands, torques or motors were at a limit since the last one.
     limited: bool,
 }
 
@@ -89,6 +92,7 @@ impl<'a> Controls<'a> {
                 pending: VecDeque::new(),
                 present: None,
                 sampled: false,
+                bounded: 0,
                 limited: false,
             });
         }
@@ -113,11 +117,11 @@ impl<'a> Controls<'a> {
             let tick = control.ticks.as_ref().map(Clock::next);
             [Some(control.samples.next()), acting, tick]
         });
-        let coming = times.flatten().filter(|at| *at > time && *at < self.duration);
+        let coming = times.flatten().filter(|at| *at > time && !reached(self.duration, *at));
         coming.fold(f64::INFINITY, f64::min)
     }
 
-    /// Does what is due at a time: samples, then what acts.
+    /// Does what is due at a time before the end of the run: samples, then what acts.
     pub(crate) fn act(
         &mut self,
         system: &mut System<'_>,
@@ -125,6 +129,9 @@ impl<'a> Controls<'a> {
         moment: &Moment,
     ) -> Result<(), RunError> {
         let Some(steering) = &mut self.steering else { return Ok(()) };
+        if reached(self.duration, time) {
+            return Ok(());
+        }
         for (index, control) in self.each.iter_mut().enumerate() {
             if control.samples.due(time) {
                 control.sample(index, (system, time, moment), (steering, &self.wheels))?;
@@ -144,11 +151,15 @@ impl Control<'_> {
 
     /// Its joints as they are at present.
     fn joints(&self, system: &System<'_>) -> Vec<Available> {
+        let at_limit = |joint: usize| {
+            system.acting.motors().get(joint).is_some_and(|motor| *motor != MotorState::Commanded)
+        };
         let joint = |of: &crate::scenario::CommandedJoint| Available {
             joint: of.joint,
             steered: of.steered,
             limits: system.acting.drive(of.joint).limits(),
             commanded: system.acting.held.torque(of.joint).is_some(),
+            at_limit: at_limit(of.joint),
         };
         self.of.joints.iter().map(joint).collect()
     }
@@ -169,6 +180,7 @@ impl Control<'_> {
         for ((by_rate, n), _) in turning.filter(|(_, wheel)| **wheel) {
             *by_rate = state.omega.cross(n);
         }
+        let joints = self.joints(system);
         let elapsed = if self.sampled { 1.0 / self.of.rate } else { 0.0 };
         let of = Sample {
             motion: Motion { attitude: state.attitude, omega: state.omega },
@@ -176,7 +188,7 @@ impl Control<'_> {
             momentum: sums.momentum,
             external: Vector3::zeros(),
             elapsed,
-            limited: self.limited,
+            limited: self.limited || joints.iter().any(|of| of.commanded && of.at_limit),
         };
         let own: Vec<_> =
             self.of.joints.iter().filter_map(|of| all.get(of.joint)).copied().collect();
@@ -184,15 +196,15 @@ impl Control<'_> {
         let answer = answered.and_then(|answer| checked(answer, own.len()));
         let answer = answer.map_err(|error| self.error(time, error))?;
         self.sampled = true;
-        let joints = self.joints(system);
+        let rates: Vec<f64> = all.iter().map(|[_, rate]| *rate).collect();
         let computed = match answer {
             Command::Motors(torques) => {
-                self.limited = limited(&joints, &torques) > 0;
-                write(index, system, None, limited(&joints, &torques));
+                let at_limit = limited(&joints, &torques, &rates);
+                (self.bounded, self.limited) = (0, at_limit > 0);
+                write(index, system, None, at_limit);
                 Pending::Torques(torques)
             }
             Command::Torque(torque) => {
-                let rates: Vec<f64> = all.iter().map(|[_, rate]| *rate).collect();
                 let pose = Pose { joints: &joints, rates: &rates, omega: &state.omega };
                 self.commanded(index, (system, time, moment), (&torque, pose), &sums)?
             }
@@ -218,11 +230,11 @@ impl Control<'_> {
             let gain = self.of.servo.gain;
             let of = motor_torques(system, (time, moment), joints, &allocated.commands, gain);
             let torques = of.map_err(|source| RunError::solve(system, time, source))?;
-            let at_limit = limited(joints, &torques);
+            let at_limit = limited(joints, &torques, pose.rates);
             (Pending::Torques(torques), at_limit)
         };
         let at_limit = at_limit.max(allocated.bounded);
-        self.limited = at_limit > 0;
+        (self.bounded, self.limited) = (allocated.bounded, at_limit > 0);
         write(index, system, Some((torque, &allocated)), at_limit);
         Ok(pending)
     }
@@ -253,7 +265,8 @@ impl Control<'_> {
         let joints = self.joints(system);
         let torques = motor_torques(system, (time, moment), &joints, commands, self.of.servo.gain);
         let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
-        let at_limit = limited(&joints, &torques);
+        let rates: Vec<f64> = moment.state.devices.states().map(|[_, rate]| rate).collect();
+        let at_limit = limited(&joints, &torques, &rates).max(self.bounded);
         self.limited |= at_limit > 0;
         if let Some(values) = system.acting.held.values_mut(index) {
             #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
@@ -265,7 +278,7 @@ impl Control<'_> {
     }
 }
 
-/// Writes what was computed for the columns; of torques of motors only how many are at a limit.
+/// Writes what was computed for the columns; of torques of motors nothing is but how many are at a limit.
 fn write(
     index: usize,
     system: &mut System<'_>,
@@ -276,12 +289,11 @@ fn write(
     #[expect(clippy::cast_precision_loss, reason = "as many as joints")]
     let count = at_limit as f64;
     values.limited = count;
-    if let Some((torque, allocated)) = computed {
-        values.torque = (*torque).into();
-        values.torque_error = allocated.torque_error.into();
-        values.commands.clone_from(&allocated.commands);
-        values.measure = allocated.measure;
-    }
+    let Some((torque, allocated)) = computed else { return values.clear() };
+    values.torque = (*torque).into();
+    values.torque_error = allocated.torque_error.into();
+    values.commands.clone_from(&allocated.commands);
+    values.measure = allocated.measure;
 }
 
 /// The controller of a scenario.
@@ -319,10 +331,14 @@ fn hold(of: &SampledController, system: &mut System<'_>, torques: &[f64]) {
     }
 }
 
-/// How many torques are beyond the largest of their motors.
-fn limited(joints: &[Available], torques: &[f64]) -> usize {
+/// Of how many joints the motor is at a limit that depends on the rate, or the torque is beyond the largest one or the
+/// power.
+fn limited(joints: &[Available], torques: &[f64], rates: &[f64]) -> usize {
     let beyond = |(of, torque): &(&Available, &f64)| {
-        of.commanded && of.limits.torque.is_some_and(|limit| torque.abs() > limit.abs())
+        let rate = rates.get(of.joint).copied().unwrap_or_default();
+        let power = of.limits.power.map_or(f64::INFINITY, |power| power * (1.0 + POWER));
+        let torque_max = of.limits.torque.map_or(f64::INFINITY, f64::abs);
+        of.commanded && (of.at_limit || torque.abs() > torque_max || **torque * rate > power)
     };
     joints.iter().zip(torques).filter(beyond).count()
 }

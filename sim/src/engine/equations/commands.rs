@@ -1,7 +1,7 @@
 //! [`HeldCommands`]: what controllers command of joints and hold until they command anew, and what they computed at their
 //! last samples.
 
-use crate::scenario::Scenario;
+use crate::scenario::{SampledController, Scenario};
 
 /// Commands in force.
 #[derive(Clone, Debug)]
@@ -36,6 +36,24 @@ pub(crate) struct ControlValues {
     pub(crate) limited: f64,
 }
 
+impl ControlValues {
+    /// Those of a number of joints before anything is computed.
+    fn nothing(joints: usize) -> Self {
+        Self {
+            torque: [0.0; 3],
+            torque_error: [0.0; 3],
+            commands: vec![0.0; joints],
+            measure: f64::NAN,
+            limited: 0.0,
+        }
+    }
+
+    /// Leaves nothing of an earlier sample but how many are at a limit.
+    pub(crate) fn clear(&mut self) {
+        *self = Self { limited: self.limited, ..Self::nothing(self.commands.len()) };
+    }
+}
+
 impl HeldCommands {
     /// No torques, and nothing computed.
     pub(crate) fn new(scenario: &Scenario) -> Self {
@@ -45,13 +63,7 @@ impl HeldCommands {
                 *held = Some(Held::default());
             }
         }
-        let nothing = |of: &crate::scenario::SampledController| ControlValues {
-            torque: [0.0; 3],
-            torque_error: [0.0; 3],
-            commands: vec![0.0; of.joints.len()],
-            measure: f64::NAN,
-            limited: 0.0,
-        };
+        let nothing = |of: &SampledController| ControlValues::nothing(of.joints.len());
         Self { joints, values: scenario.controllers.iter().map(nothing).collect() }
     }
 

@@ -15,6 +15,7 @@ impl Run<'_> {
     /// Applies what is due at the present time and begins the segment.
     pub(super) fn begin_segment(&mut self) -> Result<(), RunError> {
         loop {
+            self.time = self.latest_of_same();
             let listed = self.segments.end_after(self.time);
             self.system.acting.begin(self.time, listed);
             let released = self.bring_to_rest()?;
@@ -37,6 +38,18 @@ impl Run<'_> {
             self.stepper.now(&self.system, &mut self.moment);
             self.at_boundary = false;
             return Ok(());
+        }
+    }
+
+    /// The latest time at which something is due that differs from the present one by rounding: they are one.
+    fn latest_of_same(&mut self) -> f64 {
+        let mut time = self.time;
+        loop {
+            let next = self.controls.next_after(time).min(self.segments.end_after(time));
+            if next <= time || !same(time, next) {
+                return time;
+            }
+            time = next;
         }
     }
 
