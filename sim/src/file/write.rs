@@ -4,6 +4,7 @@
 //! Layouts and copies are written as the devices they make, data sheets as centres of mass and
 //! products of inertia, files of tables as they were named are not needed any more. A key that is
 //! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
+//! A program of a controller runs in the folder of the file that is read, which is not written.
 
 mod controller;
 mod source;

@@ -10,7 +10,7 @@ use precess_control::{
 };
 use precess_dynamics::Quaternion;
 
-/// A law. Where it has an inertia, kg m², none stands for that of the scenario at its start, about the centre of mass.
+/// A law. Gains are diagonal, as those of a file: one for each axis of B. Where it has an inertia, kg m², none stands for that of the scenario at its start, about the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ControlLaw {
     /// [`MrpFeedback`].
@@ -51,7 +51,7 @@ pub enum ControlLaw {
     Program {
         /// Its name, and its arguments.
         command: Vec<String>,
-        /// The folder in which it runs.
+        /// The folder in which it runs: that of the scenario's file. It is not written to one.
         folder: PathBuf,
         /// How long it may take for an answer, s.
         time_limit: f64,
@@ -89,6 +89,25 @@ pub(crate) type BuiltLaw = Box<dyn Law + Send>;
 pub(crate) type BuiltGuidance = Box<dyn Guidance + Send>;
 
 impl ControlLaw {
+    /// The keys of its gains that have an element beside the diagonal, with that element.
+    pub(super) fn beside_the_diagonal(&self) -> Vec<(&'static str, f64)> {
+        let all: &[(&'static str, &Matrix3<f64>)] = match self {
+            Self::MrpFeedback { gains, .. } => {
+                &[("law.rate_gain", &gains.rate), ("law.integral_gain", &gains.integral)]
+            }
+            Self::QuaternionFeedback { attitude, rate, .. } => {
+                &[("law.attitude_gain", attitude), ("law.rate_gain", rate)]
+            }
+            Self::RateDamping { rate } => &[("law.rate_gain", rate)],
+            Self::EigenAxis { .. } | Self::Program { .. } => &[],
+        };
+        let beside = |of: &Matrix3<f64>| {
+            let rest = of - Matrix3::from_diagonal(&of.diagonal());
+            rest.iter().copied().find(|element| *element != 0.0)
+        };
+        all.iter().filter_map(|(key, of)| Some((*key, beside(of)?))).collect()
+    }
+
     /// The law, with an inertia where it states none; none of a program.
     ///
     /// # Errors

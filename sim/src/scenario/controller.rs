@@ -60,8 +60,8 @@ pub struct TorqueAllocation {
     pub wheel_weight: f64,
     /// How fast the weight of wheels falls with the measure of singularity: `wheel_weight exp(-mu measure)`.
     pub wheel_mu: f64,
-    /// The momentum that makes lambda and the measure dimensionless, N m s; none for the largest column of the steering
-    /// matrix at the start.
+    /// The momentum that makes lambda and the measure dimensionless, N m s; none for the largest column of gimbals, without
+    /// these of wheels, of the steering matrix at the first sample.
     pub reference: Option<f64>,
 }
 
@@ -234,6 +234,13 @@ impl SampledController {
                 let limit = Plain(*time_limit);
                 faults.push(("law.time_limit", format!("{limit} s is not above 0 s")));
             }
+        }
+        for (key, element) in self.law.beside_the_diagonal() {
+            let message = format!(
+                "{} is beside the diagonal; a scenario has one gain for each axis, others are those of a controller of your own",
+                Plain(element)
+            );
+            faults.push((key, message));
         }
         faults.extend(self.allocation.faults(&self.joints));
         if !not_negative(self.servo.gain) {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use precess::file::from_toml;
+use precess::scenario::ControlLaw;
 
 use super::{BUS, controller};
 
@@ -14,6 +15,15 @@ fn what_is_wrong_is_said_with_its_place() {
     let wheel = "wheel = { mass = \"2 kg\"";
     let panel = "[[device]]\nname = \"panel\"\nkind = \"hinged_panel\"\npanel = { mass = \"1 kg\", inertia = \"1, 1, 1 kg m^2\" }\n";
     let with = |keys: &str| format!("{BUS}{}{RUN}", controller(keys, ""));
+    let slew = |angle: &str| {
+        let turn = format!(
+            "reference = {{ kind = \"slew\", jerk_limit = \"1 deg/s^3\", turn = {{ axis = [0, 0, 1], angle = \"{angle}\" }} }}"
+        );
+        let keys = controller(&turn, "");
+        let keys = keys.split("[controller.reference.attitude]").next().unwrap_or_default();
+        format!("{BUS}{keys}{RUN}")
+    };
+    assert!(from_toml("test.toml", &slew("-180 deg"), Path::new("")).is_ok());
     for (text, message, place) in [
         (good.replace("\"4 Hz\"", "\"0 Hz\""), "0 Hz is not above 0 Hz and at most", "\"0 Hz\""),
         (good.replace("\"4 Hz\"", "\"-4 Hz\""), "-4 Hz is not above 0 Hz", "\"-4 Hz\""),
@@ -45,6 +55,8 @@ fn what_is_wrong_is_said_with_its_place() {
             "`lambda` is of a singularity-robust inverse",
             "0.1",
         ),
+        (slew("200 deg"), "200 deg is more than 180 deg, and a slew goes", "\"200 deg\""),
+        (slew("-270 deg"), "-270 deg is more than 180 deg, and a slew goes", "\"-270 deg\""),
         (with("servo = { rate = \"1 Hz\" }"), "1 Hz is outside 4 Hz", "\"1 Hz\""),
         (
             format!(
@@ -64,4 +76,19 @@ fn what_is_wrong_is_said_with_its_place() {
             assert_eq!(text.get(span.range), Some(place), "{message}\n{shown}");
         }
     }
+}
+
+/// A file has gains of axes of B only, so a scenario has no others: written and read back they would be lost.
+#[test]
+fn gains_beside_the_diagonal_are_rejected() {
+    let mut scenario = super::read(&format!("{BUS}{}{RUN}", controller("", "")));
+    assert!(scenario.check().is_empty());
+    let ControlLaw::MrpFeedback { gains, .. } = &mut scenario.controllers[0].law else {
+        panic!("another law")
+    };
+    gains.rate[(0, 1)] = 0.5;
+    let errors = scenario.check();
+    let shown: Vec<_> = errors.iter().map(ToString::to_string).collect();
+    assert_eq!(shown.len(), 1, "{shown:?}");
+    assert!(shown[0].contains("law.rate_gain") && shown[0].contains("0.5"), "{shown:?}");
 }

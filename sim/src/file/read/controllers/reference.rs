@@ -1,5 +1,7 @@
 //! `reference` of a `[[controller]]`: what the hub is to follow.
 
+use std::f64::consts::{PI, TAU};
+
 use precess_control::{TurnLimits, rotation};
 use precess_dynamics::{Attitude as _, Quaternion};
 
@@ -7,7 +9,7 @@ use super::{ControllerContext, Wrong};
 use crate::file::keys::Keys;
 use crate::file::read::devices::initial::{attitude_of, of_axes};
 use crate::scenario::{AttitudeReference, OrbitalFrame};
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// Which reference, by its word.
 #[derive(Clone, Copy)]
@@ -64,10 +66,29 @@ fn attitude(keys: &Keys<'_>, key: &str) -> Result<Option<Quaternion>, Wrong> {
     found.map(Some).ok_or(Wrong)
 }
 
+/// The turn of a slew. An attitude is the same after 270 degrees one way and 90 the other, and a slew goes the shorter way.
+fn turn(keys: &Keys<'_>) -> Result<Option<Quaternion>, Wrong> {
+    let found = attitude(keys, "turn")?;
+    let angle = keys.table("turn").filter(|table| table.has("angle"));
+    let angle = angle.and_then(|table| table.quantity("angle", Measure::ANGLE).zip(Some(table)));
+    // One of 180 degrees in other units is that to rounding.
+    let Some((angle, table)) = angle.filter(|(angle, _)| angle.abs() > PI * (1.0 + 1e-9)) else {
+        return Ok(found);
+    };
+    let shorter = angle - TAU * (angle / TAU).round();
+    let [angle, shorter] = [angle, shorter].map(|angle| Plain(angle.to_degrees()));
+    let message = format!("{angle} deg is more than 180 deg, and a slew goes the shorter way");
+    let help = format!(
+        "`angle = \"{shorter} deg\"` ends at the same attitude; `kind = \"turning\"` goes on"
+    );
+    table.error("angle", message, &help);
+    Err(Wrong)
+}
+
 fn slew(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeReference> {
     let start = keys.quantity("start", Measure::TIME).unwrap_or(0.0);
     let from = attitude(keys, "from");
-    let [to, turn] = ["attitude", "turn"].map(|key| attitude(keys, key));
+    let (to, turn) = (attitude(keys, "attitude"), turn(keys));
     let limit = |key: &str, measure| keys.quantity(key, measure).unwrap_or(f64::INFINITY);
     let limits = TurnLimits {
         rate: limit("rate_limit", Measure::ANGULAR_RATE),
