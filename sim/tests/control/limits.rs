@@ -6,7 +6,7 @@ use super::{BUS, I_Z, K, P, column, controller, ran, read};
 
 const TURNED: &str = "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"40 deg\"\n";
 const RUN: &str = "[run]\nduration = \"10 s\"\nintegrator = \"rk4\"\nstep = \"12.5 ms\"\n[output]\nrate = \"4 Hz\"\n";
-/// K_I, 1/(kg m²).
+/// `K_I`, 1/(kg m²).
 const INTEGRAL: f64 = 0.01;
 
 /// The bus turned about z, with more keys of its wheel along z, of its controller, and of the law.
