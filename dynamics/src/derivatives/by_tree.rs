@@ -12,6 +12,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::base_motion::{BaseMotion, Moments};
 use crate::derivatives::field_columns::FieldColumns;
 use crate::derivatives::load_columns::Load;
+use crate::derivatives::mass_system::Six;
 use crate::derivatives::modal_columns::ModalColumns;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree_changes::Changes;
@@ -42,13 +43,6 @@ pub(super) struct ByTree<T> {
     /// The field at B, B axes.
     at_b: Vec3<T>,
     hub_is_free: bool,
-}
-
-/// What accelerations change by: of B along its axes, of the angular velocity.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct HubChange<T> {
-    pub(super) r_b_n_ddot: Vec3<T>,
-    pub(super) omega_dot: Vec3<T>,
 }
 
 impl<T: Scalar> ByTree<T> {
@@ -99,7 +93,7 @@ impl<T: Scalar> ByTree<T> {
     }
 
     /// The accelerations' derivatives by one variable, those of the joints and then of the modes into `joints`.
-    pub(super) fn column(&self, by: Variable, joints: &mut [T]) -> HubChange<T> {
+    pub(super) fn column(&self, by: Variable, joints: &mut [T]) -> Six<T> {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let mut changes = Changes::none(&self.members, self.modal.count());
         let mut field = zeros();
@@ -144,17 +138,18 @@ impl<T: Scalar> ByTree<T> {
             }
             _ => {}
         }
-        let HubChange { r_b_n_ddot, omega_dot } = self.solved(changes, joints);
+        let [a, b, c, d, e, f] = self.solved(changes, joints);
         if let Variable::Acceleration(joint) = by
             && let Some(own) = joints.get_mut(joint)
         {
             *own = one();
         }
-        HubChange { r_b_n_ddot: add(r_b_n_ddot, field), omega_dot }
+        let [a, b, c] = add([a, b, c], field);
+        [a, b, c, d, e, f]
     }
 
     /// The accelerations where motions and loads change.
-    fn solved(&self, mut changes: Changes<T>, joints: &mut [T]) -> HubChange<T> {
+    fn solved(&self, mut changes: Changes<T>, joints: &mut [T]) -> Six<T> {
         let Members { bases, devices, .. } = &self.members;
         for (number, base) in bases.iter().enumerate() {
             if let Some(link) = &base.link
@@ -198,12 +193,11 @@ impl<T: Scalar> ByTree<T> {
         let (modes, found) = found.split_at(self.modal.count().min(found.len()));
         let found = found.iter().chain(modes);
         joints.iter_mut().zip(found).for_each(|(to, from)| *to = -*from);
-        match (hub, self.hub_is_free) {
-            ([a, b, c, d, e, f], true) => {
-                HubChange { r_b_n_ddot: [-*a, -*b, -*c], omega_dot: [-*d, -*e, -*f] }
-            }
-            _ => HubChange { r_b_n_ddot: changes.given[0], omega_dot: changes.given[1] },
+        if let ([a, b, c, d, e, f], true) = (hub, self.hub_is_free) {
+            return [-*a, -*b, -*c, -*d, -*e, -*f];
         }
+        let [[a, b, c], [d, e, f]] = changes.given;
+        [a, b, c, d, e, f]
     }
 
     /// The field at B changes by this, which is returned: what is given of a hub changes as seen from what falls.

@@ -47,9 +47,7 @@ impl<T: Scalar> Emitted<T> {
         };
         for (number, (variable, column)) in variables.iter().zip(columns_of(into)).enumerate() {
             let Some((of_hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
-            let hub = of_tree.column(*variable, joints);
-            let both = hub.r_b_n_ddot.into_iter().chain(hub.omega_dot);
-            of_hub.iter_mut().zip(both).for_each(|(to, from)| *to = from);
+            *of_hub = of_tree.column(*variable, joints);
             if !are_finite(column) {
                 return Err(number);
             }

@@ -66,7 +66,7 @@ enum Event {
     Ended,
 }
 
-/// What a program is told at its start.
+/// What a program receives at its start.
 #[derive(Clone, Copy, Debug)]
 pub struct Greeting<'a> {
     /// Name of the controller.

@@ -6,7 +6,7 @@ use crate::model::error::{self, ControlError};
 
 /// `L = -k (h - h_wanted)`, each component within its limit.
 ///
-/// An external actuator exerts it, and the law of the attitude is told ([`Sample::external`](crate::Sample::external)): it
+/// An external actuator exerts it, and the law of the attitude has it ([`Sample::external`](crate::Sample::external)): it
 /// then commands the devices to exert the opposite, and the hub stays as it is. The momentum's error falls with the time
 /// constant `1 / k`; of samples with period T by `1 - k T` a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]

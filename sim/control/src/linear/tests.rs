@@ -8,7 +8,7 @@ use nalgebra::{Complex, ComplexField as _, DMatrix};
 
 use crate::{Feedback, Plant, SampledLoop, SampledPlant, Sampling, Section, delay_margin};
 
-/// Closed forms of a few operations, and bisection to rounding: what the issue of margins asks for.
+/// Closed forms of a few operations, and bisection to rounding: the bound of every margin.
 const CLOSED_FORM: f64 = 1e-9;
 /// A few operations beside an exponential and a solution of two equations.
 const RESPONSE: f64 = 1e-12;
