@@ -43,7 +43,10 @@ pub(crate) fn reports() -> Result<(), String> {
     }
     let folder = target()?.join("reports");
     // Install scripts of packages are not run: neither the build nor the checks need them.
-    run_there(&mut node("npm", &["ci", "--ignore-scripts", "--no-audit", "--no-fund"]))?;
+    // A connection that stalls is given up after half a minute, not five, and tried again.
+    let packages = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
+    let retries = ["--fetch-timeout=30000", "--fetch-retries=5", "--fetch-retry-maxtimeout=10000"];
+    run_there(node("npm", &packages).args(retries))?;
     let files = rebuild(&folder.join("dist"))?;
     let files = format!("reports: {files} files are those of their sources");
     if !can_check {

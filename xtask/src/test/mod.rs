@@ -71,9 +71,11 @@ pub(crate) fn test(options: &Options) -> Result<(), String> {
     table::print(&outcomes, &spent);
     let failed = outcomes.iter().filter(|outcome| outcome.failed()).count();
     if failed > 0 {
-        let names = outcomes.iter().filter(|outcome| outcome.failed());
-        let names: Vec<_> = names.map(|outcome| outcome.name.as_str()).collect();
-        return Err(format!("{failed} of {} suites failed: {}", outcomes.len(), names.join("; ")));
+        let lines = outcomes.iter().filter(|outcome| outcome.failed());
+        let lines =
+            lines.map(|outcome| format!("\n  {}: {}", outcome.name, outcome.failures.join("; ")));
+        let lines: String = lines.collect();
+        return Err(format!("{failed} of {} suites failed:{lines}", outcomes.len()));
     }
     if options.write {
         return cost::write(&outcomes, &spent);

@@ -13,6 +13,8 @@ pub(crate) struct Outcome {
     pub(crate) left: u64,
     /// Lines that say what was skipped and how to install it.
     pub(crate) skipped: Vec<String>,
+    /// Tests that failed, and the last error that was printed.
+    pub(crate) failures: Vec<String>,
     pub(crate) seconds: f64,
     /// CPU time, where the operating system tells.
     pub(crate) cpu: Option<f64>,
@@ -32,6 +34,7 @@ impl Outcome {
             cases: None,
             left: 0,
             skipped: Vec::new(),
+            failures: vec!["did not start".to_owned()],
             seconds: 0.0,
             cpu: None,
         }
@@ -50,16 +53,28 @@ impl Outcome {
             + "\n"
             + String::from_utf8_lossy(&output.stderr);
         let skipped = text.lines().filter_map(|line| line.strip_prefix("skipped: "));
+        let passed = output.status.success();
         Self {
             name: name.to_owned(),
-            passed: output.status.success(),
+            passed,
             cases: cases(&text),
             left: sum(&text, " ignored"),
             skipped: skipped.map(str::to_owned).collect(),
+            failures: if passed { Vec::new() } else { failures(&text) },
             seconds,
             cpu,
         }
     }
+}
+
+/// The tests that a harness of Rust or of Python names as failed, then the last error of a command.
+fn failures(text: &str) -> Vec<String> {
+    let test = |line: &str| match line.strip_prefix("test ") {
+        Some(rest) => rest.strip_suffix(" ... FAILED").map(str::to_owned),
+        None => line.strip_prefix("FAILED ").filter(|rest| rest.contains("::")).map(str::to_owned),
+    };
+    let error = text.lines().rfind(|line| line.starts_with("error: ")).map(str::to_owned);
+    text.lines().filter_map(test).chain(error).collect()
 }
 
 /// Endings of what counts cases: tests of Rust, Python and boards; proofs; files; mutants; counts of instructions; the
@@ -104,6 +119,16 @@ fn numbers(text: &str, ending: &str) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_failed_is_named() {
+        let cargo = "test a::one ... ok\ntest a::two ... FAILED\n\nerror: test failed, to rerun pass `--lib`\n";
+        assert_eq!(failures(cargo), ["a::two", "error: test failed, to rerun pass `--lib`"]);
+        let python = "FAILED tests/test_run.py::test_steps - assert 1 == 2\n1 failed in 0.1s\n";
+        assert_eq!(failures(python), ["tests/test_run.py::test_steps - assert 1 == 2"]);
+        let command = "error: an earlier one\nnoise\nerror: `npm ci` failed (exit status: 1)\n";
+        assert_eq!(failures(command), ["error: `npm ci` failed (exit status: 1)"]);
+    }
 
     #[test]
     fn cases_are_counted_in_what_tools_print() {
