@@ -101,7 +101,7 @@ fn check_run(folder: &Path) -> Result<usize, String> {
 }
 
 /// Commands that write figures, and one of the files of each.
-const PAGES: [(&[&str], &str); 7] = [
+const PAGES: [(&[&str], &str); 8] = [
     (&["plot", "scenarios/every-kind.toml"], "every-kind-angular-velocity.svg"),
     (
         &["jitter", "scenarios/budgets/imaging-satellite-jitter.toml"],
@@ -116,6 +116,16 @@ const PAGES: [(&[&str], &str); 7] = [
             "device.rw.wheel.rate=600..6000 rpm:3",
         ],
         "wheel-data-sheet-sweep.html",
+    ),
+    // Three keys at once: their names together are longer than an axis.
+    (
+        &[
+            "sweep",
+            "scenarios/bus-three-wheels.toml",
+            "--over",
+            "device.wheel_x.wheel.rate+device.wheel_y.wheel.rate+device.wheel_z.wheel.rate=600..3000 rpm:2",
+        ],
+        "bus-three-wheels-sweep.html",
     ),
     (
         &[

@@ -35,10 +35,20 @@ fn place(axis: &Axis, value: f64) -> f64 {
     if axis.spacing == Spacing::Logarithmic { libm::log10(value) } else { value }
 }
 
+/// The key; of keys that are set together the first, and how many there are besides: an axis has no room for all.
+fn short_key(axis: &Axis) -> String {
+    let mut keys = axis.key.split('+').map(str::trim);
+    let first = keys.next().unwrap_or_default();
+    match keys.count() {
+        0 => first.to_owned(),
+        more => format!("{first} and {more} more"),
+    }
+}
+
 /// The key with its unit.
 fn key(axis: &Axis) -> String {
     let unit = if axis.unit.is_empty() { String::new() } else { format!(" ({})", axis.unit) };
-    format!("{}{unit}", axis.key)
+    format!("{}{unit}", short_key(axis))
 }
 
 /// What [`place`] shows.
@@ -214,7 +224,7 @@ pub(crate) fn campbell(
         .collect();
     plane(
         format!("Natural frequencies in Hz over {}, with orders and crossings.", axis.label()),
-        format!("Natural frequencies over {}", axis.key),
+        format!("Natural frequencies over {}", short_key(axis)),
         [label(axis), "Frequency f (Hz)".to_owned()],
         [ends(axis), (top > 0.0).then_some([0.0, top])],
         |plane| (plane.curves, plane.lines, plane.marks) = (curves, lines, marks),
@@ -234,4 +244,18 @@ fn plane(
         Plane { description, title, axes, curves, lines, dots, marks, large, logarithmic, ranges };
     fill(&mut plane);
     Picture::Plane(plane)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_that_are_set_together_have_one_name_on_an_axis() {
+        let axis = |text: &str| Axis::parse(text).expect("an axis");
+        assert_eq!(key(&axis("device.a.wheel.rate=600,700 rpm")), "device.a.wheel.rate (rpm)");
+        let together =
+            axis("device.a.wheel.rate+device.b.wheel.rate+device.c.wheel.rate=600,700 rpm");
+        assert_eq!(key(&together), "device.a.wheel.rate and 2 more (rpm)");
+    }
 }
