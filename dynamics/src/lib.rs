@@ -85,13 +85,13 @@ mod validation;
 pub use attitude::mrp::Mrp;
 pub use attitude::parameterisation::Attitude;
 pub use attitude::quaternion::Quaternion;
-pub use derivatives::column::{Column, Outputs};
+pub use derivatives::dual::column::{Column, Outputs};
 pub use derivatives::error::DerivativeError;
 #[cfg(feature = "alloc")]
 pub use derivatives::linearization::{Linearization, Output};
-pub use derivatives::parameters::{Component, ParameterVariable};
+pub use derivatives::parameters::columns::{Component, ParameterVariable};
 #[cfg(feature = "alloc")]
-pub use derivatives::step::StepLinearization;
+pub use derivatives::step::linearization::StepLinearization;
 pub use derivatives::structure::Structure;
 pub use derivatives::variable::{Axis, Variable, VariableName};
 pub use equations::device_loads::{DeviceLoads, JointPower};

@@ -3,10 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::by_loads::{ByLoads, are_finite};
-use crate::derivatives::by_tree::ByTree;
 use crate::derivatives::linearization::columns_of;
+use crate::derivatives::loads::by_loads::{ByLoads, are_finite};
 use crate::derivatives::structure::StructureDerivatives;
+use crate::derivatives::tree::by_tree::ByTree;
 use crate::derivatives::variable::Variable;
 use crate::numbers::real::Scalar;
 use crate::sets::devices::Devices;
@@ -16,7 +16,7 @@ use crate::solve::state::{Accelerations, State};
 
 /// By the devices of a hub with nothing but a uniform field, or by those of a tree of carriers under whatever acts.
 #[derive(Debug)]
-pub(super) enum Emitted<T> {
+pub(crate) enum Emitted<T> {
     OnHub(ByLoads<T>),
     OfTree(ByTree<T>),
 }
@@ -24,7 +24,7 @@ pub(super) enum Emitted<T> {
 impl<T: Scalar> Emitted<T> {
     /// At a state with its accelerations; none where what acts has no emitted derivatives: a platform that is no
     /// carrier.
-    pub(super) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
+    pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
@@ -36,7 +36,7 @@ impl<T: Scalar> Emitted<T> {
 
     /// The accelerations' derivatives by these variables into the columns of a matrix; the first of the variables of which
     /// one is not finite.
-    pub(super) fn columns(
+    pub(crate) fn columns(
         &self,
         variables: &[Variable],
         into: &mut DMatrix<T>,

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::column::{Column, Outputs};
+use crate::derivatives::dual::column::{Column, Outputs};
 use crate::derivatives::emitted::Emitted;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::slopes::Slopes;
@@ -165,7 +165,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     }
 
     /// The derivatives of the outputs by states and inputs into their columns.
-    pub(super) fn output_columns<A: Attitude<D::Scalar>>(
+    pub(crate) fn output_columns<A: Attitude<D::Scalar>>(
         &self,
         (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
         accelerations: &Accelerations<D, S>,
@@ -262,7 +262,7 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
 }
 
 /// The columns of a matrix, empty where it has no rows.
-pub(super) fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [T]> {
+pub(crate) fn columns_of<T: Scalar>(matrix: &mut DMatrix<T>) -> impl Iterator<Item = &mut [T]> {
     let (rows, columns) = matrix.shape();
     let mut rest = matrix.as_mut_slice();
     (0..columns).map_while(move |_| {

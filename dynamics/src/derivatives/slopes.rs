@@ -18,42 +18,42 @@ use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 /// Rows of the hub's state: position, attitude, velocity, angular velocity.
-pub(super) const OF_HUB: usize = 12;
+pub(crate) const OF_HUB: usize = 12;
 
 /// What the slopes at a state depend on, and the order of the states.
 #[derive(Debug)]
-pub(super) struct Slopes<T> {
+pub(crate) struct Slopes<T> {
     bn: Columns<T>,
-    pub(super) omega: Vec3<T>,
+    pub(crate) omega: Vec3<T>,
     r_b_n_ddot: Vec3<T>,
     /// Whether the hub moves: its rows are before those of the joints.
-    pub(super) hub: bool,
+    pub(crate) hub: bool,
     /// The joints that are not locked: their coordinates, then their rates are states.
-    pub(super) moving: Vec<usize>,
-    pub(super) joints: usize,
+    pub(crate) moving: Vec<usize>,
+    pub(crate) joints: usize,
     /// Modal coordinates are states after those of the joints, and then their rates.
-    pub(super) modes: usize,
+    pub(crate) modes: usize,
 }
 
 /// A column in the rows of the accelerations, as they are in `c`, taken apart.
-pub(super) struct Rows<'a, T> {
-    pub(super) r_b_n_ddot: Vec3<T>,
-    pub(super) omega_dot: Vec3<T>,
-    pub(super) joints: &'a [T],
-    pub(super) modes: &'a [T],
+pub(crate) struct Rows<'a, T> {
+    pub(crate) r_b_n_ddot: Vec3<T>,
+    pub(crate) omega_dot: Vec3<T>,
+    pub(crate) joints: &'a [T],
+    pub(crate) modes: &'a [T],
 }
 
 /// A column in the rows of the states, taken apart; the hub's are none where it is fixed.
-pub(super) struct StateRows<'a, T> {
-    pub(super) hub: Option<[&'a mut Vec3<T>; 4]>,
-    pub(super) coordinates: &'a mut [T],
-    pub(super) rates: &'a mut [T],
-    pub(super) modes: &'a mut [T],
-    pub(super) modal_rates: &'a mut [T],
+pub(crate) struct StateRows<'a, T> {
+    pub(crate) hub: Option<[&'a mut Vec3<T>; 4]>,
+    pub(crate) coordinates: &'a mut [T],
+    pub(crate) rates: &'a mut [T],
+    pub(crate) modes: &'a mut [T],
+    pub(crate) modal_rates: &'a mut [T],
 }
 
 impl<T: Scalar> Slopes<T> {
-    pub(super) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
+    pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
@@ -74,7 +74,7 @@ impl<T: Scalar> Slopes<T> {
     }
 
     /// The rows of a column of accelerations; what else is differentiated comes after them.
-    pub(super) fn rows<'a>(&self, column: &'a [T]) -> Option<Rows<'a, T>> {
+    pub(crate) fn rows<'a>(&self, column: &'a [T]) -> Option<Rows<'a, T>> {
         let (r_b_n_ddot, rest) = column.split_first_chunk::<3>()?;
         let (omega_dot, rest) = rest.split_first_chunk::<3>()?;
         let (joints, rest) = rest.split_at_checked(self.joints)?;
@@ -83,7 +83,7 @@ impl<T: Scalar> Slopes<T> {
     }
 
     /// The rows of a column of states.
-    pub(super) fn state_rows<'a>(&self, column: &'a mut [T]) -> Option<StateRows<'a, T>> {
+    pub(crate) fn state_rows<'a>(&self, column: &'a mut [T]) -> Option<StateRows<'a, T>> {
         let (hub, rest) = column.split_at_mut_checked(if self.hub { OF_HUB } else { 0 })?;
         let (coordinates, rest) = rest.split_at_mut_checked(self.moving.len())?;
         let (rates, rest) = rest.split_at_mut_checked(self.moving.len())?;
@@ -96,12 +96,12 @@ impl<T: Scalar> Slopes<T> {
     }
 
     /// The change of the acceleration of B, N axes, where the attitude changes by a small rotation.
-    pub(super) fn in_n(&self, r_b_n_ddot: Vec3<T>, attitude: Vec3<T>) -> Vec3<T> {
+    pub(crate) fn in_n(&self, r_b_n_ddot: Vec3<T>, attitude: Vec3<T>) -> Vec3<T> {
         rotate_transposed(&self.bn, add(r_b_n_ddot, cross(attitude, self.r_b_n_ddot)))
     }
 
     /// The slopes of the rates of joints from the accelerations.
-    pub(super) fn of_rates(&self, joints: &[T], rates: &mut [T]) {
+    pub(crate) fn of_rates(&self, joints: &[T], rates: &mut [T]) {
         if rates.len() == joints.len() {
             rates.copy_from_slice(joints);
             return;
@@ -112,7 +112,7 @@ impl<T: Scalar> Slopes<T> {
     }
 
     /// The column of a variable into `slopes`, from that of the accelerations; whether the hub's are finite.
-    pub(super) fn fill(&self, by: Variable, accelerations: &[T], slopes: &mut [T]) -> bool {
+    pub(crate) fn fill(&self, by: Variable, accelerations: &[T], slopes: &mut [T]) -> bool {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let Some(from) = self.rows(accelerations) else { return true };
         let Some(to) = self.state_rows(slopes) else { return true };

@@ -1,15 +1,15 @@
 //! [`Structure`]: a rigid hub or a flexible structure, and what differs between the two in derivatives.
 
 #[cfg(feature = "alloc")]
-use crate::derivatives::base_motion::BaseMotion;
+use crate::derivatives::loads::kernel::NotEmitted;
 #[cfg(feature = "alloc")]
-use crate::derivatives::device_kernel::NotEmitted;
+use crate::derivatives::loads::load_columns::Moving;
 #[cfg(feature = "alloc")]
-use crate::derivatives::load_columns::Moving;
+use crate::derivatives::tree::base_motion::BaseMotion;
 #[cfg(feature = "alloc")]
-use crate::derivatives::modal_columns::ModalColumns;
+use crate::derivatives::tree::members::{Base, Members};
 #[cfg(feature = "alloc")]
-use crate::derivatives::tree_members::{Base, Members};
+use crate::derivatives::tree::modal_columns::ModalColumns;
 #[cfg(feature = "alloc")]
 use crate::equations::hub::HubConstants;
 #[cfg(feature = "alloc")]

@@ -3,16 +3,16 @@
 use core::convert::Infallible;
 
 #[cfg(feature = "alloc")]
-use crate::derivatives::base_motion::BaseMotion;
+use crate::derivatives::loads::kernel::NotEmitted;
 #[cfg(feature = "alloc")]
-use crate::derivatives::device_kernel::NotEmitted;
-#[cfg(feature = "alloc")]
-use crate::derivatives::load_columns::Moving;
+use crate::derivatives::loads::load_columns::Moving;
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::StructureDerivatives;
 #[cfg(feature = "alloc")]
-use crate::derivatives::tree_members::Members;
+use crate::derivatives::tree::base_motion::BaseMotion;
+#[cfg(feature = "alloc")]
+use crate::derivatives::tree::members::Members;
 use crate::equations::device::Device;
 #[cfg(feature = "alloc")]
 use crate::equations::hub::HubConstants;

@@ -3,10 +3,10 @@
 
 use alloc::vec::Vec;
 
-use crate::derivatives::base_motion::{BaseMotion, CoordinateSlopes, Link, Moments, spatial};
-use crate::derivatives::load_columns::Load;
-use crate::derivatives::modal_columns::ModalColumns;
-use crate::derivatives::tree_members::Base;
+use crate::derivatives::loads::load_columns::Load;
+use crate::derivatives::tree::base_motion::{BaseMotion, CoordinateSlopes, Link, Moments, spatial};
+use crate::derivatives::tree::members::Base;
+use crate::derivatives::tree::modal_columns::ModalColumns;
 use crate::equations::gravity::Central;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;

@@ -2,18 +2,18 @@
 
 use crate::attitude::parameterisation::Attitude;
 #[cfg(feature = "alloc")]
-use crate::derivatives::base_motion::BaseMotion;
+use crate::derivatives::loads::kernel::NotEmitted;
 #[cfg(feature = "alloc")]
-use crate::derivatives::device_kernel::NotEmitted;
-#[cfg(feature = "alloc")]
-use crate::derivatives::load_columns::Moving;
-#[cfg(feature = "alloc")]
-use crate::derivatives::modal_columns::ModalColumns;
+use crate::derivatives::loads::load_columns::Moving;
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::{Structure, StructureDerivatives};
 #[cfg(feature = "alloc")]
-use crate::derivatives::tree_members::Members;
+use crate::derivatives::tree::base_motion::BaseMotion;
+#[cfg(feature = "alloc")]
+use crate::derivatives::tree::members::Members;
+#[cfg(feature = "alloc")]
+use crate::derivatives::tree::modal_columns::ModalColumns;
 #[cfg(feature = "alloc")]
 use crate::equations::hub::HubConstants;
 #[cfg(feature = "alloc")]

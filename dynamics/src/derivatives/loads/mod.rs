@@ -1,0 +1,10 @@
+//! Derivatives of accelerations of devices on a rigid hub in a uniform field, by the emitted derivatives of the loads
+//! and the mass matrix.
+
+#[cfg(feature = "alloc")]
+pub(crate) mod by_loads;
+pub(crate) mod kernel;
+#[cfg(feature = "alloc")]
+pub(crate) mod load_columns;
+#[cfg(feature = "alloc")]
+pub(crate) mod mass_system;

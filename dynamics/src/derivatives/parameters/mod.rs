@@ -1,0 +1,10 @@
+//! Derivatives by parameters of hub and devices.
+
+pub(crate) mod change;
+pub(crate) mod columns;
+#[cfg(feature = "alloc")]
+pub(crate) mod device_motion;
+#[cfg(feature = "alloc")]
+pub(crate) mod loads;
+#[cfg(feature = "alloc")]
+pub(crate) mod rigid_body;

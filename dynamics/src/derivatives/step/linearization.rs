@@ -1,0 +1,185 @@
+//! [`Spacecraft::linearize_step`]: derivatives of a step of RK4, by the chain rule through its stages.
+//!
+//! Each stage has the exact derivatives of its accelerations, through which [`StageChain`] carries the changes.
+
+use alloc::vec::Vec;
+
+use nalgebra::DMatrix;
+
+use crate::attitude::parameterisation::Attitude;
+use crate::attitude::quaternion::{Quaternion, rate};
+use crate::derivatives::dual::column::Outputs;
+use crate::derivatives::error::DerivativeError;
+use crate::derivatives::linearization::columns_of;
+use crate::derivatives::loads::by_loads::are_finite;
+use crate::derivatives::parameters::columns::ParameterVariable;
+use crate::derivatives::slopes::Slopes;
+use crate::derivatives::step::stage_chain::{StageChain, StageDerivatives, numbers};
+use crate::derivatives::structure::StructureDerivatives;
+use crate::derivatives::variable::Variable;
+use crate::model::mode::HubMode;
+use crate::model::parameters::Hub;
+use crate::numbers::vec3::components;
+use crate::sets::with_numbers::WithNumbers;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+use crate::solve::structure::{Rigid, StructureData};
+
+/// A step of RK4 linearised about a state and inputs:
+///
+/// ```text
+/// x1 = F(x0, u0) + A (x - x0) + B (u - u0)
+/// ```
+///
+/// The attitude in `x - x0` and in the change of `x1` is a small rotation about the axes of B, of the
+/// state before the step and of that after it.
+///
+/// Zero by structure in `a`: of a column by the position, all rows but its own, except in a central
+/// field; of a column by the velocity, all rows but its own and that of the position, except in a
+/// central field; of a column by the attitude, without gravity, the rows of `omega` and of the joints;
+/// of a column by the angle of a balanced wheel, all rows but its own. The rest is filled: through its
+/// stages a step has elements where [`Linearization::a`](crate::Linearization::a) has zeros.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Rigid> {
+    /// The state after the step, that of [`Spacecraft::step`] to the bit.
+    pub state: State<D, Quaternion, S>,
+    /// The states: rows and columns of `a`, in the order of [`Spacecraft::state_variables`].
+    pub states: Vec<Variable>,
+    /// The inputs: columns of `b`, in the order of [`Spacecraft::input_variables`].
+    pub inputs: Vec<Variable>,
+    /// Derivatives of the state after the step by the state before it.
+    pub a: DMatrix<f64>,
+    /// Derivatives of the state after the step by the inputs, which are held.
+    pub b: DMatrix<f64>,
+}
+
+/// Of what is held, at a stage with its accelerations: the derivatives of accelerations by states and by it.
+type ByHeld<'a, D, S> = &'a mut dyn FnMut(
+    &State<D, Quaternion, S>,
+    &Accelerations<D, S>,
+    [&mut DMatrix<f64>; 2],
+) -> Result<(), DerivativeError<f64>>;
+
+impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
+    /// The step of [`Self::step`] linearised about a state and inputs.
+    ///
+    /// The matrices are exact to rounding: the derivatives of the step, not those of the motion that
+    /// it approximates. Costs about five times [`Self::linearize`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::step`] and [`Self::derivatives`]; [`DerivativeError::NotFinite`] counts the states, then the inputs.
+    pub fn linearize_step(
+        &self,
+        state: &State<D, Quaternion, S>,
+        inputs: &Inputs<D, S>,
+        dt: f64,
+    ) -> Result<StepLinearization<D, S>, DerivativeError<f64>> {
+        let states: Vec<_> = self.state_variables(inputs).collect();
+        let by_inputs: Vec<_> = self.input_variables(inputs).collect();
+        let (rows, held) = (states.len(), by_inputs.len());
+        let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
+        let none = Outputs::accelerations();
+        let lists = (states.as_slice(), by_inputs.as_slice());
+        let mut derivatives = |stage: &_, found: &_, into: [&mut DMatrix<f64>; 2]| {
+            self.output_columns((stage, inputs), found, &none, lists, into)
+        };
+        let into = [&mut a, &mut b];
+        let state = self.chained((state, inputs), dt, into, &mut derivatives)?;
+        Ok(StepLinearization { state, states, inputs: by_inputs, a, b })
+    }
+
+    /// The state after a step; its derivatives by the state before it, where those have columns, and by what is
+    /// held are written.
+    fn chained(
+        &self,
+        (state, inputs): (&State<D, Quaternion, S>, &Inputs<D, S>),
+        dt: f64,
+        [a, b]: [&mut DMatrix<f64>; 2],
+        derivatives: ByHeld<'_, D, S>,
+    ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
+        let mut stages = Vec::with_capacity(4);
+        let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
+            self.solve(stage, inputs, found, stiffness)?;
+            stages.push((weight, stage.clone(), found.clone()));
+            Ok(())
+        })?;
+        let accelerations = self.joints().count().saturating_add(S::modes(self)).saturating_add(6);
+        let mut by_states = DMatrix::zeros(accelerations, b.nrows());
+        let mut by_held = DMatrix::zeros(accelerations, b.ncols());
+        let hub = !matches!(inputs.hub, HubMode::Fixed);
+        let first =
+            stages.first().map_or_else(Quaternion::identity, |(_, stage, _)| stage.attitude);
+        let mut last = numbers(first);
+        let mut chain = StageChain::new([b.nrows(), a.ncols(), b.ncols()], first, hub);
+        // The last stage leads to no other.
+        let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
+        for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
+            derivatives(stage, found, [&mut by_states, &mut by_held])?;
+            let slopes = Slopes::new(self, stage, inputs, found);
+            let at = StageDerivatives {
+                attitude: stage.attitude,
+                slopes,
+                by_states: &by_states,
+                by_held: &by_held,
+            };
+            chain.stage(&at, [*weight, offset]);
+            let turns = rate(numbers(stage.attitude), components(&stage.omega));
+            last.iter_mut().zip(turns).for_each(|(to, from)| *to += weight * from);
+        }
+        chain.finish(last, hub, [&mut *a, &mut *b]);
+        let mut columns = columns_of(a).chain(columns_of(b));
+        match columns.position(|column| !are_finite(column)) {
+            Some(variable) => Err(DerivativeError::NotFinite { variable }),
+            None => Ok(next),
+        }
+    }
+}
+
+impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
+    /// Derivatives of the state after a step by parameters of the spacecraft of this hub and these
+    /// devices: rows as [`StepLinearization::states`], a column for each variable.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::step`] and [`Self::parameter_derivatives`]; [`DerivativeError::NotFinite`] of the first variable where
+    /// a derivative by the state is not finite.
+    pub fn step_parameter_derivatives(
+        hub: &Hub,
+        devices: &D,
+        (state, inputs): (&State<D, Quaternion>, &Inputs<D>),
+        dt: f64,
+        variables: &[ParameterVariable<'_>],
+    ) -> Result<DMatrix<f64>, DerivativeError<f64>> {
+        let craft = Self::new(hub, devices)?;
+        let states: Vec<_> = craft.state_variables(inputs).collect();
+        let (mut a, mut b) =
+            (DMatrix::zeros(states.len(), 0), DMatrix::zeros(states.len(), variables.len()));
+        let none = Outputs::accelerations();
+        let mut derivatives =
+            |stage: &_, found: &_, [by_states, by_held]: [&mut DMatrix<f64>; 2]| {
+                let at = (stage, inputs);
+                let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
+                let into = [by_states, &mut no_inputs];
+                let by_states = craft.output_columns(at, found, &none, (&states, &[]), into);
+                by_states.map_err(of_first_variable)?;
+                let by = variables.iter().copied();
+                let mut columns = by_held.column_iter_mut();
+                craft.parameter_columns((hub, devices), at, found, &none, by, |_, column| {
+                    let Some(mut to) = columns.next() else { return };
+                    to.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
+                })
+            };
+        craft.chained((state, inputs), dt, [&mut a, &mut b], &mut derivatives)?;
+        Ok(b)
+    }
+}
+
+/// An error of derivatives by the state, through which all columns pass, as that of the first variable.
+fn of_first_variable<T>(error: DerivativeError<T>) -> DerivativeError<T> {
+    match error {
+        DerivativeError::NotFinite { .. } => DerivativeError::NotFinite { variable: 0 },
+        error => error,
+    }
+}

@@ -1,0 +1,256 @@
+//! [`StageChain`]: changes of the state before a step of RK4, and of what is held, carried through its stages.
+//!
+//! A column is the change of the state by one variable; rows are contiguous, so that all columns are computed side by
+//! side. The attitude is carried as a change of the quaternion, in which the step adds its slopes, and returned as a
+//! small rotation.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use nalgebra::DMatrix;
+
+use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
+use crate::derivatives::linearization::columns_of;
+use crate::derivatives::slopes::{OF_HUB, Slopes};
+use crate::derivatives::step::stage_product::{COLUMNS, Product, add_elements};
+use crate::numbers::vec3::cross;
+
+/// The numbers of a quaternion, scalar first.
+pub(crate) type Numbers = [f64; 4];
+
+/// Rows before the step, at the stage, and after the stages so far.
+#[derive(Debug)]
+struct Rows {
+    start: Vec<f64>,
+    now: Vec<f64>,
+    sum: Vec<f64>,
+}
+
+/// The changes so far.
+#[derive(Debug)]
+pub(crate) struct StageChain {
+    /// How many columns are by states: the first ones.
+    by_states: usize,
+    /// Numbers of a row: its columns, filled up with zeros.
+    width: usize,
+    /// Of the states, those of the attitude at the stage only.
+    states: Rows,
+    /// Of the quaternion.
+    turns: Rows,
+    product: Product,
+    /// Of the accelerations.
+    accelerations: Vec<f64>,
+    /// Whether the changes are those before the step.
+    first: bool,
+}
+
+/// Derivatives of the accelerations at a stage.
+pub(crate) struct StageDerivatives<'a> {
+    pub(crate) attitude: Quaternion,
+    pub(crate) slopes: Slopes<f64>,
+    /// By the states.
+    pub(crate) by_states: &'a DMatrix<f64>,
+    /// By what is held: of the last columns.
+    pub(crate) by_held: &'a DMatrix<f64>,
+}
+
+impl StageChain {
+    /// Of columns by some states before the step, or by none, and by what is held, where the attitude is this one; `hub`
+    /// is whether it moves.
+    pub(crate) fn new(
+        [rows, by_states, by_held]: [usize; 3],
+        attitude: Quaternion,
+        hub: bool,
+    ) -> Self {
+        let columns = by_states.saturating_add(by_held);
+        let width = columns.next_multiple_of(COLUMNS);
+        let mut states = vec![0.0; width.saturating_mul(rows)];
+        for (number, line) in states.chunks_mut(width.max(1)).take(by_states).enumerate() {
+            line.iter_mut().skip(number).take(1).for_each(|to| *to = 1.0);
+        }
+        let mut turns = vec![0.0; width.saturating_mul(4)];
+        if hub && let Some(rotation) = lines(&states, width, 3, 3) {
+            let by_rotation = UNITS.map(|unit| rate(numbers(attitude), unit));
+            combine(&by_rotation, (rotation, width), &mut turns);
+        }
+        Self {
+            by_states,
+            width,
+            states: Rows::new(states),
+            turns: Rows::new(turns),
+            product: Product::default(),
+            accelerations: Vec::new(),
+            first: true,
+        }
+    }
+
+    /// Through a stage, whose slopes count `weight` and lead to the next stage after `offset`, both in s.
+    pub(crate) fn stage(&mut self, at: &StageDerivatives<'_>, by: [f64; 2]) {
+        let StageDerivatives { attitude, slopes, by_states, by_held } = at;
+        let (width, q) = (self.width, numbers(*attitude));
+        if slopes.hub
+            && let Some(rotation) = lines_mut(&mut self.states.now, width, 3, 3)
+        {
+            rotation.fill(0.0);
+            combine(&rotations(q), (&self.turns.now, width), rotation);
+        }
+        self.accelerations.resize(by_states.nrows().saturating_mul(width), 0.0);
+        let changes = (self.states.now.as_slice(), width);
+        let accelerations = self.accelerations.as_mut_slice();
+        if !core::mem::take(&mut self.first) {
+            self.product.write(by_states, changes, accelerations);
+        } else if self.by_states > 0 {
+            // Of columns by the states themselves.
+            add_elements(by_states, 0, (accelerations, width));
+        }
+        add_elements(by_held, self.by_states, (accelerations, width));
+        if slopes.hub {
+            self.hub(slopes, q, by);
+        }
+        self.joints(slopes, by);
+    }
+
+    /// The hub's rows.
+    fn hub(&mut self, slopes: &Slopes<f64>, q: Numbers, by: [f64; 2]) {
+        let Self { width, states, turns, accelerations, .. } = self;
+        let width = *width;
+        let none = || [0.0; 3];
+        let Some(accelerated) = lines(accelerations, width, 0, 6) else { return };
+        let (linear, angular) = accelerated.split_at(width.saturating_mul(3));
+        let three = width.saturating_mul(3);
+        let mut buffer = vec![0.0; width.saturating_mul(4)];
+        // Of q' = rate(q, omega), which is linear in both.
+        let by_turn = QUATERNIONS.map(|unit| rate(unit, slopes.omega));
+        combine(&by_turn, (&turns.now, width), &mut buffer);
+        if let Some(omega) = lines(&states.now, width, 9, 3) {
+            combine(&UNITS.map(|unit| rate(q, unit)), (omega, width), &mut buffer);
+        }
+        turns.follow(0, &buffer, by);
+        states.follow_rates([0, three.saturating_mul(2)], three, by);
+        let (moved, _) = buffer.split_at_mut(three);
+        moved.fill(0.0);
+        combine(&UNITS.map(|unit| slopes.in_n(unit, none())), (linear, width), moved);
+        if let Some(rotation) = lines(&states.now, width, 3, 3) {
+            combine(&UNITS.map(|unit| slopes.in_n(none(), unit)), (rotation, width), moved);
+        }
+        states.follow(three.saturating_mul(2), moved, by);
+        states.follow(three.saturating_mul(3), angular, by);
+    }
+
+    /// The rows of joints and modes.
+    fn joints(&mut self, slopes: &Slopes<f64>, by: [f64; 2]) {
+        let Self { width, states, accelerations, .. } = self;
+        let width = *width;
+        let place = |row: usize| row.saturating_mul(width);
+        let coordinates = if slopes.hub { OF_HUB } else { 0 };
+        let rates = coordinates.saturating_add(slopes.moving.len());
+        let modes = rates.saturating_add(slopes.moving.len());
+        let modal_rates = modes.saturating_add(slopes.modes);
+        let moving = place(slopes.moving.len());
+        states.follow_rates([place(coordinates), place(rates)], moving, by);
+        for (row, joint) in (rates..).zip(&slopes.moving) {
+            let line = lines(accelerations, width, joint.saturating_add(6), 1).unwrap_or_default();
+            states.follow(place(row), line, by);
+        }
+        states.follow_rates([place(modes), place(modal_rates)], place(slopes.modes), by);
+        let of_modes = slopes.joints.saturating_add(6);
+        let of_modes = lines(accelerations, width, of_modes, slopes.modes).unwrap_or_default();
+        states.follow(place(modal_rates), of_modes, by);
+    }
+
+    /// Writes the columns by states and by what is held after the step, whose quaternion was this before it was
+    /// normalised.
+    pub(crate) fn finish(mut self, attitude: Numbers, hub: bool, into: [&mut DMatrix<f64>; 2]) {
+        let width = self.width;
+        if hub && let Some(rotation) = lines_mut(&mut self.states.sum, width, 3, 3) {
+            rotation.fill(0.0);
+            combine(&rotations(attitude), (&self.turns.sum, width), rotation);
+        }
+        for (number, column) in into.into_iter().flat_map(columns_of).enumerate() {
+            for (to, line) in column.iter_mut().zip(self.states.sum.chunks(width.max(1))) {
+                *to = line.get(number).copied().unwrap_or_default();
+            }
+        }
+    }
+}
+
+impl Rows {
+    fn new(start: Vec<f64>) -> Self {
+        Self { now: start.clone(), sum: start.clone(), start }
+    }
+
+    /// Adds slopes to the numbers from a place on, and sets those of the next stage.
+    fn follow(&mut self, place: usize, slopes: &[f64], [weight, offset]: [f64; 2]) {
+        let Self { start, now, sum } = self;
+        let (Some(now), Some(sum), Some(start)) =
+            (now.get_mut(place..), sum.get_mut(place..), start.get(place..))
+        else {
+            return;
+        };
+        followed([now, sum], [start, slopes], [weight, offset]);
+    }
+
+    /// The same with so many numbers, whose slopes are as many of the stage further on.
+    fn follow_rates(&mut self, [place, rates]: [usize; 2], count: usize, by: [f64; 2]) {
+        let Self { start, now, sum } = self;
+        let (Some((before, after)), Some(sum), Some(start)) =
+            (now.split_at_mut_checked(rates), sum.get_mut(place..), start.get(place..))
+        else {
+            return;
+        };
+        let now = before.get_mut(place..).unwrap_or_default();
+        let slopes = after.get(..count).unwrap_or_default();
+        followed([now, sum], [start, slopes], by);
+    }
+}
+
+/// Adds `weight` slopes to the sum, and sets what is now to the start and `offset` slopes.
+fn followed([now, sum]: [&mut [f64]; 2], [start, slopes]: [&[f64]; 2], [weight, offset]: [f64; 2]) {
+    for (((now, sum), start), slope) in now.iter_mut().zip(sum).zip(start).zip(slopes) {
+        *sum += weight * *slope;
+        *now = *start + offset * *slope;
+    }
+}
+
+const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const QUATERNIONS: [Numbers; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// Adds a small matrix, by its columns, times rows.
+fn combine<const TO: usize>(columns: &[[f64; TO]], (from, width): (&[f64], usize), to: &mut [f64]) {
+    for (column, from) in columns.iter().zip(from.chunks(width.max(1))) {
+        for (element, to) in column.iter().zip(to.chunks_mut(width.max(1))) {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += *element * *from);
+        }
+    }
+}
+
+/// Some rows.
+fn lines(of: &[f64], width: usize, first: usize, count: usize) -> Option<&[f64]> {
+    of.get(first.saturating_mul(width)..)?.get(..count.saturating_mul(width))
+}
+
+/// Some rows, to be changed.
+fn lines_mut(of: &mut [f64], width: usize, first: usize, count: usize) -> Option<&mut [f64]> {
+    of.get_mut(first.saturating_mul(width)..)?.get_mut(..count.saturating_mul(width))
+}
+
+/// The small rotation about the axes of B that a change of each number of a quaternion of any length is:
+/// `2 q* dq / |q|²`, its vector.
+fn rotations(q: Numbers) -> [[f64; 3]; 4] {
+    let [q0, q1, q2, q3] = q;
+    let scale = 2.0 / norm_squared(q);
+    QUATERNIONS.map(|[b0, b1, b2, b3]| {
+        let [x, y, z] = cross([q1, q2, q3], [b1, b2, b3]);
+        [
+            scale * (q0 * b1 - b0 * q1 - x),
+            scale * (q0 * b2 - b0 * q2 - y),
+            scale * (q0 * b3 - b0 * q3 - z),
+        ]
+    })
+}
+
+/// The numbers of a quaternion, scalar first.
+pub(crate) fn numbers(Quaternion { q0, q1, q2, q3 }: Quaternion) -> Numbers {
+    [q0, q1, q2, q3]
+}
