@@ -62,7 +62,6 @@ pub mod pointing;
 pub mod record;
 #[cfg(feature = "tool")]
 pub mod report;
-mod rotation;
 pub mod scenario;
 pub mod spectra;
 pub mod structure;

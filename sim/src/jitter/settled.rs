@@ -9,6 +9,7 @@
 //! Small motions: what is of second order in them stays. Gimbals and all joints without a spring count as held.
 
 use nalgebra::{Complex, DVector, Vector3};
+use precess_control::rotation::product;
 use precess_dynamics::{Attitude, HubMode, JointStates, Quaternion};
 
 use super::device::Steady;
@@ -72,7 +73,7 @@ pub(super) fn add_vibration(
             run.initial.omega += at(3, by_rate);
             let turn = at(3, by_rate * by_rate) * 0.5;
             let small = Quaternion { q0: 1.0, q1: turn.x, q2: turn.y, q3: turn.z };
-            run.initial.attitude = product(run.initial.attitude, small);
+            run.initial.attitude = product(&run.initial.attitude, &small).normalised();
             if let Some(structure) = &mut run.structure {
                 let modes = structure.coordinates.iter_mut().zip(&mut structure.rates);
                 for ((eta, eta_dot), value) in modes.zip(modal.column(0).iter()) {
@@ -109,11 +110,4 @@ pub(super) fn add_vibration(
         }
     }
     Ok(amplitudes)
-}
-
-/// `a` then `b`, of unit length.
-fn product(a: Quaternion, b: Quaternion) -> Quaternion {
-    let numbers = |q: Quaternion| [q.q0, q.q1, q.q2, q.q3];
-    let [q0, q1, q2, q3] = crate::rotation::product(numbers(a), numbers(b));
-    Quaternion { q0, q1, q2, q3 }.normalised()
 }

@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
+use precess_control::rotation::{inverse, product, to_vector};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     About, Attitude, JointStates, ListedModes, ModalPoint, Mode, Momentum, Mrp, PointAcceleration,
@@ -20,7 +21,6 @@ use crate::engine::equations::points::{
 use crate::engine::equations::system::System;
 use crate::engine::integration::Moment;
 use crate::record::columns::{Columns, Quantity, Source};
-use crate::rotation::{inverse, product, to_vector};
 use crate::scenario::{BodyPoint, BuiltGuidance, OrbitalFrame, Scenario, roll_pitch_yaw};
 use precess_craft::{CraftInputs, CraftState};
 
@@ -39,7 +39,7 @@ pub(crate) struct SampleValues {
     orbit: bool,
     inputs: Option<CraftInputs>,
     /// The attitude that rotations are from.
-    reference: [f64; 4],
+    reference: Quaternion,
     /// The recorded points of the structure.
     points: Vec<Point>,
     /// Those of bodies; none where no column shows them.
@@ -123,7 +123,7 @@ impl SampleValues {
                 .iter()
                 .any(|of| matches!(of, Quantity::OrbitAngle(_) | Quantity::OrbitOmega(_))),
             inputs: None,
-            reference: numbers(&scenario.reference),
+            reference: scenario.reference,
             points,
             body_points: if of_bodies { scenario.points.clone() } else { Vec::new() },
             guidance: if any(Source::Control) {
@@ -212,7 +212,7 @@ impl SampleValues {
             energy,
             mrp: Mrp::from(state.attitude),
             orbit: self.orbit.then(|| in_orbit(state)).flatten(),
-            rotation: to_vector(product(inverse(self.reference), numbers(&state.attitude))),
+            rotation: to_vector(&product(&inverse(&self.reference), &state.attitude)).into(),
             momentum,
             centre_momentum,
             joints,

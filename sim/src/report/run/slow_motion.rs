@@ -7,9 +7,12 @@
 
 use std::collections::VecDeque;
 
+use nalgebra::Vector3;
+use precess_control::rotation::{from_vector, inverse, product, to_vector};
+use precess_dynamics::Quaternion;
+
 use super::replay::{COORDINATES, Frame};
 use crate::report::number;
-use crate::rotation::{from_vector, inverse, product, to_vector};
 
 /// Frames for each turn, at least.
 const PER_TURN: f64 = 20.0;
@@ -125,16 +128,18 @@ fn round_below(value: f64) -> f64 {
 /// The largest deviation of the hub from straight motion, rad, as the page splits it off: see
 /// sim/report/DATA.md.
 fn largest_deviation(frames: &[Frame]) -> f64 {
-    let attitude = |frame: &Frame| [frame[1], frame[2], frame[3], frame[4]];
-    let middle = inverse(attitude(&frames[frames.len() / 2]));
+    let attitude =
+        |frame: &Frame| Quaternion { q0: frame[1], q1: frame[2], q2: frame[3], q3: frame[4] };
+    let middle = inverse(&attitude(&frames[frames.len() / 2]));
     let turned: Vec<_> =
-        frames.iter().map(|frame| to_vector(product(middle, attitude(frame)))).collect();
+        frames.iter().map(|frame| to_vector(&product(&middle, &attitude(frame)))).collect();
     let times: Vec<_> = frames.iter().map(|frame| frame[0]).collect();
     let lines =
         [0, 1, 2].map(|axis| straight(&times, &turned.iter().map(|v| v[axis]).collect::<Vec<_>>()));
     let deviations = times.iter().zip(&turned).map(|(time, vector)| {
-        let course = from_vector(lines.map(|[mean, slope, at]| mean + slope * (time - at)));
-        let deviation = to_vector(product(inverse(course), from_vector(*vector)));
+        let course = lines.map(|[mean, slope, at]| mean + slope * (time - at));
+        let course = from_vector(&Vector3::from(course));
+        let deviation = to_vector(&product(&inverse(&course), &from_vector(vector)));
         deviation.iter().map(|d| d * d).sum::<f64>().sqrt()
     });
     deviations.fold(0.0, f64::max)
@@ -163,7 +168,7 @@ mod tests {
     /// A hub that turns steadily and vibrates once a turn of its wheel, by 1e-6 rad.
     fn frame(time: f64, spin: f64) -> Frame {
         let angle = 0.1 * time + 1e-6 * (spin * time).cos();
-        let [q0, q1, q2, q3] = from_vector([angle, 0.0, 0.0]);
+        let Quaternion { q0, q1, q2, q3 } = from_vector(&Vector3::new(angle, 0.0, 0.0));
         vec![time, q0, q1, q2, q3, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, spin * time, spin]
     }
 

@@ -1,12 +1,12 @@
 //! The initial state: `[initial]` of the hub, and the joints' own keys.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use precess_control::rotation::product;
 use precess_dynamics::{Attitude, JointStates, Mrp, Quaternion, State};
 
 use super::device::Device;
 use crate::file::keys::Keys;
 use crate::file::read::values::mount::{axis_and_angle, euler};
-use crate::rotation::product;
 use crate::scenario::{OrbitalFrame, Set};
 use crate::units::{Measure, Plain};
 
@@ -67,10 +67,8 @@ fn from_orbit(keys: &Keys<'_>, state: &mut State<Set>) {
         keys.error("relative_to", message, "give the `position` and `velocity` of an orbit");
         return;
     };
-    let numbers = |q: &Quaternion| [q.q0, q.q1, q.q2, q.q3];
     let of_frame = of_axes(&frame.axes.transpose());
-    let [q0, q1, q2, q3] = product(numbers(&of_frame), numbers(&state.attitude));
-    state.attitude = Quaternion { q0, q1, q2, q3 }.normalised();
+    state.attitude = product(&of_frame, &state.attitude).normalised();
     state.omega += state.attitude.dcm() * frame.omega;
 }
 
