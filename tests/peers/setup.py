@@ -41,7 +41,8 @@ def main():
         (into / "peers.json").write_text(json.dumps([missing], indent=1) + "\n", encoding="utf-8")
         sys.exit(missing["missing"])
     try:
-        ensure(python, MJBATCH, into / "venv" / "mjbatch")
+        if not given.subject:
+            ensure(python, MJBATCH, into / "venv" / "mjbatch")
     except subprocess.CalledProcessError:
         # Its row is missing then, and says so.
         print(f"packages of {MJBATCH.name} cannot be installed", flush=True)

@@ -24,12 +24,11 @@ struct Stored {
     spacecraft: Vec<Value>,
 }
 
-/// Writes the spacecraft of each case: the first stored one of so many devices.
+/// Writes the spacecraft of each case, as `write_derivatives` of the peers.
 pub(crate) fn write_cases(folder: &Path) -> Result<(), Box<dyn Error>> {
     let stored: Stored = serde_json::from_str(&fs::read_to_string(STORED)?)?;
     for case in DERIVATIVES {
-        let devices = |of: &&Value| of["devices"].as_array().map(Vec::len) == case.parse().ok();
-        let of = stored.spacecraft.iter().find(devices);
+        let of = stored.of_devices(case.parse()?);
         let of = of.ok_or_else(|| format!("{STORED} has no spacecraft of {case} devices"))?;
         let path = Subject::Derivatives.file(folder, case);
         if let Some(folder) = path.parent() {
@@ -38,11 +37,28 @@ pub(crate) fn write_cases(folder: &Path) -> Result<(), Box<dyn Error>> {
         // What the peers were generated of stays, whoever wrote it.
         let there = fs::read_to_string(&path).ok();
         let there = there.and_then(|text| serde_json::from_str::<Value>(&text).ok());
-        if there.as_ref() != Some(of) {
+        if there.as_ref() != Some(&of) {
             fs::write(path, of.to_string())?;
         }
     }
     Ok(())
+}
+
+impl Stored {
+    /// The first one of so many devices; where none has so many, the one with most and the devices of all of declared
+    /// ranges in turn.
+    fn of_devices(&self, count: usize) -> Option<Value> {
+        let devices = |of: &Value| of["devices"].as_array().cloned().unwrap_or_default();
+        if let Some(of) = self.spacecraft.iter().find(|of| devices(of).len() == count) {
+            return Some(of.clone());
+        }
+        let declared = || self.spacecraft.iter().filter(|of| of["scales"] == "declared");
+        // Of equal ones the first.
+        let mut largest = declared().rev().max_by_key(|of| devices(of).len())?.clone();
+        let all: Vec<_> = declared().flat_map(devices).collect();
+        largest["devices"] = all.into_iter().cycle().take(count).collect();
+        Some(largest)
+    }
 }
 
 /// What the page is made of.
@@ -62,6 +78,8 @@ struct Peer<'a> {
     name: &'a str,
     note: &'a str,
     agrees: String,
+    /// Its time in units of that of [`OURS`], for each number of devices.
+    longer: Vec<String>,
 }
 
 /// A service: its time for each number of devices, and that in units of what it differentiates.
@@ -84,7 +102,7 @@ impl Page {
             .map(|peer| {
                 let worst = self.worst.iter().find(|(name, _)| *name == peer.name);
                 let agrees = worst.map_or("-".to_owned(), |(_, worst)| format!("{worst:.1e}"));
-                Peer { name: &peer.name, note: &peer.note, agrees }
+                Peer { name: &peer.name, note: &peer.note, agrees, longer: self.longer(peer) }
             })
             .collect();
         let ours = self.worst.iter().find(|(name, _)| name.contains("linearize`"));
@@ -102,6 +120,14 @@ impl Page {
         tera.autoescape_on(Vec::<&str>::new());
         tera.add_raw_template("page", include_str!("derivatives.md.tera"))?;
         Ok(vec![("performance-derivatives.md", tera.render("page", &context)?)])
+    }
+
+    /// How many times longer a peer takes than we.
+    fn longer(&self, peer: &Contender) -> Vec<String> {
+        let ours = self.contenders.iter().find(|who| who.serves(OURS));
+        let ratio = |case| self.times.ratio((peer, case), (ours?, case));
+        let text = |case| ratio(case).map_or("-".to_owned(), |of| of_unit(of.value));
+        DERIVATIVES.map(text).into()
     }
 
     fn row(&self, [name, unit, title]: [&'static str; 3]) -> Option<ServiceRow> {
@@ -123,11 +149,17 @@ impl Page {
     }
 }
 
+/// The service that peers are compared with: it writes into matrices that are kept, as they do.
+const OURS: &str = "linearized-into";
+
 /// Service, what its time is compared with, and its title.
-const SERVICES: [[&str; 3]; 7] = [
+const SERVICES: [[&str; 3]; 10] = [
     ["evaluation", "evaluation", "an evaluation"],
     ["derivatives", "evaluation", "`derivatives`: by states and inputs"],
-    ["linearized", "evaluation", "`linearize`: by states and inputs"],
+    ["linearized-into", "evaluation", "`linearize_into`: by states and inputs, matrices kept"],
+    ["linearized", "evaluation", "`linearize`: by states and inputs, matrices allocated"],
+    ["jvp", "evaluation", "`jvp`: along one direction"],
+    ["vjp", "evaluation", "`vjp`: of one weighted sum"],
     ["differences", "evaluation", "central differences by the same variables"],
     ["by-parameters", "evaluation", "`parameter_derivatives`: by six parameters a device"],
     ["single-step", "single-step", "an RK4 step"],

@@ -8,7 +8,7 @@ pub(crate) const FLEXIBLE: [&str; 6] =
     ["rigid", "bearings", "platform", "modes-6", "modes-20", "modes-200"];
 
 /// The cases of derivatives: numbers of DGVSCMGs.
-pub(crate) const DERIVATIVES: [&str; 2] = ["1", "4"];
+pub(crate) const DERIVATIVES: [&str; 3] = ["1", "4", "16"];
 
 /// Numbers of devices over which the cost per device is compared.
 pub(crate) const LINEAR: [usize; 5] = [16, 32, 64, 128, 256];

@@ -7,7 +7,8 @@ use std::hint::black_box;
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each as _, JointStates as _};
 use precess_dynamics::{
-    Axis, Dgvscmg, Inputs, Outputs, ParameterVariable, Quaternion, Spacecraft, State, Variable,
+    Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs, ParameterVariable, Quaternion,
+    Spacecraft, State, Variable,
 };
 use precess_tests::stored::Stored;
 use serde_json::{Value, json};
@@ -31,6 +32,9 @@ pub(super) struct Derivatives<const N: usize> {
     state: State<Set<N>, Quaternion>,
     inputs: Inputs<Set<N>>,
     variables: Vec<Variable>,
+    kept: Linearization<Set<N>>,
+    /// A direction of states and of inputs, and the gradient by them.
+    products: [Vec<f64>; 4],
 }
 
 impl<const N: usize> Derivatives<N> {
@@ -41,11 +45,15 @@ impl<const N: usize> Derivatives<N> {
         let variables =
             craft.state_variables(&inputs).chain(craft.input_variables(&inputs)).collect();
         let (stored, devices) = (stored.clone(), *devices);
-        Ok(Self { name, stored, devices, craft, state, inputs, variables })
+        let kept = craft.linearize(&state, &inputs, &Outputs::accelerations())?;
+        let sizes = [kept.states.len(), kept.inputs.len()];
+        let [of_states, of_inputs] = sizes.map(|size| vec![1.0; size]);
+        let products = [of_states.clone(), of_inputs.clone(), of_states, of_inputs];
+        Ok(Self { name, stored, devices, craft, state, inputs, variables, kept, products })
     }
 
     /// One call; the angular acceleration that it finds on the way.
-    fn call(&self) -> Result<Vector3<f64>, Rejected> {
+    fn call(&mut self) -> Result<Vector3<f64>, Rejected> {
         let (state, inputs) = (black_box(&self.state), &self.inputs);
         let none = Outputs::accelerations();
         match self.name {
@@ -59,6 +67,23 @@ impl<const N: usize> Derivatives<N> {
             Name::Linearized => {
                 let found = self.craft.linearize(state, inputs, &none)?;
                 Ok(black_box(&found).accelerations.omega_dot)
+            }
+            Name::LinearizedInto => {
+                self.craft.linearize_into(state, inputs, &none, &mut self.kept)?;
+                Ok(black_box(&self.kept).accelerations.omega_dot)
+            }
+            Name::Jvp => {
+                let [of_states, of_inputs, ..] = black_box(&self.products);
+                let found = self.craft.jvp(state, inputs, (of_states, of_inputs))?;
+                Ok(black_box(&found).0.omega_dot)
+            }
+            Name::Vjp => {
+                // As weights, the accelerations of the state as it was opened.
+                let weights = black_box(&self.kept.accelerations);
+                let [.., by_states, by_inputs] = &mut self.products;
+                let found = self.craft.vjp(state, inputs, weights, (by_states, by_inputs))?;
+                black_box(&self.products);
+                Ok(found.omega_dot)
             }
             Name::Differences => {
                 for variable in &self.variables {
@@ -160,6 +185,12 @@ impl<const N: usize> Derivatives<N> {
             })?;
             return Ok(blocks);
         }
+        if let Some(found) = self.by_products()? {
+            for (variable, column) in self.variables.iter().zip(found) {
+                add_column(&mut blocks, *variable, column.into_iter());
+            }
+            return Ok(blocks);
+        }
         let found = self.craft.linearize(state, inputs, &none)?;
         for (variables, matrix) in [(&found.states, &found.c), (&found.inputs, &found.d)] {
             for (variable, column) in variables.iter().zip(matrix.column_iter()) {
@@ -168,6 +199,53 @@ impl<const N: usize> Derivatives<N> {
         }
         Ok(blocks)
     }
+}
+
+impl<const N: usize> Derivatives<N> {
+    /// The columns by `jvp` along each variable, or by `vjp` of each acceleration; none of another service.
+    fn by_products(&self) -> Result<Option<Vec<Vec<f64>>>, Rejected> {
+        let (state, inputs, states) = (&self.state, &self.inputs, self.kept.states.len());
+        let columns = self.variables.len();
+        match self.name {
+            Name::Jvp => {
+                let mut found = Vec::new();
+                for place in 0..columns {
+                    let mut direction = vec![0.0; columns];
+                    direction[place] = 1.0;
+                    let of = self.craft.jvp(state, inputs, direction.split_at(states))?.1;
+                    found.push(numbers(&of));
+                }
+                Ok(Some(found))
+            }
+            Name::Vjp => {
+                let mut found = vec![Vec::new(); columns];
+                for row in 0..self.kept.outputs.len() {
+                    let mut weights = self.kept.accelerations;
+                    of_numbers(&mut weights).enumerate().for_each(|(place, to)| {
+                        *to = if place == row { 1.0 } else { 0.0 };
+                    });
+                    let mut gradient = vec![0.0; columns];
+                    let into = gradient.split_at_mut(states);
+                    self.craft.vjp(state, inputs, &weights, into)?;
+                    found.iter_mut().zip(gradient).for_each(|(column, of)| column.push(of));
+                }
+                Ok(Some(found))
+            }
+            _ => Ok(None),
+        }
+    }
+}
+
+/// All accelerations in order.
+fn numbers<const N: usize>(of: &Accelerations<Set<N>>) -> Vec<f64> {
+    of.r_b_n_ddot.iter().chain(&of.omega_dot).copied().chain(of.devices.values()).collect()
+}
+
+/// The same, to be changed.
+fn of_numbers<const N: usize>(
+    of: &mut Accelerations<Set<N>>,
+) -> impl Iterator<Item = &mut f64> + '_ {
+    of.r_b_n_ddot.iter_mut().chain(&mut of.omega_dot).chain(of.devices.values_mut())
 }
 
 /// Adds a column to the blocks; the peers have none by position, velocity and attitude.
@@ -198,7 +276,14 @@ impl<const N: usize> Service for Derivatives<N> {
     fn check(&mut self) -> Result<Value, Rejected> {
         self.call()?;
         let mut found = flat(&self.craft.accelerations(&self.state, &self.inputs)?);
-        if matches!(self.name, Name::Derivatives | Name::Linearized) {
+        let by_all = [
+            Name::Derivatives,
+            Name::Linearized,
+            Name::LinearizedInto,
+            Name::Jvp,
+            Name::Vjp,
+        ];
+        if by_all.contains(&self.name) {
             found["derivatives"] = json!(self.blocks()?);
         }
         Ok(found)

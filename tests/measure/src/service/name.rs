@@ -58,6 +58,15 @@ pub(crate) enum Name {
     /// Accelerations linearised about a state and inputs
     #[cfg(feature = "lanes")]
     Linearized,
+    /// The same into matrices that are kept
+    #[cfg(feature = "lanes")]
+    LinearizedInto,
+    /// The derivative of the accelerations along a direction
+    #[cfg(feature = "lanes")]
+    Jvp,
+    /// The gradient of a weighted sum of the accelerations
+    #[cfg(feature = "lanes")]
+    Vjp,
     /// Central differences of accelerations by the same variables
     #[cfg(feature = "lanes")]
     Differences,
@@ -117,6 +126,9 @@ impl Name {
             Self::Evaluation => ("an evaluation", "derivatives", None, 1),
             Self::Derivatives => ("`derivatives`", "derivatives", None, 1),
             Self::Linearized => ("`linearize`", "derivatives", None, 1),
+            Self::LinearizedInto => ("`linearize_into`", "derivatives", None, 1),
+            Self::Jvp => ("`jvp`", "derivatives", None, 1),
+            Self::Vjp => ("`vjp`", "derivatives", None, 1),
             Self::Differences => ("central differences", "derivatives", None, 1),
             Self::ByParameters => ("`parameter_derivatives`", "derivatives", None, 1),
             Self::SingleStep => ("an RK4 step", "derivatives", None, 1),

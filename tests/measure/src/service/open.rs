@@ -67,6 +67,9 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         Name::Evaluation
         | Name::Derivatives
         | Name::Linearized
+        | Name::LinearizedInto
+        | Name::Jvp
+        | Name::Vjp
         | Name::Differences
         | Name::ByParameters
         | Name::SingleStep
@@ -175,7 +178,7 @@ fn of_derivatives(name: Name, stored: &Stored) -> Opened {
     let other = || Err(format!("no derivatives of {} devices", devices.len()).into());
     array_of!(
         devices.clone(),
-        [1 4],
+        [1 4 16],
         |array| Ok(Box::new(Derivatives::open(name, stored, array)?) as Box<dyn Service>),
         other()
     )
