@@ -1,5 +1,5 @@
 //! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, or samples for a source, with
-//! what would do; where B is so far from the centre of mass that a central field about it is not enough; and where
+//! what would do; where a window is too short for a band; where B is so far from the centre of mass that a central field about it is not enough; and where
 //! the start, or rotors of one speed, make the hub drift.
 //!
 //! ```text
@@ -16,6 +16,7 @@
 //! off by the order of `2 m c^3 / (R I) n t`.
 
 mod drift;
+mod window;
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -64,6 +65,15 @@ pub(super) enum Advice {
         requirement: String,
         /// The mean accelerations, rad/s² and m/s²: magnitudes.
         mean: [f64; 2],
+    },
+    /// A window does not resolve the lowest frequency of a band.
+    ShortWindow {
+        /// The requirement.
+        requirement: String,
+        /// The lower end of the band, Hz.
+        lowest: f64,
+        /// The length of the window, s.
+        window: f64,
     },
     /// Samples do not resolve a source.
     Source {
@@ -116,11 +126,18 @@ pub(super) fn advice(scenario: &Scenario, rates: impl Iterator<Item = f64>) -> V
 
 /// The advice at the initial rates.
 pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
-    let mut advice = advice(scenario, scenario.mean_joints().map(|[_, rate]| rate));
-    advice.extend(of_sources(scenario));
+    let mut advice = of_rates(scenario);
+    advice.extend(window::too_short(scenario));
     advice.extend(of_field(scenario));
     advice.extend(drift::at_rest(scenario));
     advice.extend(drift::second_order(scenario));
+    advice
+}
+
+/// That of joints and sources at their initial rates, which takes no evaluation.
+pub(super) fn of_rates(scenario: &Scenario) -> Vec<Advice> {
+    let mut advice = advice(scenario, scenario.mean_joints().map(|[_, rate]| rate));
+    advice.extend(of_sources(scenario));
     advice
 }
 
@@ -161,6 +178,11 @@ impl Advice {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
 
+    /// Whether it is among those of [`of_rates`].
+    pub(super) fn is_of_rates(&self) -> bool {
+        matches!(self, Self::Aliasing(_) | Self::CoarseSteps(_) | Self::Source { .. })
+    }
+
     fn help(&self) -> String {
         match self {
             Self::Aliasing(Turns { omega, .. }) => {
@@ -182,6 +204,9 @@ impl Advice {
             }
             Self::SecondOrder { .. } => {
                 "a requirement on the vibration is one in a band: `statistic = \"band_rms\"` with `band`".to_owned()
+            }
+            Self::ShortWindow { lowest, .. } => {
+                format!("let the window be {} s or more", six(window::PERIODS_MIN / lowest))
             }
             Self::Source { highest, .. } => {
                 format!("record at more than {} Hz", six(2.0 * highest))
@@ -212,6 +237,14 @@ impl fmt::Display for Advice {
                  and statistics show other frequencies than its own (aliasing)",
                 six(*highest),
                 six(*rate)
+            ),
+            Self::ShortWindow { requirement, lowest, window } => write!(
+                f,
+                "the requirement `{requirement}` is on a band from {} Hz, of which its window of {} s has {} periods: \
+                 Hann's window takes that for other frequencies, or loses it",
+                six(*lowest),
+                six(*window),
+                six(lowest * window)
             ),
             Self::Drift { requirement, mean: [rate, velocity] } => write!(
                 f,

@@ -31,8 +31,8 @@ const COUNT: usize = 541;
 /// Keys of a budget that no scenario has.
 const BUDGET_KEYS: [&str; 5] = ["phases", "motor", "gimbals", "speed", "line_of_sight"];
 
-/// Keys of a scenario that no budget has.
-const SCENARIO_KEYS: [&str; 4] = ["hub", "device", "run", "structure"];
+/// Keys of a scenario that no budget has, and no plan.
+pub(super) const SCENARIO_KEYS: [&str; 4] = ["hub", "device", "run", "structure"];
 
 /// Overrides `KEY = VALUE` of a budget, whose keys have the prefix `budget.`, here taken off, and those of its scenario.
 ///

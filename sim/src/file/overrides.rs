@@ -59,6 +59,10 @@ fn one(node: &mut Node, (text, numbers): (&str, Numbers), reports: &mut Diagnost
 /// Overrides of one key each, without signs that stand for several.
 fn plain(tree: &Node, text: &str) -> Result<Vec<String>, MessageAndHelp> {
     let Some((key, value)) = text.split_once('=') else { return Ok(vec![text.to_owned()]) };
+    if let Some(quoted) = with_blanks_quoted(key) {
+        let message = "a name with a blank stands in quotation marks".to_owned();
+        return Err((message, format!("write {quoted}={}", value.trim_start())));
+    }
     if key.contains(['"', '\'']) || !key.contains(['*', '+', '[']) {
         return Ok(vec![text.to_owned()]);
     }
@@ -67,6 +71,20 @@ fn plain(tree: &Node, text: &str) -> Result<Vec<String>, MessageAndHelp> {
         Some((vector, index)) => component(tree, vector, index, value.trim()),
     });
     each.collect()
+}
+
+/// A key whose names with blanks are in quotation marks; none where it needs none.
+fn with_blanks_quoted(key: &str) -> Option<String> {
+    let names = || key.trim().split('.').map(str::trim);
+    if key.contains(['"', '\'', '+', '['])
+        || !names().any(|name| name.contains(char::is_whitespace))
+    {
+        return None;
+    }
+    let quoted = names().map(|name| {
+        if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name.to_owned() }
+    });
+    Some(quoted.collect::<Vec<_>>().join("."))
 }
 
 /// The keys that a key with `+` and `*` stands for.
@@ -167,7 +185,8 @@ fn component(
     value: &str,
 ) -> Result<String, MessageAndHelp> {
     let wrong = |message: String, help: &str| (message, help.to_owned());
-    let index = index.trim_end().strip_suffix(']').unwrap_or_default().trim();
+    let index = index.trim_end();
+    let index = index.strip_suffix(']').unwrap_or(index).trim();
     let number = match index {
         "x" => Some(1),
         "y" => Some(2),
@@ -175,6 +194,10 @@ fn component(
         _ => index.parse::<usize>().ok().filter(|number| *number > 0),
     };
     let Some(number) = number else {
+        if let Some((inner, rest)) = index.split_once("].") {
+            let message = format!("`{vector}[{inner}]` is not how an element of a list is named");
+            return Err((message, format!("write its name: {vector}.NAME.{rest}")));
+        }
         return Err(wrong(
             format!("`[{index}]` is no component"),
             "write [1], [2].. or [x], [y], [z]",
@@ -363,11 +386,16 @@ mod tests {
         for (text, part) in [
             ("hub.inertia[4]=\"7 kg m^2\"", "has 3 numbers"),
             ("hub.inertia[0]=\"7 kg m^2\"", "no component"),
+            ("device[1].mass=\"7 kg\"", "not how an element of a list is named"),
+            ("requirement.of the hub.limit=\"1 deg\"", "in quotation marks"),
             ("hub.inertia[1]=\"7 kg\"", "another dimension"),
             ("hub.position[1]=\"7 m\"", "not written in the file"),
             ("hub[1]=\"7 m\"", "is a table"),
         ] {
             assert!(plain(&tree(), text).expect_err(text).0.contains(part), "{text}");
         }
+        let (_, help) =
+            plain(&tree(), "requirement.of the hub.limit = \"1 deg\"").expect_err("a blank");
+        assert_eq!(help, "write requirement.\"of the hub\".limit=\"1 deg\"");
     }
 }

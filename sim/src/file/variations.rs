@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use super::budget::SCENARIO_KEYS;
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
 use super::overrides::is_key;
@@ -36,6 +37,12 @@ const WORDS: [(&str, DistributionName); 5] = [
 /// Everything that is wrong, with its places.
 pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> {
     read_file(path, "plan", &[], |keys| {
+        if let Some(key) = SCENARIO_KEYS.into_iter().find(|key| keys.has(key)) {
+            let help =
+                "a plan states what varies: tables `[[vary]]` with a key and its distribution";
+            keys.error(key, "this is a scenario, and no plan", help);
+            return None;
+        }
         if !keys.has("format") {
             keys.missing("format", "format = 1");
         }

@@ -1,14 +1,17 @@
 //! What campaigns have in common: options, the scenario, the journal, threads, a progress bar.
 
+mod advised;
 pub(super) mod montecarlo;
 pub(super) mod sweep;
 
+use std::cell::OnceCell;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
 use clap::Args;
 
+use self::advised::advised;
 use super::error::CommandError;
 use super::exit::Exit;
 use super::options::{Set, Threads};
@@ -69,9 +72,15 @@ pub(super) struct Prepared {
     pub(super) scenario: Scenario,
     pub(super) selection: Selection,
     pub(super) fields: Vec<Field>,
+    advised: OnceCell<Vec<String>>,
 }
 
 impl Prepared {
+    /// What the samples of the plan would be warned of as runs of their own.
+    fn advised(&self, plan: &Plan) -> &[String] {
+        self.advised.get_or_init(|| advised(self, plan))
+    }
+
     /// What every run of the campaign has, for a page.
     pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
         let duration = format!("{}\u{a0}s", six(self.scenario.settings.duration));
@@ -108,7 +117,7 @@ impl CampaignOptions {
             return Err(CommandError::Other(message));
         }
         let fields = selection.fields(&header, &scenario.requirements);
-        Ok(Prepared { template, overrides, scenario, selection, fields })
+        Ok(Prepared { template, overrides, scenario, selection, fields, advised: OnceCell::new() })
     }
 
     /// Reserves the results, and rejects those that are there. Beside a journal it is the table that counts: it is written
@@ -146,6 +155,9 @@ impl CampaignOptions {
     ) -> Result<Option<Finished>, CommandError> {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
         readable(prepared, plan, places)?;
+        for warning in prepared.advised(plan) {
+            note(&format!("warning: {warning}"));
+        }
         let path = self.out.join(format!("{stem}.journal"));
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
         let opened =
@@ -325,10 +337,10 @@ pub(super) fn ending(
     (text, exit)
 }
 
-/// What a page says beside the numbers: requirements that are not evaluated, samples that failed.
+/// What a page says beside the numbers: what samples would be warned of as runs, requirements that are not evaluated, samples that failed.
 pub(super) fn warnings(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Vec<String> {
     let text = not_evaluated(prepared, plan, finished) + &failures(plan, finished);
-    text.lines().map(str::to_owned).collect()
+    prepared.advised(plan).iter().cloned().chain(text.lines().map(str::to_owned)).collect()
 }
 
 /// Name, place in a row, unit with its size, limit.

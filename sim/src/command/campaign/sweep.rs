@@ -54,7 +54,9 @@ impl Sweep {
     pub(in crate::command) fn execute(&self) -> Result<Exit, CommandError> {
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
         if self.over.len() > 2 {
-            return Err(other(&"a sweep has one --over or two; fix the other keys by --set"));
+            return Err(other(
+                &"a sweep has one --over or two; KEY+KEY or device.rw*.KEY sets several keys together, --set fixes the others",
+            ));
         }
         let plan = Plan::of_axes(&self.over).map_err(|error| other(&error))?;
         let prepared = self.options.prepare()?;

@@ -214,5 +214,8 @@ fn other_reading(found: &Quantity, text: &str, wanted: Measure) -> Option<String
 
 /// A line that would do.
 fn example(key: &str, measure: Measure) -> String {
-    format!("{key} = \"1 {}\"", measure.usual)
+    match measure.usual {
+        "" => format!("{key} = 1"),
+        unit => format!("{key} = \"1 {unit}\""),
+    }
 }

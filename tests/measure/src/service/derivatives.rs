@@ -276,13 +276,8 @@ impl<const N: usize> Service for Derivatives<N> {
     fn check(&mut self) -> Result<Value, Rejected> {
         self.call()?;
         let mut found = flat(&self.craft.accelerations(&self.state, &self.inputs)?);
-        let by_all = [
-            Name::Derivatives,
-            Name::Linearized,
-            Name::LinearizedInto,
-            Name::Jvp,
-            Name::Vjp,
-        ];
+        let by_all =
+            [Name::Derivatives, Name::Linearized, Name::LinearizedInto, Name::Jvp, Name::Vjp];
         if by_all.contains(&self.name) {
             found["derivatives"] = json!(self.blocks()?);
         }

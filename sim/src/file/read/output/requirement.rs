@@ -4,7 +4,7 @@ use crate::file::keys::Keys;
 use crate::file::read::values::mount::direction;
 use crate::pointing::Index;
 use crate::scenario::{Projection, Requirement, Settings, Statistic};
-use crate::units::{Dimension, Measure, UnitError, parse_unit};
+use crate::units::{Dimension, Measure, Plain, UnitError, parse_unit};
 
 /// The level of an index of ECSS without `level`: that of three standard deviations of Gaussian errors.
 const LEVEL: f64 = 0.9973;
@@ -84,6 +84,14 @@ fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
     let statistic = statistic(keys);
     let from = keys.quantity("from", Measure::TIME).unwrap_or(0.0);
     let to = keys.quantity("to", Measure::TIME).unwrap_or(duration);
+    if keys.has("from") && !keys.has("to") && from >= duration {
+        let message = format!(
+            "a window from {} s on is empty in a run of {} s",
+            Plain(from),
+            Plain(duration)
+        );
+        keys.error("from", message, "begin earlier, or raise `run.duration`");
+    }
     if !keys.has("limit") {
         keys.missing("limit", "limit = \"0.1 deg/s\"");
     }
@@ -147,7 +155,7 @@ fn statistic(keys: &Keys<'_>) -> Option<Statistic> {
     match word {
         StatisticName::Peak => Some(Statistic::Peak),
         StatisticName::Rms => Some(Statistic::Rms),
-        StatisticName::BandRms => Some(Statistic::BandRms(band?)),
+        StatisticName::BandRms => rising(keys, band?).map(Statistic::BandRms),
         StatisticName::Final => Some(Statistic::Final),
         StatisticName::Drift => Some(Statistic::Drift),
         StatisticName::Displacement => Some(Statistic::Displacement(exposure?)),
@@ -158,6 +166,21 @@ fn statistic(keys: &Keys<'_>) -> Option<Statistic> {
         StatisticName::Rpe => index(Index::Rpe { window: window? }),
         StatisticName::Pde => index(Index::Pde { window: window?, stability: stability? }),
     }
+}
+
+/// A band whose frequencies rise.
+fn rising(keys: &Keys<'_>, band: [f64; 2]) -> Option<[f64; 2]> {
+    let [from, to] = band;
+    if 0.0 <= from && from < to {
+        return Some(band);
+    }
+    let message = format!(
+        "a band rises from zero or above, and this one is from {} Hz to {} Hz",
+        Plain(from),
+        Plain(to)
+    );
+    keys.error("band", message, "write the lower frequency first: `band = \"1, 200 Hz\"`");
+    None
 }
 
 fn unit_of(unit: &str) -> Result<(f64, Dimension), UnitError> {
@@ -199,6 +222,11 @@ mod tests {
             ("statistic = \"pde\"\nwindow = \"0.1 s\"", "add `stability = \"1 s\"`"),
             ("statistic = \"rms\"\nlevel = 0.9", "only `ape`, `mpe`, `rpe`, `pde` has `level`"),
             ("statistic = \"peak\"\nband = \"1, 2 Hz\"", "only `band_rms` has `band`"),
+            ("statistic = \"band_rms\"\nband = \"200, 1 Hz\"", "this one is from 200 Hz to 1 Hz"),
+            (
+                "statistic = \"rms\"\nfrom = \"3 s\"",
+                "a window from 3 s on is empty in a run of 2 s",
+            ),
             ("statistic = \"ape\"\nlevel = 1", "a level of 1 is not between 0 and 1"),
             ("statistic = \"jitter\"\nexposure = \"1.5 ms\"", "is 1.5000 samples at 1000 1/s"),
             (
