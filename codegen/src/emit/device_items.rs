@@ -186,7 +186,7 @@ impl Items<'_> {
         let mut items = vec![self.pose()];
         items.extend(self.eliminate());
         items.extend([self.pivots(), self.back_substitute(), self.slope()]);
-        items.extend([self.external(), self.gravity()]);
+        items.extend([self.load_derivatives(), self.external(), self.gravity()]);
         items.extend(self.zips());
         let (name, gains) = (self.name(), self.gains_type());
         quote! {
@@ -214,14 +214,8 @@ impl Items<'_> {
         let accelerations = self.each(|link| ident(link.joint.acceleration));
         let (bodies, of_bodies) = (self.body_parameters(), self.of_bodies());
         let (balanced, constants) = (self.balanced(), self.constants());
-        let called = [
-            self.energy_momentum(),
-            self.first_moment(),
-            self.axes(),
-            self.loads(),
-            self.load_derivatives(),
-            self.steer(),
-        ];
+        let called =
+            [self.energy_momentum(), self.first_moment(), self.axes(), self.loads(), self.steer()];
         quote! {
             impl<T: Scalar> Kind for #name<T> {
                 type Scalar = T;

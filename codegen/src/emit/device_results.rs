@@ -101,7 +101,8 @@ impl Items<'_> {
         let column = |by: &str| {
             let joints = self.per_joint(|link| {
                 let name = format_ident!("{}_by_{by}", link.joint.torque);
-                if link.is_driven() { quote!(found.#name) } else { quote!(zero()) }
+                let none = quote!(#omega.omega_bx.like(0.0));
+                if link.is_driven() { quote!(found.#name) } else { none }
             });
             let [force, moment] = ["f", "n"].map(|letter| {
                 let components = XYZ.map(|axis| format_ident!("{letter}_b{axis}_by_{by}"));
@@ -115,15 +116,14 @@ impl Items<'_> {
         let [by_omega, by_omega_dot] =
             ["omega", "omega_dot"].map(|stem| XYZ.map(|axis| column(&format!("{stem}_b{axis}"))));
         quote! {
-            #[inline(always)]
-            fn load_derivatives(
+            fn load_derivatives<T: Real>(
                 #constants: &Self::Constants<T>,
                 #pose: &Self::Pose<T>,
                 #joints: &Joints<T>,
                 #omega: &BodyRate<T>,
                 #hub: &BodyAcceleration<T>,
                 #accelerations: &JointAccelerations<T>,
-            ) -> Option<LoadDerivatives<Self>> {
+            ) -> Option<LoadDerivatives<Self, T>> {
                 let found = #call;
                 Some(LoadDerivatives {
                     coordinates: #coordinates,

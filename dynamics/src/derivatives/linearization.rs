@@ -151,17 +151,10 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let lists = (states.as_slice(), by_inputs.as_slice());
         self.output_columns((state, inputs), accelerations, outputs, lists, [&mut *c, &mut *d])?;
         let rows = Slopes::new(self, state, inputs, accelerations);
-        let by_inputs = (by_inputs.as_slice(), states.len(), b, d);
-        for (list, first, slopes, results) in [(states.as_slice(), 0, a, c), by_inputs] {
-            let columns = list.iter().zip(columns_of(slopes).zip(columns_of(results)));
-            for (number, (variable, (slopes, results))) in columns.enumerate() {
-                if !rows.fill(*variable, results, slopes) {
-                    let variable = first.saturating_add(number);
-                    return Err(DerivativeError::NotFinite { variable });
-                }
-            }
-        }
-        Ok(())
+        let not_finite = |variable| DerivativeError::NotFinite { variable };
+        rows.fill(states, c, a).map_err(not_finite)?;
+        let others = rows.fill(by_inputs, d, b);
+        others.map_err(|variable| not_finite(variable.saturating_add(states.len())))
     }
 
     /// The derivatives of the outputs by states and inputs into their columns.
@@ -226,10 +219,12 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
     ) {
-        self.states.clear();
-        self.states.extend(craft.state_variables(inputs));
-        self.inputs.clear();
-        self.inputs.extend(craft.input_variables(inputs));
+        // Inner iteration: what the iterators chain is then a loop each.
+        let Self { states, inputs: by_inputs, .. } = self;
+        states.clear();
+        craft.state_variables(inputs).for_each(|variable| states.push(variable));
+        by_inputs.clear();
+        craft.input_variables(inputs).for_each(|variable| by_inputs.push(variable));
         craft.outputs(outputs, &mut self.outputs);
         let (states, by_inputs, rows) = (self.states.len(), self.inputs.len(), self.outputs.len());
         let sizes = [(states, states), (states, by_inputs), (rows, states), (rows, by_inputs)];

@@ -5,7 +5,10 @@
 
 use alloc::vec::Vec;
 
+use nalgebra::DMatrix;
+
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::linearization::columns_of;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::model::mode::{HubMode, Mode};
@@ -35,23 +38,6 @@ pub(crate) struct Slopes<T> {
     pub(crate) modes: usize,
 }
 
-/// A column in the rows of the accelerations, as they are in `c`, taken apart.
-pub(crate) struct Rows<'a, T> {
-    pub(crate) r_b_n_ddot: Vec3<T>,
-    pub(crate) omega_dot: Vec3<T>,
-    pub(crate) joints: &'a [T],
-    pub(crate) modes: &'a [T],
-}
-
-/// A column in the rows of the states, taken apart; the hub's are none where it is fixed.
-pub(crate) struct StateRows<'a, T> {
-    pub(crate) hub: Option<[&'a mut Vec3<T>; 4]>,
-    pub(crate) coordinates: &'a mut [T],
-    pub(crate) rates: &'a mut [T],
-    pub(crate) modes: &'a mut [T],
-    pub(crate) modal_rates: &'a mut [T],
-}
-
 impl<T: Scalar> Slopes<T> {
     pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
@@ -73,37 +59,19 @@ impl<T: Scalar> Slopes<T> {
         found
     }
 
-    /// The rows of a column of accelerations; what else is differentiated comes after them.
-    pub(crate) fn rows<'a>(&self, column: &'a [T]) -> Option<Rows<'a, T>> {
-        let (r_b_n_ddot, rest) = column.split_first_chunk::<3>()?;
-        let (omega_dot, rest) = rest.split_first_chunk::<3>()?;
-        let (joints, rest) = rest.split_at_checked(self.joints)?;
-        let modes = rest.get(..self.modes)?;
-        Some(Rows { r_b_n_ddot: *r_b_n_ddot, omega_dot: *omega_dot, joints, modes })
-    }
-
-    /// The rows of a column of states.
-    pub(crate) fn state_rows<'a>(&self, column: &'a mut [T]) -> Option<StateRows<'a, T>> {
-        let (hub, rest) = column.split_at_mut_checked(if self.hub { OF_HUB } else { 0 })?;
-        let (coordinates, rest) = rest.split_at_mut_checked(self.moving.len())?;
-        let (rates, rest) = rest.split_at_mut_checked(self.moving.len())?;
-        let (modes, modal_rates) = rest.split_at_mut_checked(self.modes)?;
-        let hub = match hub.as_chunks_mut::<3>().0 {
-            [position, attitude, velocity, omega] => Some([position, attitude, velocity, omega]),
-            _ => None,
-        };
-        Some(StateRows { hub, coordinates, rates, modes, modal_rates })
-    }
-
     /// The change of the acceleration of B, N axes, where the attitude changes by a small rotation.
     pub(crate) fn in_n(&self, r_b_n_ddot: Vec3<T>, attitude: Vec3<T>) -> Vec3<T> {
         rotate_transposed(&self.bn, add(r_b_n_ddot, cross(attitude, self.r_b_n_ddot)))
     }
 
     /// The slopes of the rates of joints from the accelerations.
-    pub(crate) fn of_rates(&self, joints: &[T], rates: &mut [T]) {
+    #[inline(always)]
+    fn of_rates(&self, joints: &[T], rates: &mut [T]) {
         if rates.len() == joints.len() {
-            rates.copy_from_slice(joints);
+            let ((to, last), (from, of_last)) =
+                (rates.as_chunks_mut::<4>(), joints.as_chunks::<4>());
+            to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+            last.iter_mut().zip(of_last).for_each(|(to, from)| *to = *from);
             return;
         }
         for (rate, joint) in rates.iter_mut().zip(&self.moving) {
@@ -111,42 +79,98 @@ impl<T: Scalar> Slopes<T> {
         }
     }
 
-    /// The column of a variable into `slopes`, from that of the accelerations; whether the hub's are finite.
-    pub(crate) fn fill(&self, by: Variable, accelerations: &[T], slopes: &mut [T]) -> bool {
-        let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
-        let Some(from) = self.rows(accelerations) else { return true };
-        let Some(to) = self.state_rows(slopes) else { return true };
+    /// The columns of variables into `slopes`, from those of the accelerations; the first variable of which the hub's are
+    /// not finite.
+    pub(crate) fn fill(
+        &self,
+        by: &[Variable],
+        accelerations: &DMatrix<T>,
+        slopes: &mut DMatrix<T>,
+    ) -> Result<(), usize> {
+        slopes.as_mut_slice().fill(zero());
+        let from = accelerations.as_slice().chunks_exact(accelerations.nrows().max(1));
         let mut finite = true;
-        if let Some([position, attitude, velocity, omega]) = to.hub {
-            let (mut moves, mut turns, mut turned) = ([zero(); 3], [zero(); 3], [zero(); 3]);
-            match by {
-                Variable::Velocity(axis) => moves = unit(axis),
-                Variable::Attitude(axis) => {
-                    turned = unit(axis);
-                    turns = cross(turned, self.omega);
-                }
-                Variable::Omega(axis) => turns = unit(axis),
-                _ => {}
-            }
-            (*position, *attitude, *omega) = (moves, turns, from.omega_dot);
-            *velocity = self.in_n(from.r_b_n_ddot, turned);
-            finite = velocity.iter().all(|number| number.is_finite());
+        for (from, to) in from.zip(columns_of(slopes)) {
+            finite &= self.of_accelerations(from, to);
         }
-        to.coordinates.fill(zero());
-        to.modes.fill(zero());
-        self.of_rates(from.joints, to.rates);
-        to.modal_rates.copy_from_slice(from.modes);
-        let moved = match by {
-            Variable::Rate(joint) => {
-                let place = self.moving.iter().position(|moving| *moving == joint);
-                place.and_then(|place| to.coordinates.get_mut(place))
+        for (number, (variable, to)) in by.iter().zip(columns_of(slopes)).enumerate() {
+            let turned = self.of_variable(*variable, to);
+            if !turned || !finite {
+                let hub = self.hub_rows(to);
+                if hub.is_some_and(|[_, _, v, _]| !v.iter().all(|number| number.is_finite())) {
+                    return Err(number);
+                }
             }
-            Variable::ModalRate(mode) => to.modes.get_mut(mode),
+        }
+        Ok(())
+    }
+
+    /// What accelerations change slopes by; whether that of B in N is finite.
+    #[inline(always)]
+    fn of_accelerations(&self, accelerations: &[T], slopes: &mut [T]) -> bool {
+        let Some((of_hub, joints)) = accelerations.split_first_chunk::<6>() else { return true };
+        let (mut to, mut finite) = (slopes, true);
+        if self.hub {
+            let Some((hub, rest)) = to.split_first_chunk_mut::<OF_HUB>() else { return true };
+            to = rest;
+            let [a, b, c, d, e, f] = *of_hub;
+            let [x, y, z] = rotate_transposed(&self.bn, [a, b, c]);
+            let [.., p, q, r, s, t, u] = hub;
+            (*p, *q, *r, *s, *t, *u) = (x, y, z, d, e, f);
+            finite = ((x + y + z) * zero()).is_finite();
+        }
+        let moving = self.moving.len();
+        let Some((_, to)) = to.split_at_mut_checked(moving) else { return true };
+        let Some((rates, to)) = to.split_at_mut_checked(moving) else { return true };
+        let Some((joints, rest)) = joints.split_at_checked(self.joints) else { return true };
+        self.of_rates(joints, rates);
+        if self.modes > 0
+            && let (Some(rates), Some(of_modes)) =
+                (to.get_mut(self.modes..), rest.get(..self.modes))
+        {
+            rates.iter_mut().zip(of_modes).for_each(|(to, from)| *to = *from);
+        }
+        finite
+    }
+
+    /// Adds what a variable changes slopes by at given accelerations; false where that of B in N is among it.
+    #[inline(always)]
+    fn of_variable(&self, by: Variable, slopes: &mut [T]) -> bool {
+        let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
+        let of_joints = if self.hub { OF_HUB } else { 0 };
+        let moved = match by {
+            Variable::Velocity(axis) if self.hub => slopes.get_mut(axis as usize),
+            Variable::Omega(axis) if self.hub => slopes.get_mut((axis as usize).wrapping_add(3)),
+            Variable::Attitude(axis) => {
+                if let Some([_, attitude, velocity, _]) = self.hub_rows(slopes) {
+                    *attitude = cross(unit(axis), self.omega);
+                    *velocity = add(*velocity, self.in_n([zero(); 3], unit(axis)));
+                }
+                return false;
+            }
+            Variable::Rate(joint) => {
+                let all = self.moving.len() == self.joints;
+                let place = if all { Ok(joint) } else { self.moving.binary_search(&joint) };
+                place.ok().and_then(|place| slopes.get_mut(of_joints.wrapping_add(place)))
+            }
+            Variable::ModalRate(mode) => {
+                let of_modes = self.moving.len().wrapping_mul(2).wrapping_add(of_joints);
+                slopes.get_mut(of_modes.wrapping_add(mode))
+            }
             _ => None,
         };
         if let Some(moved) = moved {
             *moved = one();
         }
-        finite
+        true
+    }
+
+    /// The hub's rows of a column of states; none where it is fixed.
+    fn hub_rows<'a>(&self, slopes: &'a mut [T]) -> Option<[&'a mut Vec3<T>; 4]> {
+        let (hub, _) = slopes.split_at_mut_checked(OF_HUB).filter(|_| self.hub)?;
+        match hub.as_chunks_mut::<3>().0 {
+            [position, attitude, velocity, omega] => Some([position, attitude, velocity, omega]),
+            _ => None,
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use crate::derivatives::loads::load_columns::Load;
+use crate::derivatives::loads::side_by_side::Load;
 use crate::derivatives::tree::base_motion::{BaseMotion, CoordinateSlopes, Link, Moments, spatial};
 use crate::derivatives::tree::members::Base;
 use crate::derivatives::tree::modal_columns::ModalColumns;

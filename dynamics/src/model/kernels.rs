@@ -72,6 +72,18 @@ pub trait Kernels: 'static {
         accelerations: &Self::Accelerations<T>,
     ) -> Self::Joints<T>;
 
+    /// The emitted `load_derivatives`, column by column; none of a kind that has none: a platform.
+    #[inline(always)]
+    fn load_derivatives<T: Real>(
+        _constants: &Self::Constants<T>,
+        _pose: &Self::Pose<T>,
+        _joints: &Self::Joints<T>,
+        _omega: &BodyRate<T>,
+        _hub: &BodyAcceleration<T>,
+        _accelerations: &Self::Accelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        None
+    }
     /// The emitted `external`: wrenches on the bodies, summed inwards.
     fn external<T: Real>(
         constants: &Self::Constants<T>,
@@ -116,4 +128,23 @@ pub trait Kernels: 'static {
         b: &Self::PerJoint<U>,
         join: impl FnMut(T, U) -> W,
     ) -> Self::PerJoint<W>;
+}
+
+/// Derivatives of the loads of a device by one variable: of what each motor exerts, and of what the hub exerts,
+/// about B, along the device's axes.
+pub type LoadColumn<K, T> = Carried<<K as Kernels>::PerJoint<T>, Wrench<T>>;
+
+/// Derivatives of the loads of a device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadDerivatives<K: Kernels + ?Sized, T: Value> {
+    /// By each joint's coordinate.
+    pub coordinates: K::PerJoint<LoadColumn<K, T>>,
+    /// By each joint's rate.
+    pub rates: K::PerJoint<LoadColumn<K, T>>,
+    /// By each joint's acceleration: columns of the mass matrix.
+    pub accelerations: K::PerJoint<LoadColumn<K, T>>,
+    /// By the hub's angular velocity, along the device's axes.
+    pub omega: [LoadColumn<K, T>; 3],
+    /// By the hub's angular acceleration, along the device's axes.
+    pub omega_dot: [LoadColumn<K, T>; 3],
 }

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, ConstantShare, EnergyMomentum,
 };
-pub use crate::model::kernels::Kernels;
+pub use crate::model::kernels::{Kernels, LoadColumn, LoadDerivatives};
 pub use crate::model::mode::Drive;
 use crate::model::mode::Mode;
 use crate::model::parameter_info;
@@ -240,17 +240,6 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         hub: &BodyAcceleration<Self::Scalar>,
         accelerations: &Self::Accelerations<Self::Scalar>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
-    /// The emitted `load_derivatives`, column by column; none of a kind that has none: a platform.
-    fn load_derivatives(
-        _constants: &Self::Constants<Self::Scalar>,
-        _pose: &Self::Pose<Self::Scalar>,
-        _joints: &Self::Joints<Self::Scalar>,
-        _omega: &BodyRate<Self::Scalar>,
-        _hub: &BodyAcceleration<Self::Scalar>,
-        _accelerations: &Self::Accelerations<Self::Scalar>,
-    ) -> Option<LoadDerivatives<Self>> {
-        None
-    }
     /// The emitted `steer`; none of a kind that has none: a platform.
     fn steer(
         _constants: &Self::Constants<Self::Scalar>,
@@ -285,26 +274,6 @@ pub struct Steering<K: Kind> {
     pub inertia: [K::Scalar; 6],
     /// `omega x inertia omega`, N m.
     pub gyroscopic: Vector3<K::Scalar>,
-}
-
-/// Derivatives of the loads of a device by one variable: of what each motor exerts, and of what the hub exerts,
-/// about B, along the device's axes.
-pub type LoadColumn<K> =
-    Carried<<K as Kernels>::PerJoint<<K as Kind>::Scalar>, Wrench<<K as Kind>::Scalar>>;
-
-/// Derivatives of the loads of a device.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadDerivatives<K: Kind> {
-    /// By each joint's coordinate.
-    pub coordinates: K::PerJoint<LoadColumn<K>>,
-    /// By each joint's rate.
-    pub rates: K::PerJoint<LoadColumn<K>>,
-    /// By each joint's acceleration: columns of the mass matrix.
-    pub accelerations: K::PerJoint<LoadColumn<K>>,
-    /// By the hub's angular velocity, along the device's axes.
-    pub omega: [LoadColumn<K>; 3],
-    /// By the hub's angular acceleration, along the device's axes.
-    pub omega_dot: [LoadColumn<K>; 3],
 }
 
 /// Entries 11, 12, 13, 22, 23, 33 of a tensor's symmetric part, exact where it is symmetric.

@@ -10,7 +10,8 @@ use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, Moving, Place};
-use crate::derivatives::loads::mass_system::{MassSystem, Reduced, Six};
+use crate::derivatives::loads::mass_system::{MassSystem, follow};
+use crate::derivatives::loads::side_by_side::{Six, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -20,7 +21,7 @@ use crate::equations::load_sums::HubAccelerations;
 use crate::model::mode::HubMode;
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::vec3::{Vec3, add, components, cross, sub};
+use crate::numbers::vec3::{Vec3, components, cross, sub};
 use crate::sets::devices::Devices;
 use crate::solve::accelerations::evaluation_start;
 use crate::solve::inputs::Inputs;
@@ -31,6 +32,7 @@ use crate::solve::state::{Accelerations, State};
 #[derive(Debug)]
 pub(crate) struct ByLoads<T> {
     by: Arithmetic,
+    /// Groups with the hub's accelerations for the right side of its equations.
     devices: LoadColumns<T>,
     system: MassSystem<T>,
     hub: HubConstants<T>,
@@ -67,10 +69,13 @@ impl<T: Scalar> ByLoads<T> {
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
-        let matrix = &each.found.matrix;
-        let system = MassSystem::new(&craft.hub, craft.mass(), matrix, hub_is_free);
+        let mut devices = each.found;
+        let system = MassSystem::new(&craft.hub, craft.mass(), &devices.matrix, hub_is_free);
+        for group in &mut devices.groups {
+            *group = system.hub_together(group);
+        }
         let by = craft.arithmetic;
-        Some(Self { by, devices: each.found, system, hub: craft.hub, omega, gravity, hub_is_free })
+        Some(Self { by, devices, system, hub: craft.hub, omega, gravity, hub_is_free })
     }
 
     /// The accelerations' derivatives by these variables into the columns of a matrix, whose other rows stay as they
@@ -101,85 +106,126 @@ impl<T: Scalar> ByLoads<T> {
     /// Whether all of them are finite.
     #[inline(always)]
     fn fill(&self, variables: &[Variable], rows: usize, into: &mut [T]) -> bool {
+        let gains = self.devices.gains.rows();
         for (variable, column) in variables.iter().zip(into.chunks_exact_mut(rows)) {
-            if let Some((hub, joints)) = column.split_first_chunk_mut::<6>() {
-                *hub = self.column(*variable, joints);
+            let Some((hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
+            let Some(Change { base, field, own }) = self.change(*variable) else {
+                column.fill(zero());
+                continue;
+            };
+            follow(gains, &base, joints);
+            *hub = base;
+            match own {
+                Own::Device { first, less } => {
+                    let own = joints.get_mut(first..).unwrap_or_default();
+                    own.iter_mut().zip(less.get()).for_each(|(to, less)| *to = *to - less);
+                }
+                Own::All(axis) => {
+                    for (to, less) in joints.iter_mut().zip(&self.devices.joints_by_omega) {
+                        *to = *to - axis.of(*less);
+                    }
+                }
+                Own::None => {}
+            }
+            if let Some([x, y, z]) = field {
+                let [a, b, c, d, e, f] = base;
+                *hub = [a + x, b + y, c + z, d, e, f];
             }
         }
         are_finite(into)
     }
 
-    /// The accelerations' derivatives by one variable: those of the hub, and those of the joints into `joints`.
+    /// What changes with one variable; none where nothing does.
     #[inline(always)]
-    fn column(&self, by: Variable, joints: &mut [T]) -> Six<T> {
+    fn change(&self, by: Variable) -> Option<Change<'_, T>> {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let (still, zeros) = ([zero(); 6], [zero(); 3]);
         let place = |axis: Axis| axis as usize;
-        match by {
-            Variable::Coordinate(joint) => self.by_joint(joint, &self.devices.coordinates, joints),
-            Variable::Rate(joint) => self.by_joint(joint, &self.devices.rates, joints),
-            Variable::Motor(joint) if self.is_free(joint) => {
-                self.by_joint(joint, &self.devices.driven, joints)
-            }
+        let base = match by {
+            Variable::Coordinate(joint) => return self.by_joint(joint, 0),
+            Variable::Rate(joint) => return self.by_joint(joint, 1),
+            Variable::Motor(joint) if self.is_free(joint) => return self.by_joint(joint, 2),
             Variable::Acceleration(joint) if !self.is_free(joint) => {
-                self.by_joint(joint, &self.devices.driven, joints)
+                return self.by_joint(joint, 2);
             }
-            Variable::Attitude(axis) => {
+            Variable::Attitude(axis) if self.gravity.iter().any(|field| !field.vanishes()) => {
                 // [BN] g changes by its product with the small rotation.
                 let field = cross(self.gravity, unit(axis));
                 let falling = of_both([sub(zeros, field), zeros]);
-                let given = if self.hub_is_free { still } else { falling };
-                let [a, b, c, d, e, f] = self.followed(given, joints);
-                of_both([add([a, b, c], field), [d, e, f]])
+                let base = if self.hub_is_free { still } else { falling };
+                return Some(Change { base, field: Some(field), own: Own::None });
             }
             Variable::Omega(axis) => {
                 let own = of_both(self.hub.loads_by_omega(self.omega, unit(axis)));
-                let mut right = own.map(|load| -load);
+                let mut right = still;
                 let devices = self.devices.omega.get(place(axis)).into_iter().flatten();
-                right.iter_mut().zip(devices).for_each(|(to, from)| *to = *to + *from);
-                let base = self.followed(self.system.hub(&right, still), joints);
-                for (to, less) in joints.iter_mut().zip(&self.devices.joints_by_omega) {
-                    *to = *to - axis.of(*less);
+                for ((to, own), devices) in right.iter_mut().zip(own).zip(devices) {
+                    *to = *devices - own;
                 }
-                base
+                let base = self.system.hub(&right, still);
+                return Some(Change { base, field: None, own: Own::All(axis) });
             }
-            Variable::Force(axis) => self.followed(self.system.hub_by_unit(place(axis)), joints),
-            Variable::TorqueB(axis) => {
-                let place = place(axis).wrapping_add(3);
-                self.followed(self.system.hub_by_unit(place), joints)
-            }
-            Variable::HubAcceleration(axis) => self.followed(of_both([unit(axis), zeros]), joints),
-            Variable::HubAngularAcceleration(axis) => {
-                self.followed(of_both([zeros, unit(axis)]), joints)
-            }
-            _ => {
-                joints.fill(zero());
-                still
-            }
-        }
-    }
-
-    /// Of a hub with these accelerations, and of joints of which nothing else changes.
-    #[inline(always)]
-    fn followed(&self, base: Six<T>, joints: &mut [T]) -> Six<T> {
-        self.devices.gains.follow(&base, joints);
-        base
-    }
-
-    #[inline(always)]
-    fn by_joint(&self, joint: usize, of: &[Reduced<T>], joints: &mut [T]) -> Six<T> {
-        let Some((reduced, place)) = of.get(joint).zip(self.devices.places.get(joint)) else {
-            return self.followed([zero(); 6], joints);
+            Variable::Force(axis) => self.system.hub_by_unit(place(axis)),
+            Variable::TorqueB(axis) => self.system.hub_by_unit(place(axis).wrapping_add(3)),
+            Variable::HubAcceleration(axis) => of_both([unit(axis), zeros]),
+            Variable::HubAngularAcceleration(axis) => of_both([zeros, unit(axis)]),
+            _ => return None,
         };
-        let base = self.followed(self.system.hub(&reduced.hub, [zero(); 6]), joints);
-        let Place { first, count, .. } = *place;
-        let own = joints.get_mut(first..first.saturating_add(count)).unwrap_or_default();
-        own.iter_mut().zip(&reduced.joints).for_each(|(to, less)| *to = *to - *less);
-        base
+        Some(Change { base, field: None, own: Own::None })
+    }
+
+    /// By the coordinate of a joint, by its rate, or by what drives it.
+    #[inline(always)]
+    fn by_joint(&self, joint: usize, which: usize) -> Option<Change<'_, T>> {
+        let Place { first, count, group, line, .. } = *self.devices.places.get(joint)?;
+        let own = joint.wrapping_sub(first).wrapping_add(which.wrapping_mul(count));
+        let (of_device, place) = (own / TOGETHER, own % TOGETHER);
+        let [a, b, c, d, e, f] = self.devices.groups.get(group.wrapping_add(of_device))?;
+        let line = line.wrapping_add(of_device.wrapping_mul(count));
+        let lines = self.devices.lines.get(line..)?.get(..count)?;
+        Some(Change {
+            base: [a[place], b[place], c[place], d[place], e[place], f[place]],
+            field: None,
+            own: Own::Device { first, less: Less { lines, place } },
+        })
     }
 
     fn is_free(&self, joint: usize) -> bool {
         self.devices.places.get(joint).is_some_and(|place| place.free)
+    }
+}
+
+/// What changes with a variable.
+struct Change<'a, T> {
+    /// The hub's accelerations, as seen from what falls with the field.
+    base: Six<T>,
+    /// The field.
+    field: Option<Vec3<T>>,
+    own: Own<'a, T>,
+}
+
+/// By how much less joints accelerate than those that follow the hub.
+enum Own<'a, T> {
+    None,
+    /// Those of a device, from its first on.
+    Device {
+        first: usize,
+        less: Less<'a, T>,
+    },
+    /// All, by the angular velocity about an axis.
+    All(Axis),
+}
+
+/// A place in each line.
+struct Less<'a, T> {
+    lines: &'a [[T; TOGETHER]],
+    place: usize,
+}
+
+impl<T: Scalar> Less<'_, T> {
+    #[inline(always)]
+    fn get(&self) -> impl Iterator<Item = T> {
+        self.lines.iter().map(|line| line[self.place % TOGETHER])
     }
 }
 

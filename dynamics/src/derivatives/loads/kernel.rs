@@ -33,7 +33,7 @@ pub(crate) fn load_derivatives<K: Kind>(
     joints: &K::Joints<K::Scalar>,
     accelerations: &K::Accelerations<K::Scalar>,
     (omega, base): (Vec3<K::Scalar>, &HubAccelerations<K::Scalar>),
-) -> Result<LoadDerivatives<K>, NotEmitted> {
+) -> Result<LoadDerivatives<K, K::Scalar>, NotEmitted> {
     let within = |v| rotate_transposed(&device.mount, v);
     let hub = Solution { r_b_n_ddot: within(base.r_b_n_ddot), omega_dot: within(base.omega_dot) };
     let (pose, omega) = (K::pose(joints), expressed_in_b(within(omega)));

@@ -3,8 +3,12 @@
 
 #[cfg(feature = "alloc")]
 pub(crate) mod by_loads;
+#[cfg(feature = "alloc")]
+pub(crate) mod joint_elimination;
 pub(crate) mod kernel;
 #[cfg(feature = "alloc")]
 pub(crate) mod load_columns;
 #[cfg(feature = "alloc")]
 pub(crate) mod mass_system;
+#[cfg(feature = "alloc")]
+pub(crate) mod side_by_side;

@@ -9,14 +9,16 @@ use alloc::vec::Vec;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::dual::column::Column;
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::loads::load_columns::{EachDevice, Load, LoadColumns, Moving};
-use crate::derivatives::loads::mass_system::{MassSystem, Reduced, Six};
+use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, Moving};
+use crate::derivatives::loads::mass_system::{MassSystem, follow};
+use crate::derivatives::loads::side_by_side::{Load, Six};
 use crate::derivatives::parameters::change::{add_change, add_hub_change, unit};
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::parameters::device_motion::{DeviceMotion, GivenJoint, LoadChange};
 use crate::derivatives::parameters::rigid_body::{Motion, RigidBody};
 use crate::equations::gravity::Gravity;
 use crate::equations::load_sums::HubAccelerations;
+use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{ImbalanceModel, Kind, no_body, no_inertia};
 use crate::model::mode::HubMode;
 use crate::model::parameters::Hub;
@@ -82,7 +84,8 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
             omega,
             falling,
             accelerations.devices.values().count(),
-        );
+        )
+        .keeping_eliminations();
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
@@ -135,18 +138,19 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
     /// The accelerations where the loads of a device, or of the hub alone, change: of the hub, those of the joints into
     /// `accelerations`.
     fn accelerated(&mut self, device: Option<usize>, load: &Load<D::Scalar>) -> Six<D::Scalar> {
-        let eliminated = device.and_then(|device| self.columns.eliminated.get(device));
-        let reduced = eliminated.map_or_else(
-            || Reduced { hub: load.hub.map(|load| -load), ..Reduced::none() },
-            |of| of.reduced(&load.hub, &load.joints),
+        let eliminated = self.columns.eliminated.as_deref().unwrap_or_default();
+        let others = eliminated.iter().take(device.unwrap_or_default());
+        let first = others.map(|(count, _)| *count).sum();
+        let eliminated = device.and_then(|device| eliminated.get(device));
+        let (hub, joints) = eliminated.map_or_else(
+            || (load.hub.map(|load| -load), [zero(); MAX_JOINTS]),
+            |(_, of)| of.reduced(&load.hub, &load.joints),
         );
-        let base = self.system.hub(&reduced.hub, [zero(); 6]);
-        self.columns.gains.follow(&base, &mut self.accelerations);
-        let others = self.columns.eliminated.iter().take(device.unwrap_or_default());
-        let first = others.map(|of| of.count).sum();
+        let base = self.system.hub(&hub, [zero(); 6]);
+        follow(self.columns.gains.rows(), &base, &mut self.accelerations);
         let own = self.accelerations.iter_mut().skip(first);
-        let count = eliminated.map_or(0, |of| of.count);
-        own.zip(&reduced.joints).take(count).for_each(|(to, less)| *to = *to - *less);
+        let count = eliminated.map_or(0, |(count, _)| *count);
+        own.zip(joints).take(count).for_each(|(to, less)| *to = *to - less);
         base
     }
 

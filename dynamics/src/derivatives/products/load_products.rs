@@ -35,7 +35,7 @@ impl<T: Scalar> HubMotion<T> {
         device: &Device<K>,
         joints: &K::Joints<T>,
         accelerations: &K::Accelerations<T>,
-    ) -> Result<LoadDerivatives<K>, NotEmitted> {
+    ) -> Result<LoadDerivatives<K, T>, NotEmitted> {
         check_coupled(device)?;
         load_derivatives(device, joints, accelerations, (self.omega, &self.accelerations))
     }
@@ -71,7 +71,7 @@ impl<T: Scalar> Visit<T, Directed> for AlongDirection<T> {
     ) -> Result<(), NotEmitted> {
         let found = self.motion.load_derivatives(device, joints, accelerations)?;
         let ([mut force, mut moment], mut loads) = ([zeros(); 2], K::all(zero::<T>()));
-        let mut add_column = |by: T, column: &LoadColumn<K>| {
+        let mut add_column = |by: T, column: &LoadColumn<K, T>| {
             force = add(force, scale(by, components(&column.hub.force)));
             moment = add(moment, scale(by, components(&column.hub.moment)));
             loads = K::zip_per_joint(&loads, &column.joints, |sum, load| sum + by * load);
@@ -144,7 +144,7 @@ impl<T: Scalar> Visit<T, Weighed> for ByWeights<T> {
         let found = self.motion.load_derivatives(device, joints, accelerations)?;
         let [force, moment] = self.hub.map(|of| rotate_transposed(&device.mount, of));
         let weights_of = *weights;
-        let less = |column: &LoadColumn<K>| {
+        let less = |column: &LoadColumn<K, T>| {
             let of_hub = dot(force, components(&column.hub.force))
                 + dot(moment, components(&column.hub.moment));
             let each = column.joints.values().zip(weights_of.values());

@@ -6,7 +6,7 @@
 //! `(0, a x f) dq`. So each column is the kernel `external` of one wrench. Only the wrenches of the gradient on the bodies
 //! change with the coordinates themselves: the kernel `gravity` in dual numbers.
 
-use crate::derivatives::loads::load_columns::Load;
+use crate::derivatives::loads::side_by_side::Load;
 use crate::equations::device::Device;
 use crate::equations::gravity::{Central, gradient};
 use crate::isolation::motion::Spatial;

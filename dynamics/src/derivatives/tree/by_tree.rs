@@ -9,8 +9,8 @@
 use alloc::vec::Vec;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::loads::load_columns::Load;
-use crate::derivatives::loads::mass_system::Six;
+use crate::derivatives::loads::side_by_side::Load;
+use crate::derivatives::loads::side_by_side::Six;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree::base_motion::{BaseMotion, Moments};
 use crate::derivatives::tree::changes::Changes;

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::derivatives::loads::load_columns::Load;
+use crate::derivatives::loads::side_by_side::Load;
 use crate::derivatives::tree::base_motion::BaseMotion;
 use crate::derivatives::tree::members::{Base, Members};
 use crate::isolation::motion::Spatial;

@@ -1,7 +1,7 @@
 //! [`DeviceLoads`]: derivatives of the loads of a device of a tree, by its emitted kernel, with what acts on it.
 
 use crate::derivatives::loads::kernel::{NotEmitted, load_derivatives};
-use crate::derivatives::loads::load_columns::Load;
+use crate::derivatives::loads::side_by_side::Load;
 use crate::derivatives::tree::applied_columns::Applied;
 use crate::equations::device::Device;
 use crate::equations::gravity::Central;
@@ -33,7 +33,7 @@ pub(crate) struct DeviceLoads<T> {
 
 impl<T: Scalar> Load<T> {
     /// Of a column in the device's axes.
-    fn turned<K: Kind<Scalar = T>>(column: &LoadColumn<K>, mount: &Columns<T>) -> Self {
+    fn turned<K: Kind<Scalar = T>>(column: &LoadColumn<K, T>, mount: &Columns<T>) -> Self {
         let [a, b, c] = rotate(mount, components(&column.hub.force));
         let [d, e, f] = rotate(mount, components(&column.hub.moment));
         let mut load = Self { hub: [a, b, c, d, e, f], ..Self::none() };
@@ -80,14 +80,14 @@ impl<T: Scalar> DeviceLoads<T> {
         field: Option<&Central<T>>,
     ) -> Result<(Self, Option<Applied<T>>), NotEmitted> {
         let found = load_derivatives(device, joints, accelerations, (omega, base))?;
-        let each = |columns: &K::PerJoint<LoadColumn<K>>| {
+        let each = |columns: &K::PerJoint<LoadColumn<K, T>>| {
             let mut loads = [Load::none(); MAX_JOINTS];
             for (to, from) in loads.iter_mut().zip(columns.values()) {
                 *to = Load::turned::<K>(&from, &device.mount);
             }
             loads
         };
-        let by_hub = |[x, y, z]: &[LoadColumn<K>; 3]| {
+        let by_hub = |[x, y, z]: &[LoadColumn<K, T>; 3]| {
             let turned = |column| Load::turned::<K>(column, &device.mount);
             Load::by_b([turned(x), turned(y), turned(z)], &device.mount)
         };

@@ -288,6 +288,322 @@ impl<S: Scalar> Kernels for BalancedDgcmg<S> {
     }
 
     #[inline(always)]
+    fn load_derivatives<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        hub: &BodyAcceleration<T>,
+        accelerations: &JointAccelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        let found = super::load_derivatives(
+            constants,
+            pose,
+            &rates(joints),
+            omega,
+            hub,
+            accelerations,
+        );
+        Some(LoadDerivatives {
+            coordinates: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o,
+                        inner_gimbal: found.u_i_by_gamma_o,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o,
+                            found.f_by_by_gamma_o,
+                            found.f_bz_by_gamma_o,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o,
+                            found.n_by_by_gamma_o,
+                            found.n_bz_by_gamma_o,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i,
+                        inner_gimbal: found.u_i_by_gamma_i,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i,
+                            found.f_by_by_gamma_i,
+                            found.f_bz_by_gamma_i,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i,
+                            found.n_by_by_gamma_i,
+                            found.n_bz_by_gamma_i,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_theta,
+                        inner_gimbal: found.u_i_by_theta,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_theta,
+                            found.f_by_by_theta,
+                            found.f_bz_by_theta,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_theta,
+                            found.n_by_by_theta,
+                            found.n_bz_by_theta,
+                        ]),
+                    },
+                },
+            },
+            rates: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o_dot,
+                        inner_gimbal: found.u_i_by_gamma_o_dot,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o_dot,
+                            found.f_by_by_gamma_o_dot,
+                            found.f_bz_by_gamma_o_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o_dot,
+                            found.n_by_by_gamma_o_dot,
+                            found.n_bz_by_gamma_o_dot,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i_dot,
+                        inner_gimbal: found.u_i_by_gamma_i_dot,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i_dot,
+                            found.f_by_by_gamma_i_dot,
+                            found.f_bz_by_gamma_i_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i_dot,
+                            found.n_by_by_gamma_i_dot,
+                            found.n_bz_by_gamma_i_dot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_spin,
+                        inner_gimbal: found.u_i_by_spin,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin,
+                            found.f_by_by_spin,
+                            found.f_bz_by_spin,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin,
+                            found.n_by_by_spin,
+                            found.n_bz_by_spin,
+                        ]),
+                    },
+                },
+            },
+            accelerations: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o_ddot,
+                        inner_gimbal: found.u_i_by_gamma_o_ddot,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o_ddot,
+                            found.f_by_by_gamma_o_ddot,
+                            found.f_bz_by_gamma_o_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o_ddot,
+                            found.n_by_by_gamma_o_ddot,
+                            found.n_bz_by_gamma_o_ddot,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i_ddot,
+                        inner_gimbal: found.u_i_by_gamma_i_ddot,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i_ddot,
+                            found.f_by_by_gamma_i_ddot,
+                            found.f_bz_by_gamma_i_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i_ddot,
+                            found.n_by_by_gamma_i_ddot,
+                            found.n_bz_by_gamma_i_ddot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_spin_dot,
+                        inner_gimbal: found.u_i_by_spin_dot,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin_dot,
+                            found.f_by_by_spin_dot,
+                            found.f_bz_by_spin_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin_dot,
+                            found.n_by_by_spin_dot,
+                            found.n_bz_by_spin_dot,
+                        ]),
+                    },
+                },
+            },
+            omega: [
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_bx,
+                        inner_gimbal: found.u_i_by_omega_bx,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bx,
+                            found.f_by_by_omega_bx,
+                            found.f_bz_by_omega_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bx,
+                            found.n_by_by_omega_bx,
+                            found.n_bz_by_omega_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_by,
+                        inner_gimbal: found.u_i_by_omega_by,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_by,
+                            found.f_by_by_omega_by,
+                            found.f_bz_by_omega_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_by,
+                            found.n_by_by_omega_by,
+                            found.n_bz_by_omega_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_bz,
+                        inner_gimbal: found.u_i_by_omega_bz,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bz,
+                            found.f_by_by_omega_bz,
+                            found.f_bz_by_omega_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bz,
+                            found.n_by_by_omega_bz,
+                            found.n_bz_by_omega_bz,
+                        ]),
+                    },
+                },
+            ],
+            omega_dot: [
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_bx,
+                        inner_gimbal: found.u_i_by_omega_dot_bx,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bx,
+                            found.f_by_by_omega_dot_bx,
+                            found.f_bz_by_omega_dot_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bx,
+                            found.n_by_by_omega_dot_bx,
+                            found.n_bz_by_omega_dot_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_by,
+                        inner_gimbal: found.u_i_by_omega_dot_by,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_by,
+                            found.f_by_by_omega_dot_by,
+                            found.f_bz_by_omega_dot_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_by,
+                            found.n_by_by_omega_dot_by,
+                            found.n_bz_by_omega_dot_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_bz,
+                        inner_gimbal: found.u_i_by_omega_dot_bz,
+                        wheel: omega.omega_bx.like(0.0),
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bz,
+                            found.f_by_by_omega_dot_bz,
+                            found.f_bz_by_omega_dot_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bz,
+                            found.n_by_by_omega_dot_bz,
+                            found.n_bz_by_omega_dot_bz,
+                        ]),
+                    },
+                },
+            ],
+        })
+    }
+
+    #[inline(always)]
     fn external<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
@@ -865,322 +1181,6 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    #[inline(always)]
-    fn load_derivatives(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        hub: &BodyAcceleration<T>,
-        accelerations: &JointAccelerations<T>,
-    ) -> Option<LoadDerivatives<Self>> {
-        let found = super::load_derivatives(
-            constants,
-            pose,
-            &rates(joints),
-            omega,
-            hub,
-            accelerations,
-        );
-        Some(LoadDerivatives {
-            coordinates: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o,
-                        inner_gimbal: found.u_i_by_gamma_o,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o,
-                            found.f_by_by_gamma_o,
-                            found.f_bz_by_gamma_o,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o,
-                            found.n_by_by_gamma_o,
-                            found.n_bz_by_gamma_o,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i,
-                        inner_gimbal: found.u_i_by_gamma_i,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i,
-                            found.f_by_by_gamma_i,
-                            found.f_bz_by_gamma_i,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i,
-                            found.n_by_by_gamma_i,
-                            found.n_bz_by_gamma_i,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_theta,
-                        inner_gimbal: found.u_i_by_theta,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_theta,
-                            found.f_by_by_theta,
-                            found.f_bz_by_theta,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_theta,
-                            found.n_by_by_theta,
-                            found.n_bz_by_theta,
-                        ]),
-                    },
-                },
-            },
-            rates: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o_dot,
-                        inner_gimbal: found.u_i_by_gamma_o_dot,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o_dot,
-                            found.f_by_by_gamma_o_dot,
-                            found.f_bz_by_gamma_o_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o_dot,
-                            found.n_by_by_gamma_o_dot,
-                            found.n_bz_by_gamma_o_dot,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i_dot,
-                        inner_gimbal: found.u_i_by_gamma_i_dot,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i_dot,
-                            found.f_by_by_gamma_i_dot,
-                            found.f_bz_by_gamma_i_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i_dot,
-                            found.n_by_by_gamma_i_dot,
-                            found.n_bz_by_gamma_i_dot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_spin,
-                        inner_gimbal: found.u_i_by_spin,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin,
-                            found.f_by_by_spin,
-                            found.f_bz_by_spin,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin,
-                            found.n_by_by_spin,
-                            found.n_bz_by_spin,
-                        ]),
-                    },
-                },
-            },
-            accelerations: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o_ddot,
-                        inner_gimbal: found.u_i_by_gamma_o_ddot,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o_ddot,
-                            found.f_by_by_gamma_o_ddot,
-                            found.f_bz_by_gamma_o_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o_ddot,
-                            found.n_by_by_gamma_o_ddot,
-                            found.n_bz_by_gamma_o_ddot,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i_ddot,
-                        inner_gimbal: found.u_i_by_gamma_i_ddot,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i_ddot,
-                            found.f_by_by_gamma_i_ddot,
-                            found.f_bz_by_gamma_i_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i_ddot,
-                            found.n_by_by_gamma_i_ddot,
-                            found.n_bz_by_gamma_i_ddot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_spin_dot,
-                        inner_gimbal: found.u_i_by_spin_dot,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin_dot,
-                            found.f_by_by_spin_dot,
-                            found.f_bz_by_spin_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin_dot,
-                            found.n_by_by_spin_dot,
-                            found.n_bz_by_spin_dot,
-                        ]),
-                    },
-                },
-            },
-            omega: [
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_bx,
-                        inner_gimbal: found.u_i_by_omega_bx,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bx,
-                            found.f_by_by_omega_bx,
-                            found.f_bz_by_omega_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bx,
-                            found.n_by_by_omega_bx,
-                            found.n_bz_by_omega_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_by,
-                        inner_gimbal: found.u_i_by_omega_by,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_by,
-                            found.f_by_by_omega_by,
-                            found.f_bz_by_omega_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_by,
-                            found.n_by_by_omega_by,
-                            found.n_bz_by_omega_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_bz,
-                        inner_gimbal: found.u_i_by_omega_bz,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bz,
-                            found.f_by_by_omega_bz,
-                            found.f_bz_by_omega_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bz,
-                            found.n_by_by_omega_bz,
-                            found.n_bz_by_omega_bz,
-                        ]),
-                    },
-                },
-            ],
-            omega_dot: [
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_bx,
-                        inner_gimbal: found.u_i_by_omega_dot_bx,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bx,
-                            found.f_by_by_omega_dot_bx,
-                            found.f_bz_by_omega_dot_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bx,
-                            found.n_by_by_omega_dot_bx,
-                            found.n_bz_by_omega_dot_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_by,
-                        inner_gimbal: found.u_i_by_omega_dot_by,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_by,
-                            found.f_by_by_omega_dot_by,
-                            found.f_bz_by_omega_dot_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_by,
-                            found.n_by_by_omega_dot_by,
-                            found.n_bz_by_omega_dot_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_bz,
-                        inner_gimbal: found.u_i_by_omega_dot_bz,
-                        wheel: zero(),
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bz,
-                            found.f_by_by_omega_dot_bz,
-                            found.f_bz_by_omega_dot_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bz,
-                            found.n_by_by_omega_dot_bz,
-                            found.n_bz_by_omega_dot_bz,
-                        ]),
-                    },
-                },
-            ],
-        })
     }
 
     fn steer(

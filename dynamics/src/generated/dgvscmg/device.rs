@@ -295,6 +295,322 @@ impl<S: Scalar> Kernels for Dgvscmg<S> {
     }
 
     #[inline(always)]
+    fn load_derivatives<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        hub: &BodyAcceleration<T>,
+        accelerations: &JointAccelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        let found = super::load_derivatives(
+            constants,
+            pose,
+            &rates(joints),
+            omega,
+            hub,
+            accelerations,
+        );
+        Some(LoadDerivatives {
+            coordinates: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o,
+                        inner_gimbal: found.u_i_by_gamma_o,
+                        wheel: found.u_w_by_gamma_o,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o,
+                            found.f_by_by_gamma_o,
+                            found.f_bz_by_gamma_o,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o,
+                            found.n_by_by_gamma_o,
+                            found.n_bz_by_gamma_o,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i,
+                        inner_gimbal: found.u_i_by_gamma_i,
+                        wheel: found.u_w_by_gamma_i,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i,
+                            found.f_by_by_gamma_i,
+                            found.f_bz_by_gamma_i,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i,
+                            found.n_by_by_gamma_i,
+                            found.n_bz_by_gamma_i,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_theta,
+                        inner_gimbal: found.u_i_by_theta,
+                        wheel: found.u_w_by_theta,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_theta,
+                            found.f_by_by_theta,
+                            found.f_bz_by_theta,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_theta,
+                            found.n_by_by_theta,
+                            found.n_bz_by_theta,
+                        ]),
+                    },
+                },
+            },
+            rates: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o_dot,
+                        inner_gimbal: found.u_i_by_gamma_o_dot,
+                        wheel: found.u_w_by_gamma_o_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o_dot,
+                            found.f_by_by_gamma_o_dot,
+                            found.f_bz_by_gamma_o_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o_dot,
+                            found.n_by_by_gamma_o_dot,
+                            found.n_bz_by_gamma_o_dot,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i_dot,
+                        inner_gimbal: found.u_i_by_gamma_i_dot,
+                        wheel: found.u_w_by_gamma_i_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i_dot,
+                            found.f_by_by_gamma_i_dot,
+                            found.f_bz_by_gamma_i_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i_dot,
+                            found.n_by_by_gamma_i_dot,
+                            found.n_bz_by_gamma_i_dot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_spin,
+                        inner_gimbal: found.u_i_by_spin,
+                        wheel: found.u_w_by_spin,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin,
+                            found.f_by_by_spin,
+                            found.f_bz_by_spin,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin,
+                            found.n_by_by_spin,
+                            found.n_bz_by_spin,
+                        ]),
+                    },
+                },
+            },
+            accelerations: PerJoint {
+                outer_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_o_ddot,
+                        inner_gimbal: found.u_i_by_gamma_o_ddot,
+                        wheel: found.u_w_by_gamma_o_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_o_ddot,
+                            found.f_by_by_gamma_o_ddot,
+                            found.f_bz_by_gamma_o_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_o_ddot,
+                            found.n_by_by_gamma_o_ddot,
+                            found.n_bz_by_gamma_o_ddot,
+                        ]),
+                    },
+                },
+                inner_gimbal: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_gamma_i_ddot,
+                        inner_gimbal: found.u_i_by_gamma_i_ddot,
+                        wheel: found.u_w_by_gamma_i_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_i_ddot,
+                            found.f_by_by_gamma_i_ddot,
+                            found.f_bz_by_gamma_i_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_i_ddot,
+                            found.n_by_by_gamma_i_ddot,
+                            found.n_bz_by_gamma_i_ddot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_spin_dot,
+                        inner_gimbal: found.u_i_by_spin_dot,
+                        wheel: found.u_w_by_spin_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin_dot,
+                            found.f_by_by_spin_dot,
+                            found.f_bz_by_spin_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin_dot,
+                            found.n_by_by_spin_dot,
+                            found.n_bz_by_spin_dot,
+                        ]),
+                    },
+                },
+            },
+            omega: [
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_bx,
+                        inner_gimbal: found.u_i_by_omega_bx,
+                        wheel: found.u_w_by_omega_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bx,
+                            found.f_by_by_omega_bx,
+                            found.f_bz_by_omega_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bx,
+                            found.n_by_by_omega_bx,
+                            found.n_bz_by_omega_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_by,
+                        inner_gimbal: found.u_i_by_omega_by,
+                        wheel: found.u_w_by_omega_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_by,
+                            found.f_by_by_omega_by,
+                            found.f_bz_by_omega_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_by,
+                            found.n_by_by_omega_by,
+                            found.n_bz_by_omega_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_bz,
+                        inner_gimbal: found.u_i_by_omega_bz,
+                        wheel: found.u_w_by_omega_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bz,
+                            found.f_by_by_omega_bz,
+                            found.f_bz_by_omega_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bz,
+                            found.n_by_by_omega_bz,
+                            found.n_bz_by_omega_bz,
+                        ]),
+                    },
+                },
+            ],
+            omega_dot: [
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_bx,
+                        inner_gimbal: found.u_i_by_omega_dot_bx,
+                        wheel: found.u_w_by_omega_dot_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bx,
+                            found.f_by_by_omega_dot_bx,
+                            found.f_bz_by_omega_dot_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bx,
+                            found.n_by_by_omega_dot_bx,
+                            found.n_bz_by_omega_dot_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_by,
+                        inner_gimbal: found.u_i_by_omega_dot_by,
+                        wheel: found.u_w_by_omega_dot_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_by,
+                            found.f_by_by_omega_dot_by,
+                            found.f_bz_by_omega_dot_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_by,
+                            found.n_by_by_omega_dot_by,
+                            found.n_bz_by_omega_dot_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        outer_gimbal: found.u_o_by_omega_dot_bz,
+                        inner_gimbal: found.u_i_by_omega_dot_bz,
+                        wheel: found.u_w_by_omega_dot_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bz,
+                            found.f_by_by_omega_dot_bz,
+                            found.f_bz_by_omega_dot_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bz,
+                            found.n_by_by_omega_dot_bz,
+                            found.n_bz_by_omega_dot_bz,
+                        ]),
+                    },
+                },
+            ],
+        })
+    }
+
+    #[inline(always)]
     fn external<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
@@ -906,322 +1222,6 @@ impl<T: Scalar> Kind for Dgvscmg<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    #[inline(always)]
-    fn load_derivatives(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        hub: &BodyAcceleration<T>,
-        accelerations: &JointAccelerations<T>,
-    ) -> Option<LoadDerivatives<Self>> {
-        let found = super::load_derivatives(
-            constants,
-            pose,
-            &rates(joints),
-            omega,
-            hub,
-            accelerations,
-        );
-        Some(LoadDerivatives {
-            coordinates: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o,
-                        inner_gimbal: found.u_i_by_gamma_o,
-                        wheel: found.u_w_by_gamma_o,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o,
-                            found.f_by_by_gamma_o,
-                            found.f_bz_by_gamma_o,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o,
-                            found.n_by_by_gamma_o,
-                            found.n_bz_by_gamma_o,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i,
-                        inner_gimbal: found.u_i_by_gamma_i,
-                        wheel: found.u_w_by_gamma_i,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i,
-                            found.f_by_by_gamma_i,
-                            found.f_bz_by_gamma_i,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i,
-                            found.n_by_by_gamma_i,
-                            found.n_bz_by_gamma_i,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_theta,
-                        inner_gimbal: found.u_i_by_theta,
-                        wheel: found.u_w_by_theta,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_theta,
-                            found.f_by_by_theta,
-                            found.f_bz_by_theta,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_theta,
-                            found.n_by_by_theta,
-                            found.n_bz_by_theta,
-                        ]),
-                    },
-                },
-            },
-            rates: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o_dot,
-                        inner_gimbal: found.u_i_by_gamma_o_dot,
-                        wheel: found.u_w_by_gamma_o_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o_dot,
-                            found.f_by_by_gamma_o_dot,
-                            found.f_bz_by_gamma_o_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o_dot,
-                            found.n_by_by_gamma_o_dot,
-                            found.n_bz_by_gamma_o_dot,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i_dot,
-                        inner_gimbal: found.u_i_by_gamma_i_dot,
-                        wheel: found.u_w_by_gamma_i_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i_dot,
-                            found.f_by_by_gamma_i_dot,
-                            found.f_bz_by_gamma_i_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i_dot,
-                            found.n_by_by_gamma_i_dot,
-                            found.n_bz_by_gamma_i_dot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_spin,
-                        inner_gimbal: found.u_i_by_spin,
-                        wheel: found.u_w_by_spin,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin,
-                            found.f_by_by_spin,
-                            found.f_bz_by_spin,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin,
-                            found.n_by_by_spin,
-                            found.n_bz_by_spin,
-                        ]),
-                    },
-                },
-            },
-            accelerations: PerJoint {
-                outer_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_o_ddot,
-                        inner_gimbal: found.u_i_by_gamma_o_ddot,
-                        wheel: found.u_w_by_gamma_o_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_o_ddot,
-                            found.f_by_by_gamma_o_ddot,
-                            found.f_bz_by_gamma_o_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_o_ddot,
-                            found.n_by_by_gamma_o_ddot,
-                            found.n_bz_by_gamma_o_ddot,
-                        ]),
-                    },
-                },
-                inner_gimbal: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_gamma_i_ddot,
-                        inner_gimbal: found.u_i_by_gamma_i_ddot,
-                        wheel: found.u_w_by_gamma_i_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_i_ddot,
-                            found.f_by_by_gamma_i_ddot,
-                            found.f_bz_by_gamma_i_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_i_ddot,
-                            found.n_by_by_gamma_i_ddot,
-                            found.n_bz_by_gamma_i_ddot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_spin_dot,
-                        inner_gimbal: found.u_i_by_spin_dot,
-                        wheel: found.u_w_by_spin_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin_dot,
-                            found.f_by_by_spin_dot,
-                            found.f_bz_by_spin_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin_dot,
-                            found.n_by_by_spin_dot,
-                            found.n_bz_by_spin_dot,
-                        ]),
-                    },
-                },
-            },
-            omega: [
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_bx,
-                        inner_gimbal: found.u_i_by_omega_bx,
-                        wheel: found.u_w_by_omega_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bx,
-                            found.f_by_by_omega_bx,
-                            found.f_bz_by_omega_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bx,
-                            found.n_by_by_omega_bx,
-                            found.n_bz_by_omega_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_by,
-                        inner_gimbal: found.u_i_by_omega_by,
-                        wheel: found.u_w_by_omega_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_by,
-                            found.f_by_by_omega_by,
-                            found.f_bz_by_omega_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_by,
-                            found.n_by_by_omega_by,
-                            found.n_bz_by_omega_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_bz,
-                        inner_gimbal: found.u_i_by_omega_bz,
-                        wheel: found.u_w_by_omega_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bz,
-                            found.f_by_by_omega_bz,
-                            found.f_bz_by_omega_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bz,
-                            found.n_by_by_omega_bz,
-                            found.n_bz_by_omega_bz,
-                        ]),
-                    },
-                },
-            ],
-            omega_dot: [
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_bx,
-                        inner_gimbal: found.u_i_by_omega_dot_bx,
-                        wheel: found.u_w_by_omega_dot_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bx,
-                            found.f_by_by_omega_dot_bx,
-                            found.f_bz_by_omega_dot_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bx,
-                            found.n_by_by_omega_dot_bx,
-                            found.n_bz_by_omega_dot_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_by,
-                        inner_gimbal: found.u_i_by_omega_dot_by,
-                        wheel: found.u_w_by_omega_dot_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_by,
-                            found.f_by_by_omega_dot_by,
-                            found.f_bz_by_omega_dot_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_by,
-                            found.n_by_by_omega_dot_by,
-                            found.n_bz_by_omega_dot_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        outer_gimbal: found.u_o_by_omega_dot_bz,
-                        inner_gimbal: found.u_i_by_omega_dot_bz,
-                        wheel: found.u_w_by_omega_dot_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bz,
-                            found.f_by_by_omega_dot_bz,
-                            found.f_bz_by_omega_dot_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bz,
-                            found.n_by_by_omega_dot_bz,
-                            found.n_bz_by_omega_dot_bz,
-                        ]),
-                    },
-                },
-            ],
-        })
     }
 
     fn steer(

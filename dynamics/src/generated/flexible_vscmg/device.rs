@@ -417,6 +417,659 @@ impl<S: Scalar> Kernels for FlexibleVscmg<S> {
     }
 
     #[inline(always)]
+    fn load_derivatives<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        hub: &BodyAcceleration<T>,
+        accelerations: &JointAccelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        let found = super::load_derivatives(
+            constants,
+            &pose.0,
+            &pose.1,
+            &rates(joints),
+            omega,
+            hub,
+            accelerations,
+        );
+        Some(LoadDerivatives {
+            coordinates: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma,
+                        axial_slide: found.u_sx_by_gamma,
+                        radial_slide_y: found.u_sy_by_gamma,
+                        radial_slide_z: found.u_sz_by_gamma,
+                        tilt_y: found.u_ty_by_gamma,
+                        tilt_z: found.u_tz_by_gamma,
+                        wheel: found.u_w_by_gamma,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma,
+                            found.f_by_by_gamma,
+                            found.f_bz_by_gamma,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma,
+                            found.n_by_by_gamma,
+                            found.n_bz_by_gamma,
+                        ]),
+                    },
+                },
+                axial_slide: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_x,
+                        axial_slide: found.u_sx_by_x,
+                        radial_slide_y: found.u_sy_by_x,
+                        radial_slide_z: found.u_sz_by_x,
+                        tilt_y: found.u_ty_by_x,
+                        tilt_z: found.u_tz_by_x,
+                        wheel: found.u_w_by_x,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x,
+                            found.f_by_by_x,
+                            found.f_bz_by_x,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x,
+                            found.n_by_by_x,
+                            found.n_bz_by_x,
+                        ]),
+                    },
+                },
+                radial_slide_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_y,
+                        axial_slide: found.u_sx_by_y,
+                        radial_slide_y: found.u_sy_by_y,
+                        radial_slide_z: found.u_sz_by_y,
+                        tilt_y: found.u_ty_by_y,
+                        tilt_z: found.u_tz_by_y,
+                        wheel: found.u_w_by_y,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_y,
+                            found.f_by_by_y,
+                            found.f_bz_by_y,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_y,
+                            found.n_by_by_y,
+                            found.n_bz_by_y,
+                        ]),
+                    },
+                },
+                radial_slide_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_z,
+                        axial_slide: found.u_sx_by_z,
+                        radial_slide_y: found.u_sy_by_z,
+                        radial_slide_z: found.u_sz_by_z,
+                        tilt_y: found.u_ty_by_z,
+                        tilt_z: found.u_tz_by_z,
+                        wheel: found.u_w_by_z,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_z,
+                            found.f_by_by_z,
+                            found.f_bz_by_z,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_z,
+                            found.n_by_by_z,
+                            found.n_bz_by_z,
+                        ]),
+                    },
+                },
+                tilt_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_y,
+                        axial_slide: found.u_sx_by_tilt_y,
+                        radial_slide_y: found.u_sy_by_tilt_y,
+                        radial_slide_z: found.u_sz_by_tilt_y,
+                        tilt_y: found.u_ty_by_tilt_y,
+                        tilt_z: found.u_tz_by_tilt_y,
+                        wheel: found.u_w_by_tilt_y,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_y,
+                            found.f_by_by_tilt_y,
+                            found.f_bz_by_tilt_y,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_y,
+                            found.n_by_by_tilt_y,
+                            found.n_bz_by_tilt_y,
+                        ]),
+                    },
+                },
+                tilt_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_z,
+                        axial_slide: found.u_sx_by_tilt_z,
+                        radial_slide_y: found.u_sy_by_tilt_z,
+                        radial_slide_z: found.u_sz_by_tilt_z,
+                        tilt_y: found.u_ty_by_tilt_z,
+                        tilt_z: found.u_tz_by_tilt_z,
+                        wheel: found.u_w_by_tilt_z,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_z,
+                            found.f_by_by_tilt_z,
+                            found.f_bz_by_tilt_z,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_z,
+                            found.n_by_by_tilt_z,
+                            found.n_bz_by_tilt_z,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_theta,
+                        axial_slide: found.u_sx_by_theta,
+                        radial_slide_y: found.u_sy_by_theta,
+                        radial_slide_z: found.u_sz_by_theta,
+                        tilt_y: found.u_ty_by_theta,
+                        tilt_z: found.u_tz_by_theta,
+                        wheel: found.u_w_by_theta,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_theta,
+                            found.f_by_by_theta,
+                            found.f_bz_by_theta,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_theta,
+                            found.n_by_by_theta,
+                            found.n_bz_by_theta,
+                        ]),
+                    },
+                },
+            },
+            rates: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma_dot,
+                        axial_slide: found.u_sx_by_gamma_dot,
+                        radial_slide_y: found.u_sy_by_gamma_dot,
+                        radial_slide_z: found.u_sz_by_gamma_dot,
+                        tilt_y: found.u_ty_by_gamma_dot,
+                        tilt_z: found.u_tz_by_gamma_dot,
+                        wheel: found.u_w_by_gamma_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_dot,
+                            found.f_by_by_gamma_dot,
+                            found.f_bz_by_gamma_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_dot,
+                            found.n_by_by_gamma_dot,
+                            found.n_bz_by_gamma_dot,
+                        ]),
+                    },
+                },
+                axial_slide: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_x_dot,
+                        axial_slide: found.u_sx_by_x_dot,
+                        radial_slide_y: found.u_sy_by_x_dot,
+                        radial_slide_z: found.u_sz_by_x_dot,
+                        tilt_y: found.u_ty_by_x_dot,
+                        tilt_z: found.u_tz_by_x_dot,
+                        wheel: found.u_w_by_x_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x_dot,
+                            found.f_by_by_x_dot,
+                            found.f_bz_by_x_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x_dot,
+                            found.n_by_by_x_dot,
+                            found.n_bz_by_x_dot,
+                        ]),
+                    },
+                },
+                radial_slide_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_y_dot,
+                        axial_slide: found.u_sx_by_y_dot,
+                        radial_slide_y: found.u_sy_by_y_dot,
+                        radial_slide_z: found.u_sz_by_y_dot,
+                        tilt_y: found.u_ty_by_y_dot,
+                        tilt_z: found.u_tz_by_y_dot,
+                        wheel: found.u_w_by_y_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_y_dot,
+                            found.f_by_by_y_dot,
+                            found.f_bz_by_y_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_y_dot,
+                            found.n_by_by_y_dot,
+                            found.n_bz_by_y_dot,
+                        ]),
+                    },
+                },
+                radial_slide_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_z_dot,
+                        axial_slide: found.u_sx_by_z_dot,
+                        radial_slide_y: found.u_sy_by_z_dot,
+                        radial_slide_z: found.u_sz_by_z_dot,
+                        tilt_y: found.u_ty_by_z_dot,
+                        tilt_z: found.u_tz_by_z_dot,
+                        wheel: found.u_w_by_z_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_z_dot,
+                            found.f_by_by_z_dot,
+                            found.f_bz_by_z_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_z_dot,
+                            found.n_by_by_z_dot,
+                            found.n_bz_by_z_dot,
+                        ]),
+                    },
+                },
+                tilt_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_y_dot,
+                        axial_slide: found.u_sx_by_tilt_y_dot,
+                        radial_slide_y: found.u_sy_by_tilt_y_dot,
+                        radial_slide_z: found.u_sz_by_tilt_y_dot,
+                        tilt_y: found.u_ty_by_tilt_y_dot,
+                        tilt_z: found.u_tz_by_tilt_y_dot,
+                        wheel: found.u_w_by_tilt_y_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_y_dot,
+                            found.f_by_by_tilt_y_dot,
+                            found.f_bz_by_tilt_y_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_y_dot,
+                            found.n_by_by_tilt_y_dot,
+                            found.n_bz_by_tilt_y_dot,
+                        ]),
+                    },
+                },
+                tilt_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_z_dot,
+                        axial_slide: found.u_sx_by_tilt_z_dot,
+                        radial_slide_y: found.u_sy_by_tilt_z_dot,
+                        radial_slide_z: found.u_sz_by_tilt_z_dot,
+                        tilt_y: found.u_ty_by_tilt_z_dot,
+                        tilt_z: found.u_tz_by_tilt_z_dot,
+                        wheel: found.u_w_by_tilt_z_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_z_dot,
+                            found.f_by_by_tilt_z_dot,
+                            found.f_bz_by_tilt_z_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_z_dot,
+                            found.n_by_by_tilt_z_dot,
+                            found.n_bz_by_tilt_z_dot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_spin,
+                        axial_slide: found.u_sx_by_spin,
+                        radial_slide_y: found.u_sy_by_spin,
+                        radial_slide_z: found.u_sz_by_spin,
+                        tilt_y: found.u_ty_by_spin,
+                        tilt_z: found.u_tz_by_spin,
+                        wheel: found.u_w_by_spin,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin,
+                            found.f_by_by_spin,
+                            found.f_bz_by_spin,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin,
+                            found.n_by_by_spin,
+                            found.n_bz_by_spin,
+                        ]),
+                    },
+                },
+            },
+            accelerations: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma_ddot,
+                        axial_slide: found.u_sx_by_gamma_ddot,
+                        radial_slide_y: found.u_sy_by_gamma_ddot,
+                        radial_slide_z: found.u_sz_by_gamma_ddot,
+                        tilt_y: found.u_ty_by_gamma_ddot,
+                        tilt_z: found.u_tz_by_gamma_ddot,
+                        wheel: found.u_w_by_gamma_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_ddot,
+                            found.f_by_by_gamma_ddot,
+                            found.f_bz_by_gamma_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_ddot,
+                            found.n_by_by_gamma_ddot,
+                            found.n_bz_by_gamma_ddot,
+                        ]),
+                    },
+                },
+                axial_slide: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_x_ddot,
+                        axial_slide: found.u_sx_by_x_ddot,
+                        radial_slide_y: found.u_sy_by_x_ddot,
+                        radial_slide_z: found.u_sz_by_x_ddot,
+                        tilt_y: found.u_ty_by_x_ddot,
+                        tilt_z: found.u_tz_by_x_ddot,
+                        wheel: found.u_w_by_x_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x_ddot,
+                            found.f_by_by_x_ddot,
+                            found.f_bz_by_x_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x_ddot,
+                            found.n_by_by_x_ddot,
+                            found.n_bz_by_x_ddot,
+                        ]),
+                    },
+                },
+                radial_slide_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_y_ddot,
+                        axial_slide: found.u_sx_by_y_ddot,
+                        radial_slide_y: found.u_sy_by_y_ddot,
+                        radial_slide_z: found.u_sz_by_y_ddot,
+                        tilt_y: found.u_ty_by_y_ddot,
+                        tilt_z: found.u_tz_by_y_ddot,
+                        wheel: found.u_w_by_y_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_y_ddot,
+                            found.f_by_by_y_ddot,
+                            found.f_bz_by_y_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_y_ddot,
+                            found.n_by_by_y_ddot,
+                            found.n_bz_by_y_ddot,
+                        ]),
+                    },
+                },
+                radial_slide_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_z_ddot,
+                        axial_slide: found.u_sx_by_z_ddot,
+                        radial_slide_y: found.u_sy_by_z_ddot,
+                        radial_slide_z: found.u_sz_by_z_ddot,
+                        tilt_y: found.u_ty_by_z_ddot,
+                        tilt_z: found.u_tz_by_z_ddot,
+                        wheel: found.u_w_by_z_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_z_ddot,
+                            found.f_by_by_z_ddot,
+                            found.f_bz_by_z_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_z_ddot,
+                            found.n_by_by_z_ddot,
+                            found.n_bz_by_z_ddot,
+                        ]),
+                    },
+                },
+                tilt_y: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_y_ddot,
+                        axial_slide: found.u_sx_by_tilt_y_ddot,
+                        radial_slide_y: found.u_sy_by_tilt_y_ddot,
+                        radial_slide_z: found.u_sz_by_tilt_y_ddot,
+                        tilt_y: found.u_ty_by_tilt_y_ddot,
+                        tilt_z: found.u_tz_by_tilt_y_ddot,
+                        wheel: found.u_w_by_tilt_y_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_y_ddot,
+                            found.f_by_by_tilt_y_ddot,
+                            found.f_bz_by_tilt_y_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_y_ddot,
+                            found.n_by_by_tilt_y_ddot,
+                            found.n_bz_by_tilt_y_ddot,
+                        ]),
+                    },
+                },
+                tilt_z: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_tilt_z_ddot,
+                        axial_slide: found.u_sx_by_tilt_z_ddot,
+                        radial_slide_y: found.u_sy_by_tilt_z_ddot,
+                        radial_slide_z: found.u_sz_by_tilt_z_ddot,
+                        tilt_y: found.u_ty_by_tilt_z_ddot,
+                        tilt_z: found.u_tz_by_tilt_z_ddot,
+                        wheel: found.u_w_by_tilt_z_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_tilt_z_ddot,
+                            found.f_by_by_tilt_z_ddot,
+                            found.f_bz_by_tilt_z_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_tilt_z_ddot,
+                            found.n_by_by_tilt_z_ddot,
+                            found.n_bz_by_tilt_z_ddot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_spin_dot,
+                        axial_slide: found.u_sx_by_spin_dot,
+                        radial_slide_y: found.u_sy_by_spin_dot,
+                        radial_slide_z: found.u_sz_by_spin_dot,
+                        tilt_y: found.u_ty_by_spin_dot,
+                        tilt_z: found.u_tz_by_spin_dot,
+                        wheel: found.u_w_by_spin_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin_dot,
+                            found.f_by_by_spin_dot,
+                            found.f_bz_by_spin_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin_dot,
+                            found.n_by_by_spin_dot,
+                            found.n_bz_by_spin_dot,
+                        ]),
+                    },
+                },
+            },
+            omega: [
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_bx,
+                        axial_slide: found.u_sx_by_omega_bx,
+                        radial_slide_y: found.u_sy_by_omega_bx,
+                        radial_slide_z: found.u_sz_by_omega_bx,
+                        tilt_y: found.u_ty_by_omega_bx,
+                        tilt_z: found.u_tz_by_omega_bx,
+                        wheel: found.u_w_by_omega_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bx,
+                            found.f_by_by_omega_bx,
+                            found.f_bz_by_omega_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bx,
+                            found.n_by_by_omega_bx,
+                            found.n_bz_by_omega_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_by,
+                        axial_slide: found.u_sx_by_omega_by,
+                        radial_slide_y: found.u_sy_by_omega_by,
+                        radial_slide_z: found.u_sz_by_omega_by,
+                        tilt_y: found.u_ty_by_omega_by,
+                        tilt_z: found.u_tz_by_omega_by,
+                        wheel: found.u_w_by_omega_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_by,
+                            found.f_by_by_omega_by,
+                            found.f_bz_by_omega_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_by,
+                            found.n_by_by_omega_by,
+                            found.n_bz_by_omega_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_bz,
+                        axial_slide: found.u_sx_by_omega_bz,
+                        radial_slide_y: found.u_sy_by_omega_bz,
+                        radial_slide_z: found.u_sz_by_omega_bz,
+                        tilt_y: found.u_ty_by_omega_bz,
+                        tilt_z: found.u_tz_by_omega_bz,
+                        wheel: found.u_w_by_omega_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bz,
+                            found.f_by_by_omega_bz,
+                            found.f_bz_by_omega_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bz,
+                            found.n_by_by_omega_bz,
+                            found.n_bz_by_omega_bz,
+                        ]),
+                    },
+                },
+            ],
+            omega_dot: [
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_bx,
+                        axial_slide: found.u_sx_by_omega_dot_bx,
+                        radial_slide_y: found.u_sy_by_omega_dot_bx,
+                        radial_slide_z: found.u_sz_by_omega_dot_bx,
+                        tilt_y: found.u_ty_by_omega_dot_bx,
+                        tilt_z: found.u_tz_by_omega_dot_bx,
+                        wheel: found.u_w_by_omega_dot_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bx,
+                            found.f_by_by_omega_dot_bx,
+                            found.f_bz_by_omega_dot_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bx,
+                            found.n_by_by_omega_dot_bx,
+                            found.n_bz_by_omega_dot_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_by,
+                        axial_slide: found.u_sx_by_omega_dot_by,
+                        radial_slide_y: found.u_sy_by_omega_dot_by,
+                        radial_slide_z: found.u_sz_by_omega_dot_by,
+                        tilt_y: found.u_ty_by_omega_dot_by,
+                        tilt_z: found.u_tz_by_omega_dot_by,
+                        wheel: found.u_w_by_omega_dot_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_by,
+                            found.f_by_by_omega_dot_by,
+                            found.f_bz_by_omega_dot_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_by,
+                            found.n_by_by_omega_dot_by,
+                            found.n_bz_by_omega_dot_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_bz,
+                        axial_slide: found.u_sx_by_omega_dot_bz,
+                        radial_slide_y: found.u_sy_by_omega_dot_bz,
+                        radial_slide_z: found.u_sz_by_omega_dot_bz,
+                        tilt_y: found.u_ty_by_omega_dot_bz,
+                        tilt_z: found.u_tz_by_omega_dot_bz,
+                        wheel: found.u_w_by_omega_dot_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bz,
+                            found.f_by_by_omega_dot_bz,
+                            found.f_bz_by_omega_dot_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bz,
+                            found.n_by_by_omega_dot_bz,
+                            found.n_bz_by_omega_dot_bz,
+                        ]),
+                    },
+                },
+            ],
+        })
+    }
+
+    #[inline(always)]
     fn external<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
@@ -1182,659 +1835,6 @@ impl<T: Scalar> Kind for FlexibleVscmg<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    #[inline(always)]
-    fn load_derivatives(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        hub: &BodyAcceleration<T>,
-        accelerations: &JointAccelerations<T>,
-    ) -> Option<LoadDerivatives<Self>> {
-        let found = super::load_derivatives(
-            constants,
-            &pose.0,
-            &pose.1,
-            &rates(joints),
-            omega,
-            hub,
-            accelerations,
-        );
-        Some(LoadDerivatives {
-            coordinates: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma,
-                        axial_slide: found.u_sx_by_gamma,
-                        radial_slide_y: found.u_sy_by_gamma,
-                        radial_slide_z: found.u_sz_by_gamma,
-                        tilt_y: found.u_ty_by_gamma,
-                        tilt_z: found.u_tz_by_gamma,
-                        wheel: found.u_w_by_gamma,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma,
-                            found.f_by_by_gamma,
-                            found.f_bz_by_gamma,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma,
-                            found.n_by_by_gamma,
-                            found.n_bz_by_gamma,
-                        ]),
-                    },
-                },
-                axial_slide: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_x,
-                        axial_slide: found.u_sx_by_x,
-                        radial_slide_y: found.u_sy_by_x,
-                        radial_slide_z: found.u_sz_by_x,
-                        tilt_y: found.u_ty_by_x,
-                        tilt_z: found.u_tz_by_x,
-                        wheel: found.u_w_by_x,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x,
-                            found.f_by_by_x,
-                            found.f_bz_by_x,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x,
-                            found.n_by_by_x,
-                            found.n_bz_by_x,
-                        ]),
-                    },
-                },
-                radial_slide_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_y,
-                        axial_slide: found.u_sx_by_y,
-                        radial_slide_y: found.u_sy_by_y,
-                        radial_slide_z: found.u_sz_by_y,
-                        tilt_y: found.u_ty_by_y,
-                        tilt_z: found.u_tz_by_y,
-                        wheel: found.u_w_by_y,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_y,
-                            found.f_by_by_y,
-                            found.f_bz_by_y,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_y,
-                            found.n_by_by_y,
-                            found.n_bz_by_y,
-                        ]),
-                    },
-                },
-                radial_slide_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_z,
-                        axial_slide: found.u_sx_by_z,
-                        radial_slide_y: found.u_sy_by_z,
-                        radial_slide_z: found.u_sz_by_z,
-                        tilt_y: found.u_ty_by_z,
-                        tilt_z: found.u_tz_by_z,
-                        wheel: found.u_w_by_z,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_z,
-                            found.f_by_by_z,
-                            found.f_bz_by_z,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_z,
-                            found.n_by_by_z,
-                            found.n_bz_by_z,
-                        ]),
-                    },
-                },
-                tilt_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_y,
-                        axial_slide: found.u_sx_by_tilt_y,
-                        radial_slide_y: found.u_sy_by_tilt_y,
-                        radial_slide_z: found.u_sz_by_tilt_y,
-                        tilt_y: found.u_ty_by_tilt_y,
-                        tilt_z: found.u_tz_by_tilt_y,
-                        wheel: found.u_w_by_tilt_y,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_y,
-                            found.f_by_by_tilt_y,
-                            found.f_bz_by_tilt_y,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_y,
-                            found.n_by_by_tilt_y,
-                            found.n_bz_by_tilt_y,
-                        ]),
-                    },
-                },
-                tilt_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_z,
-                        axial_slide: found.u_sx_by_tilt_z,
-                        radial_slide_y: found.u_sy_by_tilt_z,
-                        radial_slide_z: found.u_sz_by_tilt_z,
-                        tilt_y: found.u_ty_by_tilt_z,
-                        tilt_z: found.u_tz_by_tilt_z,
-                        wheel: found.u_w_by_tilt_z,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_z,
-                            found.f_by_by_tilt_z,
-                            found.f_bz_by_tilt_z,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_z,
-                            found.n_by_by_tilt_z,
-                            found.n_bz_by_tilt_z,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_theta,
-                        axial_slide: found.u_sx_by_theta,
-                        radial_slide_y: found.u_sy_by_theta,
-                        radial_slide_z: found.u_sz_by_theta,
-                        tilt_y: found.u_ty_by_theta,
-                        tilt_z: found.u_tz_by_theta,
-                        wheel: found.u_w_by_theta,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_theta,
-                            found.f_by_by_theta,
-                            found.f_bz_by_theta,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_theta,
-                            found.n_by_by_theta,
-                            found.n_bz_by_theta,
-                        ]),
-                    },
-                },
-            },
-            rates: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma_dot,
-                        axial_slide: found.u_sx_by_gamma_dot,
-                        radial_slide_y: found.u_sy_by_gamma_dot,
-                        radial_slide_z: found.u_sz_by_gamma_dot,
-                        tilt_y: found.u_ty_by_gamma_dot,
-                        tilt_z: found.u_tz_by_gamma_dot,
-                        wheel: found.u_w_by_gamma_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_dot,
-                            found.f_by_by_gamma_dot,
-                            found.f_bz_by_gamma_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_dot,
-                            found.n_by_by_gamma_dot,
-                            found.n_bz_by_gamma_dot,
-                        ]),
-                    },
-                },
-                axial_slide: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_x_dot,
-                        axial_slide: found.u_sx_by_x_dot,
-                        radial_slide_y: found.u_sy_by_x_dot,
-                        radial_slide_z: found.u_sz_by_x_dot,
-                        tilt_y: found.u_ty_by_x_dot,
-                        tilt_z: found.u_tz_by_x_dot,
-                        wheel: found.u_w_by_x_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x_dot,
-                            found.f_by_by_x_dot,
-                            found.f_bz_by_x_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x_dot,
-                            found.n_by_by_x_dot,
-                            found.n_bz_by_x_dot,
-                        ]),
-                    },
-                },
-                radial_slide_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_y_dot,
-                        axial_slide: found.u_sx_by_y_dot,
-                        radial_slide_y: found.u_sy_by_y_dot,
-                        radial_slide_z: found.u_sz_by_y_dot,
-                        tilt_y: found.u_ty_by_y_dot,
-                        tilt_z: found.u_tz_by_y_dot,
-                        wheel: found.u_w_by_y_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_y_dot,
-                            found.f_by_by_y_dot,
-                            found.f_bz_by_y_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_y_dot,
-                            found.n_by_by_y_dot,
-                            found.n_bz_by_y_dot,
-                        ]),
-                    },
-                },
-                radial_slide_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_z_dot,
-                        axial_slide: found.u_sx_by_z_dot,
-                        radial_slide_y: found.u_sy_by_z_dot,
-                        radial_slide_z: found.u_sz_by_z_dot,
-                        tilt_y: found.u_ty_by_z_dot,
-                        tilt_z: found.u_tz_by_z_dot,
-                        wheel: found.u_w_by_z_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_z_dot,
-                            found.f_by_by_z_dot,
-                            found.f_bz_by_z_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_z_dot,
-                            found.n_by_by_z_dot,
-                            found.n_bz_by_z_dot,
-                        ]),
-                    },
-                },
-                tilt_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_y_dot,
-                        axial_slide: found.u_sx_by_tilt_y_dot,
-                        radial_slide_y: found.u_sy_by_tilt_y_dot,
-                        radial_slide_z: found.u_sz_by_tilt_y_dot,
-                        tilt_y: found.u_ty_by_tilt_y_dot,
-                        tilt_z: found.u_tz_by_tilt_y_dot,
-                        wheel: found.u_w_by_tilt_y_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_y_dot,
-                            found.f_by_by_tilt_y_dot,
-                            found.f_bz_by_tilt_y_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_y_dot,
-                            found.n_by_by_tilt_y_dot,
-                            found.n_bz_by_tilt_y_dot,
-                        ]),
-                    },
-                },
-                tilt_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_z_dot,
-                        axial_slide: found.u_sx_by_tilt_z_dot,
-                        radial_slide_y: found.u_sy_by_tilt_z_dot,
-                        radial_slide_z: found.u_sz_by_tilt_z_dot,
-                        tilt_y: found.u_ty_by_tilt_z_dot,
-                        tilt_z: found.u_tz_by_tilt_z_dot,
-                        wheel: found.u_w_by_tilt_z_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_z_dot,
-                            found.f_by_by_tilt_z_dot,
-                            found.f_bz_by_tilt_z_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_z_dot,
-                            found.n_by_by_tilt_z_dot,
-                            found.n_bz_by_tilt_z_dot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_spin,
-                        axial_slide: found.u_sx_by_spin,
-                        radial_slide_y: found.u_sy_by_spin,
-                        radial_slide_z: found.u_sz_by_spin,
-                        tilt_y: found.u_ty_by_spin,
-                        tilt_z: found.u_tz_by_spin,
-                        wheel: found.u_w_by_spin,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin,
-                            found.f_by_by_spin,
-                            found.f_bz_by_spin,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin,
-                            found.n_by_by_spin,
-                            found.n_bz_by_spin,
-                        ]),
-                    },
-                },
-            },
-            accelerations: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma_ddot,
-                        axial_slide: found.u_sx_by_gamma_ddot,
-                        radial_slide_y: found.u_sy_by_gamma_ddot,
-                        radial_slide_z: found.u_sz_by_gamma_ddot,
-                        tilt_y: found.u_ty_by_gamma_ddot,
-                        tilt_z: found.u_tz_by_gamma_ddot,
-                        wheel: found.u_w_by_gamma_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_ddot,
-                            found.f_by_by_gamma_ddot,
-                            found.f_bz_by_gamma_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_ddot,
-                            found.n_by_by_gamma_ddot,
-                            found.n_bz_by_gamma_ddot,
-                        ]),
-                    },
-                },
-                axial_slide: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_x_ddot,
-                        axial_slide: found.u_sx_by_x_ddot,
-                        radial_slide_y: found.u_sy_by_x_ddot,
-                        radial_slide_z: found.u_sz_by_x_ddot,
-                        tilt_y: found.u_ty_by_x_ddot,
-                        tilt_z: found.u_tz_by_x_ddot,
-                        wheel: found.u_w_by_x_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x_ddot,
-                            found.f_by_by_x_ddot,
-                            found.f_bz_by_x_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x_ddot,
-                            found.n_by_by_x_ddot,
-                            found.n_bz_by_x_ddot,
-                        ]),
-                    },
-                },
-                radial_slide_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_y_ddot,
-                        axial_slide: found.u_sx_by_y_ddot,
-                        radial_slide_y: found.u_sy_by_y_ddot,
-                        radial_slide_z: found.u_sz_by_y_ddot,
-                        tilt_y: found.u_ty_by_y_ddot,
-                        tilt_z: found.u_tz_by_y_ddot,
-                        wheel: found.u_w_by_y_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_y_ddot,
-                            found.f_by_by_y_ddot,
-                            found.f_bz_by_y_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_y_ddot,
-                            found.n_by_by_y_ddot,
-                            found.n_bz_by_y_ddot,
-                        ]),
-                    },
-                },
-                radial_slide_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_z_ddot,
-                        axial_slide: found.u_sx_by_z_ddot,
-                        radial_slide_y: found.u_sy_by_z_ddot,
-                        radial_slide_z: found.u_sz_by_z_ddot,
-                        tilt_y: found.u_ty_by_z_ddot,
-                        tilt_z: found.u_tz_by_z_ddot,
-                        wheel: found.u_w_by_z_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_z_ddot,
-                            found.f_by_by_z_ddot,
-                            found.f_bz_by_z_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_z_ddot,
-                            found.n_by_by_z_ddot,
-                            found.n_bz_by_z_ddot,
-                        ]),
-                    },
-                },
-                tilt_y: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_y_ddot,
-                        axial_slide: found.u_sx_by_tilt_y_ddot,
-                        radial_slide_y: found.u_sy_by_tilt_y_ddot,
-                        radial_slide_z: found.u_sz_by_tilt_y_ddot,
-                        tilt_y: found.u_ty_by_tilt_y_ddot,
-                        tilt_z: found.u_tz_by_tilt_y_ddot,
-                        wheel: found.u_w_by_tilt_y_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_y_ddot,
-                            found.f_by_by_tilt_y_ddot,
-                            found.f_bz_by_tilt_y_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_y_ddot,
-                            found.n_by_by_tilt_y_ddot,
-                            found.n_bz_by_tilt_y_ddot,
-                        ]),
-                    },
-                },
-                tilt_z: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_tilt_z_ddot,
-                        axial_slide: found.u_sx_by_tilt_z_ddot,
-                        radial_slide_y: found.u_sy_by_tilt_z_ddot,
-                        radial_slide_z: found.u_sz_by_tilt_z_ddot,
-                        tilt_y: found.u_ty_by_tilt_z_ddot,
-                        tilt_z: found.u_tz_by_tilt_z_ddot,
-                        wheel: found.u_w_by_tilt_z_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_tilt_z_ddot,
-                            found.f_by_by_tilt_z_ddot,
-                            found.f_bz_by_tilt_z_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_tilt_z_ddot,
-                            found.n_by_by_tilt_z_ddot,
-                            found.n_bz_by_tilt_z_ddot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_spin_dot,
-                        axial_slide: found.u_sx_by_spin_dot,
-                        radial_slide_y: found.u_sy_by_spin_dot,
-                        radial_slide_z: found.u_sz_by_spin_dot,
-                        tilt_y: found.u_ty_by_spin_dot,
-                        tilt_z: found.u_tz_by_spin_dot,
-                        wheel: found.u_w_by_spin_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin_dot,
-                            found.f_by_by_spin_dot,
-                            found.f_bz_by_spin_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin_dot,
-                            found.n_by_by_spin_dot,
-                            found.n_bz_by_spin_dot,
-                        ]),
-                    },
-                },
-            },
-            omega: [
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_bx,
-                        axial_slide: found.u_sx_by_omega_bx,
-                        radial_slide_y: found.u_sy_by_omega_bx,
-                        radial_slide_z: found.u_sz_by_omega_bx,
-                        tilt_y: found.u_ty_by_omega_bx,
-                        tilt_z: found.u_tz_by_omega_bx,
-                        wheel: found.u_w_by_omega_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bx,
-                            found.f_by_by_omega_bx,
-                            found.f_bz_by_omega_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bx,
-                            found.n_by_by_omega_bx,
-                            found.n_bz_by_omega_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_by,
-                        axial_slide: found.u_sx_by_omega_by,
-                        radial_slide_y: found.u_sy_by_omega_by,
-                        radial_slide_z: found.u_sz_by_omega_by,
-                        tilt_y: found.u_ty_by_omega_by,
-                        tilt_z: found.u_tz_by_omega_by,
-                        wheel: found.u_w_by_omega_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_by,
-                            found.f_by_by_omega_by,
-                            found.f_bz_by_omega_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_by,
-                            found.n_by_by_omega_by,
-                            found.n_bz_by_omega_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_bz,
-                        axial_slide: found.u_sx_by_omega_bz,
-                        radial_slide_y: found.u_sy_by_omega_bz,
-                        radial_slide_z: found.u_sz_by_omega_bz,
-                        tilt_y: found.u_ty_by_omega_bz,
-                        tilt_z: found.u_tz_by_omega_bz,
-                        wheel: found.u_w_by_omega_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bz,
-                            found.f_by_by_omega_bz,
-                            found.f_bz_by_omega_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bz,
-                            found.n_by_by_omega_bz,
-                            found.n_bz_by_omega_bz,
-                        ]),
-                    },
-                },
-            ],
-            omega_dot: [
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_bx,
-                        axial_slide: found.u_sx_by_omega_dot_bx,
-                        radial_slide_y: found.u_sy_by_omega_dot_bx,
-                        radial_slide_z: found.u_sz_by_omega_dot_bx,
-                        tilt_y: found.u_ty_by_omega_dot_bx,
-                        tilt_z: found.u_tz_by_omega_dot_bx,
-                        wheel: found.u_w_by_omega_dot_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bx,
-                            found.f_by_by_omega_dot_bx,
-                            found.f_bz_by_omega_dot_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bx,
-                            found.n_by_by_omega_dot_bx,
-                            found.n_bz_by_omega_dot_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_by,
-                        axial_slide: found.u_sx_by_omega_dot_by,
-                        radial_slide_y: found.u_sy_by_omega_dot_by,
-                        radial_slide_z: found.u_sz_by_omega_dot_by,
-                        tilt_y: found.u_ty_by_omega_dot_by,
-                        tilt_z: found.u_tz_by_omega_dot_by,
-                        wheel: found.u_w_by_omega_dot_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_by,
-                            found.f_by_by_omega_dot_by,
-                            found.f_bz_by_omega_dot_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_by,
-                            found.n_by_by_omega_dot_by,
-                            found.n_bz_by_omega_dot_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_bz,
-                        axial_slide: found.u_sx_by_omega_dot_bz,
-                        radial_slide_y: found.u_sy_by_omega_dot_bz,
-                        radial_slide_z: found.u_sz_by_omega_dot_bz,
-                        tilt_y: found.u_ty_by_omega_dot_bz,
-                        tilt_z: found.u_tz_by_omega_dot_bz,
-                        wheel: found.u_w_by_omega_dot_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bz,
-                            found.f_by_by_omega_dot_bz,
-                            found.f_bz_by_omega_dot_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bz,
-                            found.n_by_by_omega_dot_bz,
-                            found.n_bz_by_omega_dot_bz,
-                        ]),
-                    },
-                },
-            ],
-        })
     }
 
     fn steer(

@@ -195,6 +195,183 @@ impl<S: Scalar> Kernels for SloshMass<S> {
     }
 
     #[inline(always)]
+    fn load_derivatives<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        hub: &BodyAcceleration<T>,
+        _: &JointAccelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        let found = super::load_derivatives(constants, pose, &rates(joints), omega, hub);
+        Some(LoadDerivatives {
+            coordinates: PerJoint {
+                slosh_mass: Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_x,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x,
+                            found.f_by_by_x,
+                            found.f_bz_by_x,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x,
+                            found.n_by_by_x,
+                            found.n_bz_by_x,
+                        ]),
+                    },
+                },
+            },
+            rates: PerJoint {
+                slosh_mass: Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_x_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x_dot,
+                            found.f_by_by_x_dot,
+                            found.f_bz_by_x_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x_dot,
+                            found.n_by_by_x_dot,
+                            found.n_bz_by_x_dot,
+                        ]),
+                    },
+                },
+            },
+            accelerations: PerJoint {
+                slosh_mass: Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_x_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_x_ddot,
+                            found.f_by_by_x_ddot,
+                            found.f_bz_by_x_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_x_ddot,
+                            found.n_by_by_x_ddot,
+                            found.n_bz_by_x_ddot,
+                        ]),
+                    },
+                },
+            },
+            omega: [
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bx,
+                            found.f_by_by_omega_bx,
+                            found.f_bz_by_omega_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bx,
+                            found.n_by_by_omega_bx,
+                            found.n_bz_by_omega_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_by,
+                            found.f_by_by_omega_by,
+                            found.f_bz_by_omega_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_by,
+                            found.n_by_by_omega_by,
+                            found.n_bz_by_omega_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bz,
+                            found.f_by_by_omega_bz,
+                            found.f_bz_by_omega_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bz,
+                            found.n_by_by_omega_bz,
+                            found.n_bz_by_omega_bz,
+                        ]),
+                    },
+                },
+            ],
+            omega_dot: [
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_dot_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bx,
+                            found.f_by_by_omega_dot_bx,
+                            found.f_bz_by_omega_dot_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bx,
+                            found.n_by_by_omega_dot_bx,
+                            found.n_bz_by_omega_dot_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_dot_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_by,
+                            found.f_by_by_omega_dot_by,
+                            found.f_bz_by_omega_dot_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_by,
+                            found.n_by_by_omega_dot_by,
+                            found.n_bz_by_omega_dot_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        slosh_mass: found.u_s_by_omega_dot_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bz,
+                            found.f_by_by_omega_dot_bz,
+                            found.f_bz_by_omega_dot_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bz,
+                            found.n_by_by_omega_dot_bz,
+                            found.n_bz_by_omega_dot_bz,
+                        ]),
+                    },
+                },
+            ],
+        })
+    }
+
+    #[inline(always)]
     fn external<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
@@ -511,183 +688,6 @@ impl<T: Scalar> Kind for SloshMass<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    #[inline(always)]
-    fn load_derivatives(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        hub: &BodyAcceleration<T>,
-        _: &JointAccelerations<T>,
-    ) -> Option<LoadDerivatives<Self>> {
-        let found = super::load_derivatives(constants, pose, &rates(joints), omega, hub);
-        Some(LoadDerivatives {
-            coordinates: PerJoint {
-                slosh_mass: Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_x,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x,
-                            found.f_by_by_x,
-                            found.f_bz_by_x,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x,
-                            found.n_by_by_x,
-                            found.n_bz_by_x,
-                        ]),
-                    },
-                },
-            },
-            rates: PerJoint {
-                slosh_mass: Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_x_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x_dot,
-                            found.f_by_by_x_dot,
-                            found.f_bz_by_x_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x_dot,
-                            found.n_by_by_x_dot,
-                            found.n_bz_by_x_dot,
-                        ]),
-                    },
-                },
-            },
-            accelerations: PerJoint {
-                slosh_mass: Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_x_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_x_ddot,
-                            found.f_by_by_x_ddot,
-                            found.f_bz_by_x_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_x_ddot,
-                            found.n_by_by_x_ddot,
-                            found.n_bz_by_x_ddot,
-                        ]),
-                    },
-                },
-            },
-            omega: [
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bx,
-                            found.f_by_by_omega_bx,
-                            found.f_bz_by_omega_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bx,
-                            found.n_by_by_omega_bx,
-                            found.n_bz_by_omega_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_by,
-                            found.f_by_by_omega_by,
-                            found.f_bz_by_omega_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_by,
-                            found.n_by_by_omega_by,
-                            found.n_bz_by_omega_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bz,
-                            found.f_by_by_omega_bz,
-                            found.f_bz_by_omega_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bz,
-                            found.n_by_by_omega_bz,
-                            found.n_bz_by_omega_bz,
-                        ]),
-                    },
-                },
-            ],
-            omega_dot: [
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_dot_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bx,
-                            found.f_by_by_omega_dot_bx,
-                            found.f_bz_by_omega_dot_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bx,
-                            found.n_by_by_omega_dot_bx,
-                            found.n_bz_by_omega_dot_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_dot_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_by,
-                            found.f_by_by_omega_dot_by,
-                            found.f_bz_by_omega_dot_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_by,
-                            found.n_by_by_omega_dot_by,
-                            found.n_bz_by_omega_dot_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        slosh_mass: found.u_s_by_omega_dot_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bz,
-                            found.f_by_by_omega_dot_bz,
-                            found.f_bz_by_omega_dot_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bz,
-                            found.n_by_by_omega_dot_bz,
-                            found.n_bz_by_omega_dot_bz,
-                        ]),
-                    },
-                },
-            ],
-        })
     }
 
     fn steer(

@@ -251,6 +251,253 @@ impl<S: Scalar> Kernels for Vscmg<S> {
     }
 
     #[inline(always)]
+    fn load_derivatives<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        hub: &BodyAcceleration<T>,
+        accelerations: &JointAccelerations<T>,
+    ) -> Option<LoadDerivatives<Self, T>> {
+        let found = super::load_derivatives(
+            constants,
+            pose,
+            &rates(joints),
+            omega,
+            hub,
+            accelerations,
+        );
+        Some(LoadDerivatives {
+            coordinates: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma,
+                        wheel: found.u_w_by_gamma,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma,
+                            found.f_by_by_gamma,
+                            found.f_bz_by_gamma,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma,
+                            found.n_by_by_gamma,
+                            found.n_bz_by_gamma,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_theta,
+                        wheel: found.u_w_by_theta,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_theta,
+                            found.f_by_by_theta,
+                            found.f_bz_by_theta,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_theta,
+                            found.n_by_by_theta,
+                            found.n_bz_by_theta,
+                        ]),
+                    },
+                },
+            },
+            rates: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma_dot,
+                        wheel: found.u_w_by_gamma_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_dot,
+                            found.f_by_by_gamma_dot,
+                            found.f_bz_by_gamma_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_dot,
+                            found.n_by_by_gamma_dot,
+                            found.n_bz_by_gamma_dot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_spin,
+                        wheel: found.u_w_by_spin,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin,
+                            found.f_by_by_spin,
+                            found.f_bz_by_spin,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin,
+                            found.n_by_by_spin,
+                            found.n_bz_by_spin,
+                        ]),
+                    },
+                },
+            },
+            accelerations: PerJoint {
+                gimbal: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_gamma_ddot,
+                        wheel: found.u_w_by_gamma_ddot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_gamma_ddot,
+                            found.f_by_by_gamma_ddot,
+                            found.f_bz_by_gamma_ddot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_gamma_ddot,
+                            found.n_by_by_gamma_ddot,
+                            found.n_bz_by_gamma_ddot,
+                        ]),
+                    },
+                },
+                wheel: Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_spin_dot,
+                        wheel: found.u_w_by_spin_dot,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_spin_dot,
+                            found.f_by_by_spin_dot,
+                            found.f_bz_by_spin_dot,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_spin_dot,
+                            found.n_by_by_spin_dot,
+                            found.n_bz_by_spin_dot,
+                        ]),
+                    },
+                },
+            },
+            omega: [
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_bx,
+                        wheel: found.u_w_by_omega_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bx,
+                            found.f_by_by_omega_bx,
+                            found.f_bz_by_omega_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bx,
+                            found.n_by_by_omega_bx,
+                            found.n_bz_by_omega_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_by,
+                        wheel: found.u_w_by_omega_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_by,
+                            found.f_by_by_omega_by,
+                            found.f_bz_by_omega_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_by,
+                            found.n_by_by_omega_by,
+                            found.n_bz_by_omega_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_bz,
+                        wheel: found.u_w_by_omega_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_bz,
+                            found.f_by_by_omega_bz,
+                            found.f_bz_by_omega_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_bz,
+                            found.n_by_by_omega_bz,
+                            found.n_bz_by_omega_bz,
+                        ]),
+                    },
+                },
+            ],
+            omega_dot: [
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_bx,
+                        wheel: found.u_w_by_omega_dot_bx,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bx,
+                            found.f_by_by_omega_dot_bx,
+                            found.f_bz_by_omega_dot_bx,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bx,
+                            found.n_by_by_omega_dot_bx,
+                            found.n_bz_by_omega_dot_bx,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_by,
+                        wheel: found.u_w_by_omega_dot_by,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_by,
+                            found.f_by_by_omega_dot_by,
+                            found.f_bz_by_omega_dot_by,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_by,
+                            found.n_by_by_omega_dot_by,
+                            found.n_bz_by_omega_dot_by,
+                        ]),
+                    },
+                },
+                Carried {
+                    joints: PerJoint {
+                        gimbal: found.u_g_by_omega_dot_bz,
+                        wheel: found.u_w_by_omega_dot_bz,
+                    },
+                    hub: Wrench {
+                        force: vector([
+                            found.f_bx_by_omega_dot_bz,
+                            found.f_by_by_omega_dot_bz,
+                            found.f_bz_by_omega_dot_bz,
+                        ]),
+                        moment: vector([
+                            found.n_bx_by_omega_dot_bz,
+                            found.n_by_by_omega_dot_bz,
+                            found.n_bz_by_omega_dot_bz,
+                        ]),
+                    },
+                },
+            ],
+        })
+    }
+
+    #[inline(always)]
     fn external<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
@@ -744,253 +991,6 @@ impl<T: Scalar> Kind for Vscmg<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    #[inline(always)]
-    fn load_derivatives(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        hub: &BodyAcceleration<T>,
-        accelerations: &JointAccelerations<T>,
-    ) -> Option<LoadDerivatives<Self>> {
-        let found = super::load_derivatives(
-            constants,
-            pose,
-            &rates(joints),
-            omega,
-            hub,
-            accelerations,
-        );
-        Some(LoadDerivatives {
-            coordinates: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma,
-                        wheel: found.u_w_by_gamma,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma,
-                            found.f_by_by_gamma,
-                            found.f_bz_by_gamma,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma,
-                            found.n_by_by_gamma,
-                            found.n_bz_by_gamma,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_theta,
-                        wheel: found.u_w_by_theta,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_theta,
-                            found.f_by_by_theta,
-                            found.f_bz_by_theta,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_theta,
-                            found.n_by_by_theta,
-                            found.n_bz_by_theta,
-                        ]),
-                    },
-                },
-            },
-            rates: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma_dot,
-                        wheel: found.u_w_by_gamma_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_dot,
-                            found.f_by_by_gamma_dot,
-                            found.f_bz_by_gamma_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_dot,
-                            found.n_by_by_gamma_dot,
-                            found.n_bz_by_gamma_dot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_spin,
-                        wheel: found.u_w_by_spin,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin,
-                            found.f_by_by_spin,
-                            found.f_bz_by_spin,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin,
-                            found.n_by_by_spin,
-                            found.n_bz_by_spin,
-                        ]),
-                    },
-                },
-            },
-            accelerations: PerJoint {
-                gimbal: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_gamma_ddot,
-                        wheel: found.u_w_by_gamma_ddot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_gamma_ddot,
-                            found.f_by_by_gamma_ddot,
-                            found.f_bz_by_gamma_ddot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_gamma_ddot,
-                            found.n_by_by_gamma_ddot,
-                            found.n_bz_by_gamma_ddot,
-                        ]),
-                    },
-                },
-                wheel: Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_spin_dot,
-                        wheel: found.u_w_by_spin_dot,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_spin_dot,
-                            found.f_by_by_spin_dot,
-                            found.f_bz_by_spin_dot,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_spin_dot,
-                            found.n_by_by_spin_dot,
-                            found.n_bz_by_spin_dot,
-                        ]),
-                    },
-                },
-            },
-            omega: [
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_bx,
-                        wheel: found.u_w_by_omega_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bx,
-                            found.f_by_by_omega_bx,
-                            found.f_bz_by_omega_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bx,
-                            found.n_by_by_omega_bx,
-                            found.n_bz_by_omega_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_by,
-                        wheel: found.u_w_by_omega_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_by,
-                            found.f_by_by_omega_by,
-                            found.f_bz_by_omega_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_by,
-                            found.n_by_by_omega_by,
-                            found.n_bz_by_omega_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_bz,
-                        wheel: found.u_w_by_omega_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_bz,
-                            found.f_by_by_omega_bz,
-                            found.f_bz_by_omega_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_bz,
-                            found.n_by_by_omega_bz,
-                            found.n_bz_by_omega_bz,
-                        ]),
-                    },
-                },
-            ],
-            omega_dot: [
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_bx,
-                        wheel: found.u_w_by_omega_dot_bx,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bx,
-                            found.f_by_by_omega_dot_bx,
-                            found.f_bz_by_omega_dot_bx,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bx,
-                            found.n_by_by_omega_dot_bx,
-                            found.n_bz_by_omega_dot_bx,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_by,
-                        wheel: found.u_w_by_omega_dot_by,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_by,
-                            found.f_by_by_omega_dot_by,
-                            found.f_bz_by_omega_dot_by,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_by,
-                            found.n_by_by_omega_dot_by,
-                            found.n_bz_by_omega_dot_by,
-                        ]),
-                    },
-                },
-                Carried {
-                    joints: PerJoint {
-                        gimbal: found.u_g_by_omega_dot_bz,
-                        wheel: found.u_w_by_omega_dot_bz,
-                    },
-                    hub: Wrench {
-                        force: vector([
-                            found.f_bx_by_omega_dot_bz,
-                            found.f_by_by_omega_dot_bz,
-                            found.f_bz_by_omega_dot_bz,
-                        ]),
-                        moment: vector([
-                            found.n_bx_by_omega_dot_bz,
-                            found.n_by_by_omega_dot_bz,
-                            found.n_bz_by_omega_dot_bz,
-                        ]),
-                    },
-                },
-            ],
-        })
     }
 
     fn steer(

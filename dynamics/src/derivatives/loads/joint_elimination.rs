@@ -1,0 +1,183 @@
+//! [`JointElimination`]: the joints of one device eliminated into the hub's six equations.
+
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
+use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
+use crate::model::joint_array::MAX_JOINTS;
+use crate::numbers::real::{Scalar, one, zero};
+
+/// What a load of a device is with its joints eliminated: what is left for the hub's equations, on their right side, and
+/// by how much less its joints accelerate on a hub whose accelerations do not change.
+type Reduced<T, const N: usize> = (Six<T>, [T; N]);
+
+/// The joints of one device, eliminated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JointElimination<T, const N: usize> {
+    /// Of the joints' mass matrix; of a joint that is not free zero.
+    inverse: [[T; N]; N],
+    /// Of each free joint, the loads of the hub by its acceleration.
+    coupling: [Six<T>; N],
+    /// `M_jj⁻¹ M_jh`.
+    pub(crate) gains: [Six<T>; N],
+}
+
+impl<T: Scalar, const N: usize> JointElimination<T, N> {
+    /// With the loads by the joints' accelerations, of joints and hub.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "rows and columns as the formula has them")]
+    pub(crate) fn new(mass: &[[T; N]; N], of_hub: &[Six<T>; N], free: &[bool; MAX_JOINTS]) -> Self {
+        let mut factors = [[zero(); N]; N];
+        let mut coupling = [[zero(); 6]; N];
+        for row in 0..N {
+            for column in 0..=row {
+                factors[row][column] = match (free[row] && free[column], row == column) {
+                    (true, _) => mass[column][row],
+                    (false, true) => one(),
+                    (false, false) => zero(),
+                };
+            }
+            if free[row] {
+                coupling[row] = of_hub[row];
+            }
+        }
+        for row in 0..N {
+            for column in 0..row {
+                let mut entry = factors[row][column];
+                for k in 0..column {
+                    entry = entry - factors[row][k] * factors[column][k];
+                }
+                factors[row][column] = entry;
+            }
+            let mut pivot = factors[row][row];
+            for k in 0..row {
+                let factor = factors[row][k] * factors[k][k];
+                pivot = pivot - factor * factors[row][k];
+                factors[row][k] = factor;
+            }
+            factors[row][row] = pivot.recip();
+        }
+        let mut inverse = [[zero(); N]; N];
+        for unit in 0..N {
+            if free[unit] {
+                inverse[unit] = unit_solved(&factors, unit);
+            }
+        }
+        let mut gains = [[zero(); 6]; N];
+        for row in 0..N {
+            for k in 0..N {
+                for (to, entry) in gains[row].iter_mut().zip(&coupling[k]) {
+                    *to = *to + inverse[k][row] * *entry;
+                }
+            }
+        }
+        Self { inverse, coupling, gains }
+    }
+
+    /// The same among more joints, which are not free.
+    pub(crate) fn padded(&self) -> JointElimination<T, MAX_JOINTS> {
+        let mut found = JointElimination {
+            inverse: [[zero(); MAX_JOINTS]; MAX_JOINTS],
+            coupling: [[zero(); 6]; MAX_JOINTS],
+            gains: [[zero(); 6]; MAX_JOINTS],
+        };
+        for (to, from) in found.inverse.iter_mut().zip(&self.inverse) {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+        }
+        found.coupling.iter_mut().zip(&self.coupling).for_each(|(to, from)| *to = *from);
+        found.gains.iter_mut().zip(&self.gains).for_each(|(to, from)| *to = *from);
+        found
+    }
+
+    /// Loads of the hub and of the joints, those of the joints eliminated.
+    #[inline(always)]
+    pub(crate) fn reduced(&self, hub: &Six<T>, joints: &[T; N]) -> Reduced<T, N> {
+        let (mut left, mut less) = (*hub, [zero(); N]);
+        for load in &mut left {
+            *load = -*load;
+        }
+        for (column, load) in self.inverse.iter().zip(joints) {
+            for (to, entry) in less.iter_mut().zip(column) {
+                *to = *to + *entry * *load;
+            }
+        }
+        for (coupling, less) in self.coupling.iter().zip(&less) {
+            for (to, entry) in left.iter_mut().zip(coupling) {
+                *to = *to + *entry * *less;
+            }
+        }
+        (left, less)
+    }
+
+    /// The same of some loads, side by side.
+    #[inline(always)]
+    pub(crate) fn reduced_together(
+        &self,
+        hub: &HubGroup<T>,
+        joints: &[[T; TOGETHER]; MAX_JOINTS],
+    ) -> (HubGroup<T>, [[T; TOGETHER]; N]) {
+        let (mut left, mut less) = (*hub, [[zero(); TOGETHER]; N]);
+        for load in left.as_flattened_mut() {
+            *load = -*load;
+        }
+        for (column, loads) in self.inverse.iter().zip(joints) {
+            for (to, entry) in less.iter_mut().zip(column) {
+                add_product(to, *entry, loads);
+            }
+        }
+        for (coupling, less) in self.coupling.iter().zip(&less) {
+            for (to, entry) in left.iter_mut().zip(coupling) {
+                add_product(to, *entry, less);
+            }
+        }
+        (left, less)
+    }
+
+    /// By the motor of a free joint, which takes one from the joint's load.
+    #[inline(always)]
+    pub(crate) fn motor(&self, joint: usize) -> Reduced<T, N> {
+        let (mut hub, mut joints) = (self.gains[joint], self.inverse[joint]);
+        for number in hub.iter_mut().chain(&mut joints) {
+            *number = -*number;
+        }
+        (hub, joints)
+    }
+
+    /// Subtracts what the free joints take over from the hub's matrix.
+    #[inline(always)]
+    pub(crate) fn reduce(&self, matrix: &mut [Six<T>; 6]) {
+        for (coupling, gains) in self.coupling.iter().zip(&self.gains) {
+            for (column, gain) in matrix.iter_mut().zip(gains) {
+                for (to, entry) in column.iter_mut().zip(coupling) {
+                    *to = *to - *entry * *gain;
+                }
+            }
+        }
+    }
+}
+
+/// A column of the inverse: `L D Lᵀ v` is a column of the unit matrix, with reciprocal pivots on the diagonal.
+#[inline(always)]
+fn unit_solved<T: Scalar, const N: usize>(factors: &[[T; N]; N], unit: usize) -> [T; N] {
+    let mut v = [zero::<T>(); N];
+    v[unit] = one();
+    for row in unit.saturating_add(1)..N {
+        for k in unit..row {
+            v[row] = v[row] - factors[row][k] * v[k];
+        }
+    }
+    for row in (0..N).rev() {
+        v[row] = v[row] * factors[row][row];
+        for k in row.saturating_add(1)..N {
+            v[row] = v[row] - factors[k][row] * v[k];
+        }
+    }
+    v
+}
+
+/// Adds a multiple of numbers, side by side.
+#[inline(always)]
+fn add_product<T: Scalar>(to: &mut [T; TOGETHER], by: T, of: &[T; TOGETHER]) {
+    for (to, from) in to.iter_mut().zip(of) {
+        *to = *to + by * *from;
+    }
+}

@@ -1,0 +1,118 @@
+//! [`LoadGroup`]: loads of a device by some variables, side by side.
+
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
+use crate::model::joint_array::MAX_JOINTS;
+use crate::model::kind::{Kind, LoadColumn};
+use crate::numbers::each::Each;
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::{Columns, components};
+
+/// How many variables or joints are computed side by side.
+pub(crate) const TOGETHER: usize = 4;
+
+/// Numbers of the hub: along the axes of B of the translation, then of the rotation.
+pub(crate) type Six<T> = [T; 6];
+
+/// The same by some variables.
+pub(crate) type HubGroup<T> = [[T; TOGETHER]; 6];
+
+/// By one variable: force and moment about B that the hub exerts on a device, B axes, and what each of its motors exerts
+/// less spring and friction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Load<T> {
+    pub(crate) hub: Six<T>,
+    pub(crate) joints: [T; MAX_JOINTS],
+}
+
+/// The same by some variables: of each number of a [`Load`] one by each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LoadGroup<T> {
+    pub(crate) hub: HubGroup<T>,
+    pub(crate) joints: [[T; TOGETHER]; MAX_JOINTS],
+}
+
+impl<T: Scalar> Load<T> {
+    pub(crate) fn none() -> Self {
+        Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
+    }
+}
+
+impl<T: Scalar> LoadGroup<T> {
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self { hub: [[zero(); TOGETHER]; 6], joints: [[zero(); TOGETHER]; MAX_JOINTS] }
+    }
+
+    /// Sets the emitted columns by three axes.
+    #[inline(always)]
+    pub(crate) fn put_axes<K: Kind<Scalar = T>>(&mut self, columns: &[LoadColumn<K, T>; 3]) {
+        for (place, column) in columns.iter().enumerate() {
+            self.put::<K>(place, column);
+        }
+    }
+
+    /// Sets the emitted column of a place.
+    #[inline(always)]
+    pub(crate) fn put<K: Kind<Scalar = T>>(&mut self, place: usize, column: &LoadColumn<K, T>) {
+        let hub = components(&column.hub.force).into_iter().chain(components(&column.hub.moment));
+        for (to, from) in self.hub.iter_mut().zip(hub) {
+            if let Some(to) = to.get_mut(place) {
+                *to = from;
+            }
+        }
+        for (to, from) in self.joints.iter_mut().zip(column.joints.values()) {
+            if let Some(to) = to.get_mut(place) {
+                *to = from;
+            }
+        }
+    }
+
+    /// Adds to the load of a joint by the variable of a place.
+    #[inline(always)]
+    pub(crate) fn add_to_joint(&mut self, joint: usize, place: usize, more: T) {
+        if let Some(to) = self.joints.get_mut(joint).and_then(|of| of.get_mut(place)) {
+            *to = *to + more;
+        }
+    }
+
+    /// By components along B, of loads by those along the axes of a device of this mount.
+    #[inline(always)]
+    pub(crate) fn by_b(&self, mount: &Columns<T>) -> Self {
+        Self { hub: by_b(&self.hub, mount), joints: by_b(&self.joints, mount) }
+    }
+}
+
+/// Loads of the hub expressed in B, of those in the axes of a device of this mount.
+#[inline(always)]
+pub(crate) fn turned<T: Scalar>(of: &HubGroup<T>, mount: &Columns<T>) -> HubGroup<T> {
+    let [x, y, z] = mount;
+    let mut found = [[zero(); TOGETHER]; 6];
+    let vectors = found.as_chunks_mut::<3>().0.iter_mut().zip(of.as_chunks::<3>().0);
+    for (to, [a, b, c]) in vectors {
+        for (axis, to) in to.iter_mut().enumerate() {
+            for k in 0..TOGETHER {
+                to[k] = x[axis] * a[k] + y[axis] * b[k] + z[axis] * c[k];
+            }
+        }
+    }
+    found
+}
+
+/// Numbers by components along B, of those by components along the axes of a device of this mount.
+#[inline(always)]
+pub(crate) fn by_b<T: Scalar, const N: usize>(
+    of: &[[T; TOGETHER]; N],
+    mount: &Columns<T>,
+) -> [[T; TOGETHER]; N] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *mount;
+    let (p, q, r) = ([a, b, c, zero()], [d, e, f, zero()], [g, h, i, zero()]);
+    let mut found = *of;
+    for line in &mut found {
+        let [x, y, z, _] = *line;
+        for (k, to) in line.iter_mut().enumerate() {
+            *to = p[k] * x + q[k] * y + r[k] * z;
+        }
+    }
+    found
+}
