@@ -3,6 +3,8 @@
 //! The slope of the position is the velocity, that of the attitude `-omega x dtheta + domega`, that of a coordinate its
 //! rate; the others are accelerations, that of B expressed in N, so that it changes with the attitude.
 
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
 use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
@@ -11,6 +13,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::linearization::columns_of;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
+use crate::equations::arithmetic::Arithmetic;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, one, zero};
@@ -26,6 +29,7 @@ pub(crate) const OF_HUB: usize = 12;
 /// What the slopes at a state depend on, and the order of the states.
 #[derive(Debug)]
 pub(crate) struct Slopes<T> {
+    by: Arithmetic,
     bn: Columns<T>,
     pub(crate) omega: Vec3<T>,
     r_b_n_ddot: Vec3<T>,
@@ -47,6 +51,7 @@ impl<T: Scalar> Slopes<T> {
     ) -> Self {
         let modes = inputs.modes.values().enumerate();
         let mut found = Self {
+            by: craft.arithmetic,
             bn: columns(&state.attitude.dcm()),
             omega: components(&state.omega),
             r_b_n_ddot: components(&accelerations.r_b_n_ddot),
@@ -87,12 +92,13 @@ impl<T: Scalar> Slopes<T> {
         accelerations: &DMatrix<T>,
         slopes: &mut DMatrix<T>,
     ) -> Result<(), usize> {
-        slopes.as_mut_slice().fill(zero());
-        let from = accelerations.as_slice().chunks_exact(accelerations.nrows().max(1));
-        let mut finite = true;
-        for (from, to) in from.zip(columns_of(slopes)) {
-            finite &= self.of_accelerations(from, to);
-        }
+        let finite = match self.by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => {
+                cpu.dispatch(Dispatched { of: self, accelerations, slopes: &mut *slopes })
+            }
+            Arithmetic::Portable => self.of_all_accelerations(accelerations, slopes),
+        };
         for (number, (variable, to)) in by.iter().zip(columns_of(slopes)).enumerate() {
             let turned = self.of_variable(*variable, to);
             if !turned || !finite {
@@ -103,6 +109,18 @@ impl<T: Scalar> Slopes<T> {
             }
         }
         Ok(())
+    }
+
+    /// What the accelerations of all columns change slopes by, and zeros; whether those of B in N are finite.
+    #[inline(always)]
+    fn of_all_accelerations(&self, accelerations: &DMatrix<T>, slopes: &mut DMatrix<T>) -> bool {
+        slopes.as_mut_slice().fill(zero());
+        let from = accelerations.as_slice().chunks_exact(accelerations.nrows().max(1));
+        let mut finite = true;
+        for (from, to) in from.zip(columns_of(slopes)) {
+            finite &= self.of_accelerations(from, to);
+        }
+        finite
     }
 
     /// What accelerations change slopes by; whether that of B in N is finite.
@@ -172,5 +190,23 @@ impl<T: Scalar> Slopes<T> {
             [position, attitude, velocity, omega] => Some([position, attitude, velocity, omega]),
             _ => None,
         }
+    }
+}
+
+/// Slopes by the instructions of this CPU.
+#[cfg(feature = "lanes")]
+struct Dispatched<'a, T> {
+    of: &'a Slopes<T>,
+    accelerations: &'a DMatrix<T>,
+    slopes: &'a mut DMatrix<T>,
+}
+
+#[cfg(feature = "lanes")]
+impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> bool {
+        self.of.of_all_accelerations(self.accelerations, self.slopes)
     }
 }

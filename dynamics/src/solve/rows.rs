@@ -203,7 +203,7 @@ where
 
 /// What each device of a group has, the last one's repeated; none where one has none.
 #[inline(always)]
-fn members<M: Copy>(
+pub(crate) fn members<M: Copy>(
     first: usize,
     count: usize,
     of: impl Fn(MemberIndex) -> Option<M>,

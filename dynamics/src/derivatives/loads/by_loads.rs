@@ -11,6 +11,8 @@ use nalgebra::DMatrix;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, Moving, Place};
 use crate::derivatives::loads::mass_system::{MassSystem, follow};
+#[cfg(feature = "lanes")]
+use crate::derivatives::loads::side_by_side::HubGroup;
 use crate::derivatives::loads::side_by_side::{Six, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
@@ -71,10 +73,14 @@ impl<T: Scalar> ByLoads<T> {
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
         let mut devices = each.found;
         let system = MassSystem::new(&craft.hub, craft.mass(), &devices.matrix, hub_is_free);
-        for group in &mut devices.groups {
-            *group = system.hub_together(group);
-        }
         let by = craft.arithmetic;
+        match by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => {
+                cpu.dispatch(DispatchedHub { system: &system, groups: &mut devices.groups });
+            }
+            Arithmetic::Portable => system.hub_of_groups(&mut devices.groups),
+        }
         Some(Self { by, devices, system, hub: craft.hub, omega, gravity, hub_is_free })
     }
 
@@ -245,6 +251,23 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> bool {
         self.loads.fill(self.variables, self.rows, self.into.as_mut_slice())
+    }
+}
+
+/// The hub's accelerations of groups by the instructions of this CPU.
+#[cfg(feature = "lanes")]
+struct DispatchedHub<'a, T> {
+    system: &'a MassSystem<T>,
+    groups: &'a mut [HubGroup<T>],
+}
+
+#[cfg(feature = "lanes")]
+impl<T: Scalar> pulp::WithSimd for DispatchedHub<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.system.hub_of_groups(self.groups);
     }
 }
 

@@ -2,27 +2,36 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::derivatives::loads::joint_elimination::JointElimination;
-use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled, load_derivatives};
+use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled};
+#[cfg(feature = "lanes")]
+use crate::derivatives::loads::kernel_in_lanes::GroupKernel;
+use crate::derivatives::loads::kernel_loads::{KernelInputs, KernelLoads};
 use crate::derivatives::loads::mass_system::Gains;
 use crate::derivatives::loads::side_by_side::{HubGroup, LoadGroup, Six, TOGETHER, by_b, turned};
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::device::Device;
-use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::load_sums::HubAccelerations;
+#[cfg(feature = "lanes")]
+use crate::equations::side_by_side::group::DeviceGroup;
 use crate::isolation::carrier::Carrier;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::Kind;
 use crate::model::mode::Mode;
-use crate::numbers::each::{Each, JointStates};
+use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Columns, Vec3};
 use crate::sets::bundle::{Bundle, Given, Shared};
+#[cfg(feature = "lanes")]
+use crate::sets::bundle::{MemberIndex, Part};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Visit};
 use crate::sets::per_device as data;
+#[cfg(feature = "lanes")]
+use crate::solve::rows::members;
 
 /// A joint's device.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +97,8 @@ pub(crate) struct EachDevice<T> {
     /// As seen from a frame that falls with the field.
     hub: HubAccelerations<T>,
     pub(crate) found: LoadColumns<T>,
-    kernel: KernelLoads<T>,
+    /// Of a device, or of those side by side.
+    loads: Vec<KernelLoads<T>>,
 }
 
 impl<T: Scalar> EachDevice<T> {
@@ -98,7 +108,7 @@ impl<T: Scalar> EachDevice<T> {
         hub: HubAccelerations<T>,
         joints: usize,
     ) -> Self {
-        Self { by, omega, hub, found: LoadColumns::new(joints), kernel: KernelLoads::none() }
+        Self { by, omega, hub, found: LoadColumns::new(joints), loads: vec![KernelLoads::none()] }
     }
 
     /// Keeps the elimination of each device.
@@ -111,135 +121,42 @@ impl<T: Scalar> EachDevice<T> {
 /// State, inputs and accelerations of the joints.
 pub(crate) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
 
-/// What the kernel of a device is called with.
-struct KernelInputs<'a, K: Kind> {
-    device: &'a Device<K>,
-    joints: &'a K::Joints<K::Scalar>,
-    accelerations: &'a K::Accelerations<K::Scalar>,
-    omega: Vec3<K::Scalar>,
-    hub: HubAccelerations<K::Scalar>,
-}
-
-/// Results of the kernel of a device, in the device's axes, some variables side by side. Places of no variable of the
-/// device keep numbers of devices before it.
-#[derive(Debug)]
-struct KernelLoads<T> {
-    /// By the joints' coordinates and then by their rates, with springs and friction.
-    states: [LoadGroup<T>; (2 * MAX_JOINTS).div_ceil(TOGETHER)],
-    accelerations: [LoadGroup<T>; MAX_JOINTS.div_ceil(TOGETHER)],
-    omega: LoadGroup<T>,
-    omega_dot: LoadGroup<T>,
-}
-
-impl<T: Scalar> KernelLoads<T> {
-    fn none() -> Self {
-        let none = LoadGroup::none();
-        Self {
-            states: [none; (2 * MAX_JOINTS).div_ceil(TOGETHER)],
-            accelerations: [none; MAX_JOINTS.div_ceil(TOGETHER)],
-            omega: none,
-            omega_dot: none,
-        }
-    }
-
-    /// Evaluates the kernel of a device.
-    #[inline(always)]
-    fn set<K: Kind<Scalar = T>>(&mut self, of: &KernelInputs<'_, K>) -> Result<(), NotEmitted> {
-        let KernelInputs { device, joints, accelerations, omega, hub } = of;
-        let found = load_derivatives(device, joints, accelerations, (*omega, hub))?;
-        let count = K::JOINTS.len();
-        let passive = joints.states().zip(device.passive.values());
-        let passive = passive.map(|([_, rate], of)| [of.stiffness, of.damping(rate)]);
-        let columns = found.coordinates.values().zip(found.rates.values());
-        for (joint, ((by_coordinate, by_rate), slopes)) in columns.zip(passive).enumerate() {
-            let places = [joint, joint.saturating_add(count)];
-            let columns = [&by_coordinate, &by_rate];
-            for ((place, column), slope) in places.into_iter().zip(columns).zip(slopes) {
-                if let Some(group) = self.states.get_mut(place / TOGETHER) {
-                    group.put::<K>(place % TOGETHER, column);
-                    group.add_to_joint(joint, place % TOGETHER, slope);
-                }
-            }
-        }
-        for (joint, column) in found.accelerations.values().enumerate() {
-            if let Some(group) = self.accelerations.get_mut(joint / TOGETHER) {
-                group.put::<K>(joint % TOGETHER, &column);
-            }
-        }
-        self.omega.put_axes::<K>(&found.omega);
-        self.omega_dot.put_axes::<K>(&found.omega_dot);
-        Ok(())
-    }
-
-    /// By the joints' accelerations: the loads of the joints, and those of the hub, B axes.
-    #[inline(always)]
-    fn by_accelerations<const N: usize>(&self, mount: &Columns<T>) -> ([[T; N]; N], [Six<T>; N]) {
-        let (mut mass, mut coupling) = ([[zero(); N]; N], [[zero(); 6]; N]);
-        let by_joint = mass.chunks_mut(TOGETHER).zip(coupling.chunks_mut(TOGETHER));
-        for (group, (mass, coupling)) in self.accelerations.iter().zip(by_joint) {
-            let hub = turned(&group.hub, mount);
-            for (place, (mass, coupling)) in mass.iter_mut().zip(coupling).enumerate() {
-                for (to, from) in mass.iter_mut().zip(&group.joints) {
-                    *to = from[place % TOGETHER];
-                }
-                for (to, from) in coupling.iter_mut().zip(&hub) {
-                    *to = from[place % TOGETHER];
-                }
-            }
-        }
-        (mass, coupling)
-    }
-}
-
-/// The kernel of a device by the instructions of this CPU.
-#[cfg(feature = "lanes")]
-struct DispatchedKernel<'a, 'b, K: Kind> {
-    inputs: KernelInputs<'a, K>,
-    loads: &'b mut KernelLoads<K::Scalar>,
-}
-
-#[cfg(feature = "lanes")]
-impl<K: Kind> pulp::WithSimd for DispatchedKernel<'_, '_, K> {
-    type Output = Result<(), NotEmitted>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
-        let Self { inputs, loads } = self;
-        loads.set(&inputs)
-    }
-}
-
 /// A device's joints eliminated by the instructions of this CPU.
 #[cfg(feature = "lanes")]
-struct DispatchedElimination<'a, 'b, T> {
-    given: GivenJoints<'a, T>,
+struct Dispatched<'a, 'b, T> {
+    given: &'a GivenJoints<'a, T>,
     loads: &'b KernelLoads<T>,
     found: &'b mut LoadColumns<T>,
 }
 
 #[cfg(feature = "lanes")]
-impl<T: Scalar> pulp::WithSimd for DispatchedElimination<'_, '_, T> {
+impl<T: Scalar> pulp::WithSimd for Dispatched<'_, '_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
         let Self { given, loads, found } = self;
-        found.add(&given, loads);
+        found.add(given, loads);
     }
 }
 
-// Never inlined: one copy for all sets.
-#[inline(never)]
-fn kernel<K: Kind>(
-    inputs: &KernelInputs<'_, K>,
-    loads: &mut KernelLoads<K::Scalar>,
-) -> Result<(), NotEmitted> {
-    loads.set(inputs)
+/// Eliminates the joints of a device.
+fn eliminate<T: Scalar>(
+    by: Arithmetic,
+    given: &GivenJoints<'_, T>,
+    loads: &KernelLoads<T>,
+    found: &mut LoadColumns<T>,
+) {
+    match by {
+        #[cfg(feature = "lanes")]
+        Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { given, loads, found }),
+        Arithmetic::Portable => portable(given, loads, found),
+    }
 }
 
 // Never inlined: one copy for all kinds.
 #[inline(never)]
-fn eliminate<T: Scalar>(
+fn portable<T: Scalar>(
     given: &GivenJoints<'_, T>,
     loads: &KernelLoads<T>,
     found: &mut LoadColumns<T>,
@@ -258,9 +175,9 @@ struct GivenJoints<'a, T> {
 }
 
 impl<'a, T: Scalar> GivenJoints<'a, T> {
-    fn of<K: Kind<Scalar = T>>(device: &'a Device<K>, given: &DeviceInputs<'_, K>) -> Self {
+    fn of<K: Kind<Scalar = T>>(device: &'a Device<K>, modes: &K::PerJoint<Mode<T>>) -> Self {
         let (mut free, mut accelerated) = ([false; MAX_JOINTS], [false; MAX_JOINTS]);
-        let modes = given.modes.values().zip(K::JOINTS);
+        let modes = modes.values().zip(K::JOINTS);
         for ((free, accelerated), (mode, info)) in free.iter_mut().zip(&mut accelerated).zip(modes)
         {
             *free = mode == Mode::Driven && info.driven;
@@ -298,7 +215,7 @@ impl<T: Scalar> LoadColumns<T> {
             self.places.push(Place { first, count: N, group, line, free: free[joint] });
         }
         for number in 0..(3 * N).div_ceil(TOGETHER) {
-            let (mut hub, mut lines) = match loads.states.get(number) {
+            let (mut hub, mut lines) = match loads.states().get(number) {
                 Some(LoadGroup { hub, joints }) if number < (2 * N).div_ceil(TOGETHER) => {
                     eliminated.reduced_together(&turned(hub, mount), joints)
                 }
@@ -324,11 +241,11 @@ impl<T: Scalar> LoadColumns<T> {
             self.groups.push(hub);
             self.lines.extend_from_slice(&lines);
         }
-        self.add_hub_rate(&loads.omega.by_b(mount), mount, &eliminated);
+        self.add_hub_rate(&loads.omega().by_b(mount), mount, &eliminated);
         if let Some(list) = &mut self.eliminated {
             list.push((N, eliminated.padded()));
         }
-        let by_omega_dot = turned(&by_b(&loads.omega_dot.hub, mount), mount);
+        let by_omega_dot = turned(&by_b(&loads.omega_dot().hub, mount), mount);
         for (row, by_axes) in by_omega_dot.iter().enumerate() {
             for (column, entry) in self.matrix.iter_mut().skip(3).zip(by_axes) {
                 column[row] = column[row] + *entry;
@@ -354,6 +271,49 @@ impl<T: Scalar> LoadColumns<T> {
     }
 }
 
+/// Devices of a group side by side.
+#[cfg(feature = "lanes")]
+impl<T: Scalar> EachDevice<T> {
+    /// Adds them; none, and nothing added, where lanes do not support them.
+    fn group<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        group: &DeviceGroup<K>,
+        devices: &[Device<K>],
+        (joints, inputs, accelerations): &<Moving as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Option<()>
+    where
+        MemberIndex: Part<W, Of = K>,
+    {
+        check_count::<K>().ok()?;
+        let members = members(first, group.devices, |at| {
+            Some((
+                at.of::<data::Joints>(joints)?,
+                at.of::<data::PerJoint<Mode<T>>>(inputs.modes)?,
+                at.of::<data::Accelerations>(accelerations)?,
+            ))
+        })?;
+        let width = group.registers.width().max(self.loads.len());
+        self.loads.resize(width, KernelLoads::none());
+        GroupKernel {
+            group,
+            joints: members.each_ref().map(|(joints, ..)| *joints),
+            accelerations: members.each_ref().map(|(.., accelerations)| *accelerations),
+            omega: self.omega,
+            hub: self.hub,
+            loads: &mut self.loads,
+        }
+        .run()?;
+        for ((device, (joints, modes, _)), loads) in
+            devices.iter().zip(members).zip(&mut self.loads)
+        {
+            loads.add_passive(device, joints);
+            eliminate(self.by, &GivenJoints::of(device, modes), loads, &mut self.found);
+        }
+        Some(())
+    }
+}
+
 impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
     type Error = NotEmitted;
 
@@ -364,21 +324,40 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
     ) -> Result<(), NotEmitted> {
         check_coupled(device)?;
         check_count::<K>()?;
-        let Self { omega, hub, found, kernel: loads, .. } = self;
-        let inputs = KernelInputs { device, joints, accelerations, omega: *omega, hub: *hub };
-        match self.by {
-            #[cfg(feature = "lanes")]
-            Arithmetic::Dispatched(cpu) => {
-                cpu.dispatch(DispatchedKernel { inputs, loads: &mut *loads })?;
-                let given = GivenJoints::of(device, &given);
-                cpu.dispatch(DispatchedElimination { given, loads, found });
-            }
-            Arithmetic::Portable => {
-                kernel(&inputs, loads)?;
-                eliminate(&GivenJoints::of(device, &given), loads, found);
+        let (omega, hub) = (self.omega, self.hub);
+        let inputs = KernelInputs { device, joints, accelerations, omega, hub };
+        let [loads, ..] = self.loads.as_mut_slice() else { return Ok(()) };
+        loads.evaluate(self.by, &inputs)?;
+        eliminate(self.by, &GivenJoints::of(device, given.modes), loads, &mut self.found);
+        Ok(())
+    }
+
+    #[cfg(feature = "lanes")]
+    const ROWS: bool = T::IS_F64;
+
+    #[cfg(feature = "lanes")]
+    fn visit_row<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &[Device<K>],
+        data: &mut <Moving as Bundle<T>>::Of<'_, W>,
+        first: usize,
+    ) -> Result<usize, NotEmitted>
+    where
+        MemberIndex: Part<W, Of = K>,
+    {
+        let mut count = 1;
+        if let Some(group) = devices.first().and_then(|device| device.group.as_deref()) {
+            count = group.devices;
+            if self.group(group, devices, data, first).is_some() {
+                return Ok(count);
             }
         }
-        Ok(())
+        for (lane, device) in devices.iter().enumerate().take(count) {
+            let at = MemberIndex(first.saturating_add(lane));
+            let Some(data) = Moving::part::<W, MemberIndex>(data, at) else { break };
+            self.visit(device, data)?;
+        }
+        Ok(count)
     }
 
     fn visit_carrying<C: Carrier<Scalar = T>, D: DeviceSet<Scalar = T>>(

@@ -8,7 +8,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::derivatives::loads::side_by_side::{Six, TOGETHER};
+use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
 use crate::equations::hub::HubConstants;
 use crate::equations::system::System;
 use crate::numbers::real::{Scalar, one, zero};
@@ -86,19 +86,24 @@ impl<T: Scalar> MassSystem<T> {
         base
     }
 
-    /// The same for some right sides, side by side.
+    /// The same in place of groups of right sides.
     #[inline(always)]
-    pub(crate) fn hub_together(&self, right: &[[T; TOGETHER]; 6]) -> [[T; TOGETHER]; 6] {
-        let Some(inverse) = &self.inverse else { return [[zero(); TOGETHER]; 6] };
-        let mut base = [[zero(); TOGETHER]; 6];
-        for (column, loads) in inverse.iter().zip(right) {
-            for (to, entry) in base.iter_mut().zip(column) {
-                for (to, load) in to.iter_mut().zip(loads) {
-                    *to = *to + *entry * *load;
+    pub(crate) fn hub_of_groups(&self, groups: &mut [HubGroup<T>]) {
+        let Some(inverse) = &self.inverse else {
+            groups.as_flattened_mut().fill([zero(); TOGETHER]);
+            return;
+        };
+        for group in groups {
+            let mut base = [[zero(); TOGETHER]; 6];
+            for (column, loads) in inverse.iter().zip(&*group) {
+                for (to, entry) in base.iter_mut().zip(column) {
+                    for (to, load) in to.iter_mut().zip(loads) {
+                        *to = *to + *entry * *load;
+                    }
                 }
             }
+            *group = base;
         }
-        base
     }
 
     /// The same for a unit of the right side.

@@ -6,6 +6,10 @@ pub(crate) mod by_loads;
 #[cfg(feature = "alloc")]
 pub(crate) mod joint_elimination;
 pub(crate) mod kernel;
+#[cfg(feature = "lanes")]
+mod kernel_in_lanes;
+#[cfg(feature = "alloc")]
+mod kernel_loads;
 #[cfg(feature = "alloc")]
 pub(crate) mod load_columns;
 #[cfg(feature = "alloc")]

@@ -3,10 +3,8 @@
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::model::joint_array::MAX_JOINTS;
-use crate::model::kind::{Kind, LoadColumn};
-use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Columns, components};
+use crate::numbers::vec3::Columns;
 
 /// How many variables or joints are computed side by side.
 pub(crate) const TOGETHER: usize = 4;
@@ -42,38 +40,6 @@ impl<T: Scalar> LoadGroup<T> {
     #[inline(always)]
     pub(crate) fn none() -> Self {
         Self { hub: [[zero(); TOGETHER]; 6], joints: [[zero(); TOGETHER]; MAX_JOINTS] }
-    }
-
-    /// Sets the emitted columns by three axes.
-    #[inline(always)]
-    pub(crate) fn put_axes<K: Kind<Scalar = T>>(&mut self, columns: &[LoadColumn<K, T>; 3]) {
-        for (place, column) in columns.iter().enumerate() {
-            self.put::<K>(place, column);
-        }
-    }
-
-    /// Sets the emitted column of a place.
-    #[inline(always)]
-    pub(crate) fn put<K: Kind<Scalar = T>>(&mut self, place: usize, column: &LoadColumn<K, T>) {
-        let hub = components(&column.hub.force).into_iter().chain(components(&column.hub.moment));
-        for (to, from) in self.hub.iter_mut().zip(hub) {
-            if let Some(to) = to.get_mut(place) {
-                *to = from;
-            }
-        }
-        for (to, from) in self.joints.iter_mut().zip(column.joints.values()) {
-            if let Some(to) = to.get_mut(place) {
-                *to = from;
-            }
-        }
-    }
-
-    /// Adds to the load of a joint by the variable of a place.
-    #[inline(always)]
-    pub(crate) fn add_to_joint(&mut self, joint: usize, place: usize, more: T) {
-        if let Some(to) = self.joints.get_mut(joint).and_then(|of| of.get_mut(place)) {
-            *to = *to + more;
-        }
     }
 
     /// By components along B, of loads by those along the axes of a device of this mount.

@@ -26,6 +26,21 @@ pub(crate) fn joints_in_lanes<K: Kind, T: Number>(
     K::zip_joints(&low, &high, |low, high| joined(like, low, high))
 }
 
+/// Accelerations of the joints, a device in each lane.
+#[inline(always)]
+pub(crate) fn accelerations_in_lanes<K: Kind, T: Number>(
+    like: T,
+    [a, b, c, d, e, f, g, h]: [&K::Accelerations<K::Scalar>; WIDEST],
+) -> K::Accelerations<T> {
+    let two =
+        |a, b| K::zip_accelerations(a, b, |a: K::Scalar, b: K::Scalar| [a.to_f64(), b.to_f64()]);
+    let four =
+        |a, b, c, d| K::zip_accelerations(&two(a, b), &two(c, d), |[a, b], [c, d]| [a, b, c, d]);
+    let low = four(a, b, c, d);
+    let high = if wide::<T>() { four(e, f, g, h) } else { low };
+    K::zip_accelerations(&low, &high, |low, high| joined(like, low, high))
+}
+
 /// Values at joints, a device or a state in each lane.
 #[inline(always)]
 pub(crate) fn values_in_lanes<K: Kernels, T: Number>(

@@ -1,0 +1,107 @@
+//! [`GroupKernel`]: the kernel `load_derivatives` of devices of one kind side by side in lanes, with the bits of one after
+//! another.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use pulp::{Simd, WithSimd};
+
+use crate::derivatives::loads::kernel_loads::{KernelLoads, show};
+use crate::equations::assembly::expressed_in_b;
+use crate::equations::load_sums::HubAccelerations;
+use crate::equations::side_by_side::checks::within_reach;
+use crate::equations::side_by_side::gather::{accelerations_in_lanes, joints_in_lanes};
+use crate::equations::side_by_side::group::DeviceGroup;
+use crate::equations::system::Solution;
+use crate::model::kind::{Kind, LoadDerivatives};
+use crate::numbers::lane::Lane;
+use crate::numbers::laned::{Block, Number, WIDEST};
+use crate::numbers::real::Scalar;
+use crate::numbers::vec3::{Columns, Vec3, map, rotate_transposed};
+
+/// Devices whose kernel is to be evaluated; lanes without a device repeat the last.
+pub(crate) struct GroupKernel<'a, K: Kind> {
+    pub(crate) group: &'a DeviceGroup<K>,
+    pub(crate) joints: [&'a K::Joints<K::Scalar>; WIDEST],
+    pub(crate) accelerations: [&'a K::Accelerations<K::Scalar>; WIDEST],
+    /// How their base moves, in its axes.
+    pub(crate) omega: Vec3<K::Scalar>,
+    pub(crate) hub: HubAccelerations<K::Scalar>,
+    /// Of the device of each lane, to be written.
+    pub(crate) loads: &'a mut [KernelLoads<K::Scalar>],
+}
+
+impl<K: Kind> GroupKernel<'_, K> {
+    /// Evaluates it. None where lanes do not support the devices or the angles: then nothing was written.
+    ///
+    /// Never inlined: one function of a kind and a width for all sets.
+    #[inline(never)]
+    pub(crate) fn run(self) -> Option<()> {
+        self.group.registers.dispatch(self)
+    }
+}
+
+impl<K: Kind> WithSimd for GroupKernel<'_, K> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Option<()> {
+        self.evaluate(Lane::splat(simd, 0.0))
+    }
+}
+
+impl<K: Kind> GroupKernel<'_, K> {
+    #[inline(always)]
+    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
+        let Self { group, joints, accelerations, omega, hub, loads } = self;
+        if group.blocks.is_lumped() {
+            return None;
+        }
+        let joints = joints_in_lanes::<K, T>(zero, joints);
+        let holds = zero.like(1.0).or(within_reach::<K, T>(zero, &joints), zero).store();
+        if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
+            return None;
+        }
+        let accelerations = accelerations_in_lanes::<K, T>(zero, accelerations);
+        let mount = group.blocks.loads_in_lanes(zero).mount;
+        let hub = Solution {
+            r_b_n_ddot: within(zero, &mount, hub.r_b_n_ddot),
+            omega_dot: within(zero, &mount, hub.omega_dot),
+        };
+        let (hub, omega) = (hub.expressed_in_b(), expressed_in_b(within(zero, &mount, omega)));
+        let pose = K::pose(&joints);
+        let constants = group.blocks.in_lanes(zero).constants;
+        let found = K::load_derivatives(&constants, &pose, &joints, &omega, &hub, &accelerations)?;
+        match T::WIDTH {
+            2 => write::<K, T, 2>(&found, loads),
+            4 => write::<K, T, 4>(&found, loads),
+            _ => write::<K, T, WIDEST>(&found, loads),
+        }
+    }
+}
+
+/// Writes the results of each lane.
+#[inline(always)]
+fn write<K: Kind, T: Number, const WIDTH: usize>(
+    found: &LoadDerivatives<K, T>,
+    loads: &mut [KernelLoads<K::Scalar>],
+) -> Option<()> {
+    let loads = loads.first_chunk_mut::<WIDTH>()?;
+    show(
+        found,
+        K::JOINTS.len(),
+        #[inline(always)]
+        |place, number: T| {
+            let Block(lanes) = number.store();
+            for (to, number) in loads.iter_mut().zip(lanes) {
+                to.put(place, K::Scalar::from_f64(number));
+            }
+        },
+    );
+    Some(())
+}
+
+/// A vector in the axes of the device of each lane.
+#[inline(always)]
+fn within<U: Scalar, T: Number>(like: T, mount: &Columns<T>, v: Vec3<U>) -> Vec3<T> {
+    rotate_transposed(mount, map(v, |number| like.like(number.to_f64())))
+}

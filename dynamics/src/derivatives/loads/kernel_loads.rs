@@ -1,0 +1,230 @@
+//! [`KernelLoads`]: results of the emitted kernel `load_derivatives` of a device, some variables side by side.
+
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
+use crate::derivatives::loads::kernel::{NotEmitted, load_derivatives};
+use crate::derivatives::loads::side_by_side::{LoadGroup, Six, TOGETHER, turned};
+use crate::equations::arithmetic::Arithmetic;
+use crate::equations::device::Device;
+use crate::equations::load_sums::HubAccelerations;
+use crate::model::joint_array::MAX_JOINTS;
+use crate::model::kind::{Kernels, Kind, LoadColumn, LoadDerivatives};
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Real, Scalar, zero};
+use crate::numbers::vec3::{Columns, Vec3, components};
+
+/// Groups of variables: coordinates and then rates of the joints; their accelerations; the hub's angular velocity and its
+/// derivative.
+const STATES: usize = 0;
+const ACCELERATIONS: usize = STATES + (2 * MAX_JOINTS).div_ceil(TOGETHER);
+const OMEGA: usize = ACCELERATIONS + MAX_JOINTS.div_ceil(TOGETHER);
+const OMEGA_DOT: usize = OMEGA + 1;
+const GROUPS: usize = OMEGA_DOT + 1;
+
+/// What the kernel of a device is called with.
+pub(crate) struct KernelInputs<'a, K: Kind> {
+    pub(crate) device: &'a Device<K>,
+    pub(crate) joints: &'a K::Joints<K::Scalar>,
+    pub(crate) accelerations: &'a K::Accelerations<K::Scalar>,
+    pub(crate) omega: Vec3<K::Scalar>,
+    pub(crate) hub: HubAccelerations<K::Scalar>,
+}
+
+/// Results of the kernel of a device, in the device's axes, with springs and friction. Places of no variable of the device
+/// keep numbers of devices before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct KernelLoads<T> {
+    groups: [LoadGroup<T>; GROUPS],
+}
+
+impl<T: Scalar> KernelLoads<T> {
+    pub(crate) fn none() -> Self {
+        Self { groups: [LoadGroup::none(); GROUPS] }
+    }
+
+    /// Evaluates the kernel of a device.
+    pub(crate) fn evaluate<K: Kind<Scalar = T>>(
+        &mut self,
+        by: Arithmetic,
+        inputs: &KernelInputs<'_, K>,
+    ) -> Result<(), NotEmitted> {
+        match by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { inputs, loads: self }),
+            Arithmetic::Portable => portable(inputs, self),
+        }
+    }
+
+    #[inline(always)]
+    fn set<K: Kind<Scalar = T>>(&mut self, of: &KernelInputs<'_, K>) -> Result<(), NotEmitted> {
+        let KernelInputs { device, joints, accelerations, omega, hub } = of;
+        let found = load_derivatives(device, joints, accelerations, (*omega, hub))?;
+        show(
+            &found,
+            K::JOINTS.len(),
+            #[inline(always)]
+            |place, number| self.put(place, number),
+        );
+        self.add_passive(device, joints);
+        Ok(())
+    }
+
+    /// Sets a number.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, [group, row, place]: [usize; 3], number: T) {
+        let Some(LoadGroup { hub, joints }) = self.groups.get_mut(group) else { return };
+        let row = if row < 6 { hub.get_mut(row) } else { joints.get_mut(row.wrapping_sub(6)) };
+        if let Some(to) = row.and_then(|row| row.get_mut(place)) {
+            *to = number;
+        }
+    }
+
+    /// Adds the slopes of springs and friction.
+    #[inline(always)]
+    pub(crate) fn add_passive<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        joints: &K::Joints<T>,
+    ) {
+        let count = K::JOINTS.len();
+        let passive = joints.states().zip(device.passive.values());
+        for (joint, ([_, rate], of)) in passive.enumerate() {
+            let slopes = [(joint, of.stiffness), (joint.wrapping_add(count), of.damping(rate))];
+            for (place, slope) in slopes {
+                let group = self.groups.get_mut(STATES.wrapping_add(place / TOGETHER));
+                let row = group.and_then(|group| group.joints.get_mut(joint));
+                if let Some(to) = row.and_then(|row| row.get_mut(place % TOGETHER)) {
+                    *to = *to + slope;
+                }
+            }
+        }
+    }
+
+    /// By the joints' coordinates and then by their rates.
+    pub(crate) fn states(&self) -> &[LoadGroup<T>] {
+        self.groups.get(STATES..ACCELERATIONS).unwrap_or_default()
+    }
+
+    /// By the hub's angular velocity, along the axes of the device.
+    pub(crate) fn omega(&self) -> &LoadGroup<T> {
+        &self.groups[OMEGA]
+    }
+
+    /// By its derivative.
+    pub(crate) fn omega_dot(&self) -> &LoadGroup<T> {
+        &self.groups[OMEGA_DOT]
+    }
+
+    /// By the joints' accelerations: the loads of the joints, and those of the hub, B axes.
+    #[inline(always)]
+    pub(crate) fn by_accelerations<const N: usize>(
+        &self,
+        mount: &Columns<T>,
+    ) -> ([[T; N]; N], [Six<T>; N]) {
+        let (mut mass, mut coupling) = ([[zero(); N]; N], [[zero(); 6]; N]);
+        let by_joint = mass.chunks_mut(TOGETHER).zip(coupling.chunks_mut(TOGETHER));
+        let groups = self.groups.get(ACCELERATIONS..OMEGA).unwrap_or_default();
+        for (group, (mass, coupling)) in groups.iter().zip(by_joint) {
+            let hub = turned(&group.hub, mount);
+            for (place, (mass, coupling)) in mass.iter_mut().zip(coupling).enumerate() {
+                for (to, from) in mass.iter_mut().zip(&group.joints) {
+                    *to = from[place % TOGETHER];
+                }
+                for (to, from) in coupling.iter_mut().zip(&hub) {
+                    *to = from[place % TOGETHER];
+                }
+            }
+        }
+        (mass, coupling)
+    }
+}
+
+/// Shows each number of a device of so many joints with its group, row (of the hub's load, then of the joints') and place.
+#[inline(always)]
+pub(crate) fn show<K: Kernels, T: Real>(
+    found: &LoadDerivatives<K, T>,
+    count: usize,
+    mut put: impl FnMut([usize; 3], T),
+) {
+    let mut joint = 0;
+    K::zip_per_joint(
+        &found.coordinates,
+        &found.rates,
+        #[inline(always)]
+        |by_coordinate, by_rate| {
+            show_column::<K, T>([STATES, joint], &by_coordinate, &mut put);
+            show_column::<K, T>([STATES, count.wrapping_add(joint)], &by_rate, &mut put);
+            joint = joint.wrapping_add(1);
+        },
+    );
+    let mut joint = 0;
+    K::zip_per_joint(
+        &found.accelerations,
+        &found.accelerations,
+        #[inline(always)]
+        |column, _| {
+            show_column::<K, T>([ACCELERATIONS, joint], &column, &mut put);
+            joint = joint.wrapping_add(1);
+        },
+    );
+    let ([a, b, c], [d, e, f]) = (&found.omega, &found.omega_dot);
+    show_column::<K, T>([OMEGA, 0], a, &mut put);
+    show_column::<K, T>([OMEGA, 1], b, &mut put);
+    show_column::<K, T>([OMEGA, 2], c, &mut put);
+    show_column::<K, T>([OMEGA_DOT, 0], d, &mut put);
+    show_column::<K, T>([OMEGA_DOT, 1], e, &mut put);
+    show_column::<K, T>([OMEGA_DOT, 2], f, &mut put);
+}
+
+/// The same of one column, whose place counts from the first of some groups on.
+#[inline(always)]
+fn show_column<K: Kernels, T: Real>(
+    [first, place]: [usize; 2],
+    of: &LoadColumn<K, T>,
+    put: &mut impl FnMut([usize; 3], T),
+) {
+    let (group, place) = (first.wrapping_add(place / TOGETHER), place % TOGETHER);
+    let ([a, b, c], [d, e, f]) = (components(&of.hub.force), components(&of.hub.moment));
+    put([group, 0, place], a);
+    put([group, 1, place], b);
+    put([group, 2, place], c);
+    put([group, 3, place], d);
+    put([group, 4, place], e);
+    put([group, 5, place], f);
+    let mut row = 6;
+    K::zip_per_joint(
+        &of.joints,
+        &of.joints,
+        #[inline(always)]
+        |number, _| {
+            put([group, row, place], number);
+            row = row.wrapping_add(1);
+        },
+    );
+}
+
+/// The kernel of a device by the instructions of this CPU.
+#[cfg(feature = "lanes")]
+struct Dispatched<'a, 'b, K: Kind> {
+    inputs: &'a KernelInputs<'a, K>,
+    loads: &'b mut KernelLoads<K::Scalar>,
+}
+
+#[cfg(feature = "lanes")]
+impl<K: Kind> pulp::WithSimd for Dispatched<'_, '_, K> {
+    type Output = Result<(), NotEmitted>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
+        self.loads.set(self.inputs)
+    }
+}
+
+// Never inlined: one copy for all sets.
+#[inline(never)]
+fn portable<K: Kind>(
+    inputs: &KernelInputs<'_, K>,
+    loads: &mut KernelLoads<K::Scalar>,
+) -> Result<(), NotEmitted> {
+    loads.set(inputs)
+}
