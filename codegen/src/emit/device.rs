@@ -15,7 +15,7 @@ use super::body::mention;
 use super::device_items::{Items, set};
 use super::device_parameters::{Parameter, parameters};
 use super::error::EmitError;
-use super::file::{EmittedFile, rust_file};
+use super::file::{EmittedFile, FEATURE, rust_file};
 use super::target_crate::TargetCrate;
 use super::text::{COMMENT, capital, documented, fnv1a64, ident, pretty_items};
 use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
@@ -40,11 +40,12 @@ pub(super) fn device_file(
     signatures: &Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let records = [structure(kind), joints(kind), motors(kind), per_joint(kind)];
-    let of_kind = Items { kind, signatures };
+    let feature = (target == TargetCrate::Dynamics).then_some(FEATURE);
+    let of_kind = Items { kind, signatures, feature };
     let by_number = target.dynamics_name().map(|dynamics| of_kind.by_number(dynamics));
     let items = of_kind.all();
     let items = quote!(#(#records)* #items);
-    let imports = imports(&target.dynamics()?, &items);
+    let imports = imports(&target.dynamics()?, feature, &items);
     let mut context = Context::new();
     context.insert("command", target.command());
     context.insert("source", kind.source);
@@ -57,7 +58,7 @@ pub(super) fn device_file(
 }
 
 /// What the items name of other modules; of the dynamics crate only that.
-fn imports(dynamics: &Path, items: &TokenStream) -> TokenStream {
+fn imports(dynamics: &Path, feature: Option<&str>, items: &TokenStream) -> TokenStream {
     let read = |names: TokenStream| {
         let names = names.into_iter().filter(|name| mention(items.clone(), &name.to_string()));
         quote!({ #(#names),* })
@@ -67,15 +68,18 @@ fn imports(dynamics: &Path, items: &TokenStream) -> TokenStream {
     });
     let kind = read(quote! {
         BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates JointSteering Kernels Kind
-        LoadDerivatives Lumped ParameterInfo ParameterMut Shape Steering Value Wrenches
+        Lumped ParameterInfo ParameterMut Shape Steering Value Wrenches
         components diagonal entries no_inertia unit vector zero
     });
+    let derivatives = feature.map(|feature| quote!(#[cfg(feature = #feature)]));
     let root = read(quote!(Angle Passive Real Scalar Wrench));
     quote! {
         use nalgebra::{Matrix3, Vector3};
         pub use super::JointAccelerations;
         use #dynamics::generated::hub::#hub;
         use #dynamics::kind::#kind;
+        #derivatives
+        use #dynamics::kind::LoadDerivatives;
         use #dynamics::#root;
     }
 }

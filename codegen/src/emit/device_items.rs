@@ -19,6 +19,8 @@ use crate::space::Axis;
 pub(super) struct Items<'a> {
     pub(super) kind: &'a Kind,
     pub(super) signatures: &'a Signatures,
+    /// The feature that derivatives are part of; none where the crate has none.
+    pub(super) feature: Option<&'static str>,
 }
 
 /// The number of an axis.

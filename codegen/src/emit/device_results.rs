@@ -115,7 +115,9 @@ impl Items<'_> {
         let by_accelerations = self.per_joint(|link| column(link.joint.acceleration));
         let [by_omega, by_omega_dot] =
             ["omega", "omega_dot"].map(|stem| XYZ.map(|axis| column(&format!("{stem}_b{axis}"))));
+        let feature = self.feature.map(|feature| quote!(#[cfg(feature = #feature)]));
         quote! {
+            #feature
             fn load_derivatives<T: Real>(
                 #constants: &Self::Constants<T>,
                 #pose: &Self::Pose<T>,

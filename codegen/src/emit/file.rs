@@ -28,6 +28,15 @@ const LANED: [&str; 4] = ["Prepared", "JointAccelerations", "HubShare", "Gains"]
 /// The functions that contain the mount: their vectors are expressed in B.
 const OF_HUB: [&str; 3] = ["constant_share", "eliminate", "back_substitute"];
 
+/// The feature of the dynamics crate that its derivatives are part of, and the record and function that it has.
+pub(super) const FEATURE: &str = "derivatives";
+const OF_FEATURE: [&str; 2] = ["LoadDerivatives", "load_derivatives"];
+
+/// The feature that a record or function of this name is part of in a crate; the dynamics crate alone has one.
+fn feature(name: &str, target: TargetCrate<'_>) -> Option<&'static str> {
+    (target == TargetCrate::Dynamics && OF_FEATURE.contains(&name)).then_some(FEATURE)
+}
+
 /// One emitted file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EmittedFile {
@@ -46,6 +55,8 @@ struct FieldText {
 
 #[derive(Serialize)]
 pub(super) struct RecordText {
+    /// The feature that it is part of.
+    feature: Option<&'static str>,
     name: String,
     doc: Vec<String>,
     fields: Vec<FieldText>,
@@ -61,6 +72,7 @@ struct SectionText {
 
 #[derive(Serialize)]
 struct FunctionText {
+    feature: Option<&'static str>,
     doc: Vec<String>,
     inlined: bool,
     signature: String,
@@ -148,7 +160,7 @@ pub(super) fn kind_file(
         let letters = part.inputs.iter().map(|(letter, _)| *letter).collect();
         let fields = part.output.fields.iter().map(|field| field.name.clone()).collect();
         signatures.insert(part.name.clone(), Signature { letters, fields });
-        functions.push(function(part));
+        functions.push(function(part, target));
         if let Some(own) =
             records.iter_mut().find(|own| part.name == "prepare" && **own == part.output)
         {
@@ -230,6 +242,7 @@ pub(super) fn record_text(record: &Record, target: TargetCrate<'_>) -> RecordTex
         },
     };
     RecordText {
+        feature: feature(&record.name, target),
         name: record.name.clone(),
         doc: wrapped(&record.doc, COMMENT),
         fields: record.fields.iter().map(field).collect(),
@@ -243,7 +256,7 @@ pub(super) fn record_text(record: &Record, target: TargetCrate<'_>) -> RecordTex
     }
 }
 
-fn function(part: &Part) -> FunctionText {
+fn function(part: &Part, target: TargetCrate<'_>) -> FunctionText {
     let Part { name, body, .. } = part;
     let output = &part.output.name;
     let Counts { mul, add, neg, div } = body.counts;
@@ -266,6 +279,7 @@ fn function(part: &Part) -> FunctionText {
         lines: pretty(statements),
     };
     FunctionText {
+        feature: feature(name, target),
         doc: lines,
         inlined: INLINED.contains(&name.as_str()),
         signature,

@@ -15,10 +15,12 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates,
-    JointSteering, Kernels, Kind, LoadDerivatives, ParameterInfo, ParameterMut, Shape,
-    Steering, Value, Wrenches, components, diagonal, entries, no_inertia, unit, vector,
-    zero,
+    JointSteering, Kernels, Kind, ParameterInfo, ParameterMut, Shape, Steering, Value,
+    Wrenches, components, diagonal, entries, no_inertia, unit, vector, zero,
 };
+
+#[cfg(feature = "derivatives")]
+use crate::kind::LoadDerivatives;
 use crate::{Passive, Real, Scalar, Wrench};
 
 /// Double-gimbal control moment gyro with a balanced wheel.
@@ -288,6 +290,7 @@ impl<S: Scalar> Kernels for BalancedDgcmg<S> {
     }
 
     #[inline(always)]
+    #[cfg(feature = "derivatives")]
     fn load_derivatives<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,

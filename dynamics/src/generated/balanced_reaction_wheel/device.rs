@@ -15,9 +15,12 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates,
-    JointSteering, Kernels, Kind, LoadDerivatives, ParameterInfo, ParameterMut, Shape,
-    Steering, Value, Wrenches, components, diagonal, unit, vector, zero,
+    JointSteering, Kernels, Kind, ParameterInfo, ParameterMut, Shape, Steering, Value,
+    Wrenches, components, diagonal, unit, vector, zero,
 };
+
+#[cfg(feature = "derivatives")]
+use crate::kind::LoadDerivatives;
 use crate::{Passive, Real, Scalar, Wrench};
 
 /// Balanced reaction wheel.
@@ -198,6 +201,7 @@ impl<S: Scalar> Kernels for BalancedReactionWheel<S> {
     }
 
     #[inline(always)]
+    #[cfg(feature = "derivatives")]
     fn load_derivatives<T: Real>(
         constants: &Self::Constants<T>,
         (): &Self::Pose<T>,

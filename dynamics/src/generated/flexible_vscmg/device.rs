@@ -15,9 +15,12 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates,
-    JointSteering, Kernels, Kind, LoadDerivatives, Lumped, ParameterInfo, ParameterMut,
-    Shape, Steering, Value, Wrenches, components, entries, no_inertia, unit, vector, zero,
+    JointSteering, Kernels, Kind, Lumped, ParameterInfo, ParameterMut, Shape, Steering,
+    Value, Wrenches, components, entries, no_inertia, unit, vector, zero,
 };
+
+#[cfg(feature = "derivatives")]
+use crate::kind::LoadDerivatives;
 use crate::{Passive, Real, Scalar, Wrench};
 
 /// Flexible variable-speed control moment gyro.
@@ -417,6 +420,7 @@ impl<S: Scalar> Kernels for FlexibleVscmg<S> {
     }
 
     #[inline(always)]
+    #[cfg(feature = "derivatives")]
     fn load_derivatives<T: Real>(
         constants: &Self::Constants<T>,
         pose: &Self::Pose<T>,
