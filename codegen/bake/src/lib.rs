@@ -25,6 +25,7 @@ mod records_c;
 mod reference;
 mod rust;
 mod shape;
+mod solver;
 mod sources;
 mod spacecraft;
 mod templates;
@@ -38,6 +39,7 @@ pub use precess_description::Description;
 pub use error::BakeError;
 pub use options::{Language, Options};
 pub use shape::{HUB_OPERATIONS, Operations, SUM_OPERATIONS};
+pub use solver::solver;
 
 /// What is emitted of a spacecraft.
 pub struct Baked {

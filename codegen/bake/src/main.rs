@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use precess_bake::{Baked, Language, bake};
+use precess_bake::{Baked, Language, bake, solver};
+use precess_codegen::emit::EmittedFile;
 use precess_description::Description;
 
 /// Derives, proves and writes the kernels of one spacecraft
@@ -32,6 +33,9 @@ struct Options {
     /// Fold the values, too: constants instead of a constructor that takes them
     #[arg(long)]
     constants: bool,
+    /// Assume nothing: the solver of every spacecraft with these kinds, as C99
+    #[arg(long, conflicts_with = "constants")]
+    general: bool,
     /// Replace a folder that is there
     #[arg(long)]
     force: bool,
@@ -64,14 +68,30 @@ fn execute(options: &Options) -> Result<String, String> {
     let text = read(options.description.as_deref())?;
     let description = Description::read(&text).map_err(|error| error.to_string())?;
     let Options { language, constants, .. } = *options;
+    if options.general {
+        if language == Language::Rust {
+            return Err(
+                "--general writes C; in Rust the library is general: add `--language c`".to_owned()
+            );
+        }
+        let files = solver(&description).map_err(|error| error.to_string())?;
+        put(&files, options)?;
+        let (out, count) = (options.out.display(), files.len());
+        return Ok(format!("{out}: {count} files, for every spacecraft with these kinds\n"));
+    }
     let what = precess_bake::Options { language, constants };
     let baked = bake(&description, what).map_err(|error| error.to_string())?;
-    if options.check {
-        check(&baked, &options.out)?;
-    } else {
-        write(&baked, &options.out, options.force)?;
-    }
+    put(&baked.files, options)?;
     Ok(report(&baked, &options.out))
+}
+
+/// Writes the files, or compares with what is there.
+fn put(files: &[EmittedFile], options: &Options) -> Result<(), String> {
+    if options.check {
+        check(files, &options.out)
+    } else {
+        write(files, &options.out, options.force)
+    }
 }
 
 fn read(path: Option<&Path>) -> Result<String, String> {
@@ -85,7 +105,7 @@ fn read(path: Option<&Path>) -> Result<String, String> {
 
 /// Writes all files beside the folder, then puts them in its place: a new folder at once, those of
 /// a folder that is there one by one.
-fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
+fn write(files: &[EmittedFile], out: &Path, force: bool) -> Result<(), String> {
     let shown = |error: io::Error| format!("{}: {error}", out.display());
     if out.exists() && !force {
         let out = out.display();
@@ -95,7 +115,7 @@ fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
     let parent = parent.unwrap_or(Path::new("."));
     fs::create_dir_all(parent).map_err(shown)?;
     let made = tempfile::tempdir_in(parent).map_err(shown)?;
-    for file in &baked.files {
+    for file in files {
         let path = made.path().join(&file.path);
         fs::create_dir_all(path.parent().unwrap_or(parent)).map_err(shown)?;
         fs::write(&path, &file.text).map_err(shown)?;
@@ -106,7 +126,7 @@ fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
         return Ok(());
     }
     // Files of others in the folder stay.
-    for file in &baked.files {
+    for file in files {
         let path = out.join(&file.path);
         fs::create_dir_all(path.parent().unwrap_or(out)).map_err(shown)?;
         fs::rename(made.path().join(&file.path), &path).map_err(shown)?;
@@ -115,11 +135,11 @@ fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
 }
 
 /// Whether the folder has these files.
-fn check(baked: &Baked, out: &Path) -> Result<(), String> {
+fn check(files: &[EmittedFile], out: &Path) -> Result<(), String> {
     let differs = |path: &str, text: &str| {
         fs::read_to_string(out.join(path)).map_or(true, |found| found != text)
     };
-    let stale: Vec<_> = baked.files.iter().filter(|file| differs(&file.path, &file.text)).collect();
+    let stale: Vec<_> = files.iter().filter(|file| differs(&file.path, &file.text)).collect();
     if stale.is_empty() {
         return Ok(());
     }

@@ -82,10 +82,7 @@ pub const SUM_OPERATIONS: usize = 36;
 pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeError> {
     let mut list: Vec<Shape<'_>> = Vec::new();
     let own = description.name.as_str();
-    let reserved = NOT_OF_A_SPACECRAFT.contains(&own) || own.starts_with("precess");
-    if reserved || is_keyword(own) || own.contains("__") || own.ends_with('_') {
-        return Err(BakeError::Name(own.to_owned()));
-    }
+    check_name(own)?;
     for device in &description.device {
         let known = KINDS.iter().find(|kind| kind.name == device.kind);
         let unknown = || BakeError::Kind(device.name.clone(), device.kind.clone());
@@ -121,6 +118,15 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         }
     }
     Ok(list)
+}
+
+/// Whether files and records may have the spacecraft's name.
+pub(crate) fn check_name(own: &str) -> Result<(), BakeError> {
+    let reserved = NOT_OF_A_SPACECRAFT.contains(&own) || own.starts_with("precess");
+    if reserved || is_keyword(own) || own.contains("__") || own.ends_with('_') {
+        return Err(BakeError::Name(own.to_owned()));
+    }
+    Ok(())
 }
 
 /// The turns of a device's mount, where it is made of some.

@@ -45,6 +45,9 @@ pub(super) struct Bake {
     /// Fold the values, too: constants instead of a constructor that takes them.
     #[arg(long)]
     constants: bool,
+    /// Assume nothing: the solver of every spacecraft with these kinds of devices, as C99.
+    #[arg(long, conflicts_with_all = ["constants", "unlock"])]
+    general: bool,
     /// Joints that the scenario locks stay joints.
     #[arg(long)]
     unlock: bool,

@@ -30,6 +30,23 @@ const BY_HAND: [(&str, &str); 4] = [
     ("precess_sin_cos.c", include_str!("by_hand/precess_sin_cos.c")),
 ];
 
+/// Hand-written C of the rest of the solver: joints, gravity, attitude, what devices share.
+const SOLVER: [(&str, &str); 13] = [
+    ("precess_status.h", include_str!("by_hand/precess_status.h")),
+    ("precess_arithmetic.h", include_str!("by_hand/precess_arithmetic.h")),
+    ("precess_arithmetic.c", include_str!("by_hand/precess_arithmetic.c")),
+    ("precess_joint.h", include_str!("by_hand/precess_joint.h")),
+    ("precess_joint.c", include_str!("by_hand/precess_joint.c")),
+    ("precess_gravity.h", include_str!("by_hand/precess_gravity.h")),
+    ("precess_gravity.c", include_str!("by_hand/precess_gravity.c")),
+    ("precess_attitude.h", include_str!("by_hand/precess_attitude.h")),
+    ("precess_attitude.c", include_str!("by_hand/precess_attitude.c")),
+    ("precess_evaluation.h", include_str!("by_hand/precess_evaluation.h")),
+    ("precess_evaluation.c", include_str!("by_hand/precess_evaluation.c")),
+    ("precess_device.h", include_str!("by_hand/precess_device.h")),
+    ("precess_device.c", include_str!("by_hand/precess_device.c")),
+];
+
 /// The kernels of every kind, the records that they share, and the hub's equations.
 ///
 /// # Errors
@@ -40,6 +57,7 @@ pub fn files() -> Result<Vec<EmittedFile>, EmitError> {
         files.extend(kind?);
     }
     files.extend(shared()?);
+    files.extend(solver());
     Ok(files)
 }
 
@@ -59,6 +77,13 @@ pub fn shared() -> Result<Vec<EmittedFile>, EmitError> {
         BY_HAND.map(|(path, text)| EmittedFile { path: path.to_owned(), text: text.to_owned() });
     files.extend(by_hand);
     Ok(files)
+}
+
+/// The rest of the solver, apart from what depends on kinds: joints, gravity, attitude, devices.
+#[must_use]
+pub fn solver() -> Vec<EmittedFile> {
+    let file = |(path, text): (&str, &str)| EmittedFile { path: path.into(), text: text.into() };
+    SOLVER.map(file).into()
 }
 
 /// Header and source of one kind.
@@ -226,7 +251,9 @@ mod tests {
         let stems = KINDS.map(|kind| format!("precess_{}", kind.name));
         let expected = stems.iter().flat_map(|stem| ["h", "c"].map(|end| format!("{stem}.{end}")));
         let shared = ["precess_hub.h"].into_iter().chain(BY_HAND.map(|(path, _)| path));
-        let expected: Vec<_> = expected.chain(shared.map(str::to_owned)).collect();
+        let solver = SOLVER.map(|(path, _)| path);
+        let expected = expected.chain(shared.chain(solver).map(str::to_owned));
+        let expected: Vec<_> = expected.collect();
         assert_eq!(files.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), expected);
         for file in &files {
             let wide = file.text.lines().find(|line| line.chars().count() > LINE);

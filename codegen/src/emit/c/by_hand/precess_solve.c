@@ -141,6 +141,17 @@ void precess_assembly_add(struct precess_assembly *assembly, const struct preces
     assembly->h_w[2] += share->h_w_3;
 }
 
+void precess_assembly_add_wrench(
+    struct precess_assembly *assembly, const double force[3], const double moment[3])
+{
+    int k;
+
+    for (k = 0; k < 3; k++) {
+        assembly->force[k] += force[k];
+        assembly->torque_b[k] += moment[k];
+    }
+}
+
 int precess_pivot_is_sound(double pivot, double scale)
 {
     return pivot > 64.0 * DBL_EPSILON * scale;
@@ -292,20 +303,70 @@ static int is_finite(double x)
     return x - x == 0.0;
 }
 
+/* Factors of rows one to three, rows four to six of L by columns, factors of the Schur complement. */
+static void factorise_system(
+    const struct system *system, struct factors *vv, double z[3][3], struct factors *ww)
+{
+    double w[3][3];
+    double schur[6];
+    int k;
+
+    factorise(system->m_vv, vv);
+    /* Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w. */
+    for (k = 0; k < 3; k++) {
+        forward(vv, system->m_vw[k], w[k]);
+        divide(vv, w[k], z[k]);
+    }
+    schur[0] = system->m_ww[0] - dot(w[0], z[0]);
+    schur[1] = system->m_ww[1] - dot(w[0], z[1]);
+    schur[2] = system->m_ww[2] - dot(w[0], z[2]);
+    schur[3] = system->m_ww[3] - dot(w[1], z[1]);
+    schur[4] = system->m_ww[4] - dot(w[1], z[2]);
+    schur[5] = system->m_ww[5] - dot(w[2], z[2]);
+    factorise(schur, ww);
+}
+
+/* Moments of inertia of the spacecraft with every joint locked; the moving share may cancel nearly
+ * all of the constant one, whose rounding stays: both count. */
+static void moments_of(const struct precess_assembly *assembly, double out[3])
+{
+    const double *const locked = assembly->body.inertia;
+
+    out[0] = assembly->constant[0] + locked[0];
+    out[1] = assembly->constant[1] + locked[3];
+    out[2] = assembly->constant[2] + locked[5];
+}
+
+void precess_assembly_pivots(
+    const struct precess_assembly *assembly, double pivots[6], double scales[6])
+{
+    static const double STILL[3] = {0.0, 0.0, 0.0};
+    struct system system;
+    struct factors vv;
+    struct factors ww;
+    double z[3][3];
+    int k;
+
+    put_together(assembly, STILL, &system);
+    factorise_system(&system, &vv, z, &ww);
+    for (k = 0; k < 3; k++) {
+        pivots[k] = vv.pivots[k];
+        pivots[3 + k] = ww.pivots[k];
+        scales[k] = assembly->body.mass;
+    }
+    moments_of(assembly, scales + 3);
+}
+
 enum precess_solved precess_assembly_solve(
     const struct precess_assembly *assembly,
     const struct precess_body_rate *omega,
     struct precess_body_acceleration *out)
 {
-    static const int DIAGONAL[3] = {0, 3, 5};
-    const double *const locked = assembly->body.inertia;
     const double rate[3] = {omega->omega_bx, omega->omega_by, omega->omega_bz};
     struct system system;
     struct factors vv;
     struct factors ww;
-    double w[3][3];
     double z[3][3];
-    double schur[6];
     double y_v[3];
     double y_w[3];
     double reduced[3];
@@ -317,20 +378,7 @@ enum precess_solved precess_assembly_solve(
     int k;
 
     put_together(assembly, rate, &system);
-    factorise(system.m_vv, &vv);
-
-    /* Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w. */
-    for (k = 0; k < 3; k++) {
-        forward(&vv, system.m_vw[k], w[k]);
-        divide(&vv, w[k], z[k]);
-    }
-    schur[0] = system.m_ww[0] - dot(w[0], z[0]);
-    schur[1] = system.m_ww[1] - dot(w[0], z[1]);
-    schur[2] = system.m_ww[2] - dot(w[0], z[2]);
-    schur[3] = system.m_ww[3] - dot(w[1], z[1]);
-    schur[4] = system.m_ww[4] - dot(w[1], z[2]);
-    schur[5] = system.m_ww[5] - dot(w[2], z[2]);
-    factorise(schur, &ww);
+    factorise_system(&system, &vv, z, &ww);
 
     forward(&vv, system.h_v, y_v);
     for (k = 0; k < 3; k++) {
@@ -346,9 +394,7 @@ enum precess_solved precess_assembly_solve(
     }
     backward(&vv, reduced, r_b_n_ddot);
 
-    for (k = 0; k < 3; k++) {
-        moments[k] = assembly->constant[k] + locked[DIAGONAL[k]];
-    }
+    moments_of(assembly, moments);
     grow(assembly->body.mass, moments, &vv, (const double(*)[3])z, &ww, scales);
     for (k = 0; k < 3; k++) {
         if (!precess_pivot_is_sound(vv.pivots[k], scales[k])

@@ -94,6 +94,15 @@ void precess_assembly_start(
  */
 void precess_assembly_add(struct precess_assembly *assembly, const struct precess_hub_share *share);
 
+/** Adds a force through B, N, and a moment about B, N m, from outside. */
+void precess_assembly_add_wrench(
+    struct precess_assembly *assembly, const double force[3], const double moment[3]);
+
+/** The hub's six pivots, kg and kg m², and the mass and moments of inertia that they are compared
+ * with: those of the spacecraft with every joint locked. */
+void precess_assembly_pivots(
+    const struct precess_assembly *assembly, double pivots[6], double scales[6]);
+
 /**
  * Solves the equations where the hub turns at `omega`. Nothing is written unless they are solved.
  */
