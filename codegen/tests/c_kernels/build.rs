@@ -68,7 +68,7 @@ pub(crate) fn c(
     });
     let program = folder.join("program");
     let mut command = Command::new(compiler);
-    command.args(objects).arg("-o").arg(&program);
+    command.args(more).args(objects).arg("-o").arg(&program);
     finish(compiler, &mut command);
     program
 }

@@ -8,7 +8,7 @@ impl Random {
         Self(seed)
     }
 
-    fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -24,12 +24,12 @@ impl Random {
     }
 
     /// Uniform between two bounds.
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         let between_one_and_two = f64::from_bits((1023 << 52) | (self.bits() >> 12));
         low + (high - low) * (between_one_and_two - 1.0)
     }
 
-    fn vector(&mut self, largest: f64) -> [f64; 3] {
+    pub(crate) fn vector(&mut self, largest: f64) -> [f64; 3] {
         [(); 3].map(|()| self.within(-largest, largest))
     }
 
@@ -41,7 +41,7 @@ impl Random {
     }
 
     /// A rotation, row by row.
-    fn rotation(&mut self) -> [f64; 9] {
+    pub(crate) fn rotation(&mut self) -> [f64; 9] {
         let (w, [x, y, z]) = (self.within(0.1, 1.0), self.vector(1.0));
         let s = 2.0 / (w * w + x * x + y * y + z * z);
         [
