@@ -27,9 +27,9 @@ struct Options {
     /// The folder to write
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// What to write
-    #[arg(long, value_enum, default_value_t = Language::Rust)]
-    language: Language,
+    /// What to write; a crate without this option, C with `--general`
+    #[arg(long, value_enum)]
+    language: Option<Language>,
     /// Fold the values, too: constants instead of a constructor that takes them
     #[arg(long)]
     constants: bool,
@@ -67,18 +67,17 @@ fn main() -> ExitCode {
 fn execute(options: &Options) -> Result<String, String> {
     let text = read(options.description.as_deref())?;
     let description = Description::read(&text).map_err(|error| error.to_string())?;
-    let Options { language, constants, .. } = *options;
     if options.general {
-        if language == Language::Rust {
-            return Err(
-                "--general writes C; in Rust the library is general: add `--language c`".to_owned()
-            );
+        if options.language == Some(Language::Rust) {
+            let remedy = "in Rust, the crate `precess-dynamics` is the general solver";
+            return Err(format!("--general writes C; {remedy}"));
         }
         let files = solver(&description).map_err(|error| error.to_string())?;
         put(&files, options)?;
         let (out, count) = (options.out.display(), files.len());
         return Ok(format!("{out}: {count} files, for every spacecraft with these kinds\n"));
     }
+    let (language, constants) = (options.language.unwrap_or(Language::Rust), options.constants);
     let what = precess_bake::Options { language, constants };
     let baked = bake(&description, what).map_err(|error| error.to_string())?;
     put(&baked.files, options)?;

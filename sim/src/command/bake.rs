@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::{Args, ValueEnum};
+use precess_dynamics::HubMode;
 
 use super::error::CommandError;
 use super::exit::Exit;
@@ -15,6 +16,7 @@ use super::options::Set;
 use super::outputs::Outputs;
 use super::terminal::{note, print};
 use crate::file::from_file;
+use crate::scenario::Scenario;
 
 /// The program that derives, beside this one or on the path.
 const PROGRAM: &str = "precess-bake";
@@ -39,9 +41,9 @@ pub(super) struct Bake {
     /// The folder to write; beside the scenario, by its name, without this option.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What to write.
-    #[arg(long, value_enum, default_value_t = Language::Rust)]
-    language: Language,
+    /// What to write; a crate without this option, C with `--general`.
+    #[arg(long, value_enum)]
+    language: Option<Language>,
     /// Fold the values, too: constants instead of a constructor that takes them.
     #[arg(long)]
     constants: bool,
@@ -64,13 +66,20 @@ impl Bake {
         let (scenario, _) =
             from_file(&self.file, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
-        let description = scenario.description(self.unlock).map_err(|error| other(&error))?;
+        let description = if self.general {
+            // What holds a hub or a joint is an input.
+            Scenario { hub_mode: HubMode::Free, ..scenario.clone() }.description(true)
+        } else {
+            scenario.description(self.unlock)
+        };
+        let description = description.map_err(|error| other(&error))?;
         let text = description.write().map_err(|error| other(&error))?;
         if self.description {
             print(&text)?;
             return Ok(Exit::Success);
         }
-        for left in scenario.not_described() {
+        let left = if self.general { Vec::new() } else { scenario.not_described() };
+        for left in left {
             note(&format!("note: {left} is not part of the kernels; add it to torques and forces"));
         }
         let out = self.out.clone().unwrap_or_else(|| self.file.with_file_name(&description.name));
@@ -82,8 +91,12 @@ impl Bake {
     fn derive(&self, description: &str, out: &Path) -> Result<Exit, CommandError> {
         let mut command = Command::new(program());
         command.arg("--out").arg(out);
-        command.args(["--language", if self.language == Language::C { "c" } else { "rust" }]);
-        for (given, flag) in [(self.constants, "--constants"), (self.force, "--force")] {
+        if let Some(language) = self.language {
+            command.args(["--language", if language == Language::C { "c" } else { "rust" }]);
+        }
+        for (given, flag) in
+            [(self.constants, "--constants"), (self.general, "--general"), (self.force, "--force")]
+        {
             if given {
                 command.arg(flag);
             }

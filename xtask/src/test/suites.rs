@@ -166,6 +166,11 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
     always("precess-bake", "lib", &[GENERATOR, BAKING]),
     always("precess-bake", "c_reference", &[GENERATOR, BAKING]),
+    always(
+        "precess-bake",
+        "c_solver",
+        &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "docs/c.md"]],
+    ),
     always("precess-bake", "missions", &[GENERATOR, BAKING]),
     all("precess-bake", "mutation", &[GENERATOR, BAKING]),
     always("precess-description", "lib", &[BAKING]),

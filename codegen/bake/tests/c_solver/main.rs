@@ -6,13 +6,17 @@
 #[path = "../../../tests/c_kernels/build.rs"]
 mod build;
 mod case;
+mod example;
 #[allow(dead_code, reason = "shared with the suite of the kernels")]
 #[path = "../../../tests/c_kernels/random.rs"]
 mod random;
 mod reference;
 
+use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
+use nalgebra::{Matrix3, Vector3};
 use precess_bake::{Description, solver};
 use precess_codegen::emit::EmittedFile;
 use precess_description::{Body, Device, Hub};
@@ -22,6 +26,8 @@ use case::{Case, Settings};
 use random::Random;
 use reference::reference;
 
+/// The page for users.
+const PAGE: &str = include_str!("../../../../docs/c.md");
 /// Where all random numbers start.
 const SEED: u64 = 0x40_C501;
 /// Spacecraft of each setting whose accelerations are compared.
@@ -96,6 +102,12 @@ fn kinds(names: &[&str]) -> Vec<BuiltInKind> {
 
 /// What is emitted of a set.
 fn files(name: &str, names: &[&str]) -> Vec<EmittedFile> {
+    let devices: Vec<_> = (0..names.len()).map(|k| format!("device{k}")).collect();
+    files_of(name, &devices, names)
+}
+
+/// What is emitted of a set of devices with these names.
+fn files_of(name: &str, devices: &[String], names: &[&str]) -> Vec<EmittedFile> {
     let zero = [[0.0; 3]; 3];
     let body = Body {
         mass: 1.0,
@@ -104,8 +116,8 @@ fn files(name: &str, names: &[&str]) -> Vec<EmittedFile> {
         inertia: zero,
         locked_at: None,
     };
-    let device = |(k, kind): (usize, BuiltInKind)| Device {
-        name: format!("device{k}"),
+    let device = |(name, kind): (&String, BuiltInKind)| Device {
+        name: name.clone(),
         kind: kind.name().to_owned(),
         mount: zero,
         turns: None,
@@ -117,7 +129,7 @@ fn files(name: &str, names: &[&str]) -> Vec<EmittedFile> {
         name: name.to_owned(),
         title: String::new(),
         hub: Hub { mass: 1.0, centre_of_mass: [0.0; 3], inertia: zero },
-        device: kinds(names).into_iter().enumerate().map(device).collect(),
+        device: devices.iter().zip(kinds(names)).map(device).collect(),
     };
     let files = solver(&description).expect("a solver").into_iter();
     files.filter(|file| file.path != "README.md").collect()
@@ -274,12 +286,12 @@ fn singular(random: &mut Random) -> Case {
     let mut case = Case::random(&kinds(SETS[0].1), PLAIN, random);
     let mut parameters = case.devices[0].parameters();
     for body in &mut parameters.bodies[..2] {
-        (body.mass, body.inertia, body.centre) = (0.0, nalgebra::Matrix3::zeros(), [0.0; 3]);
+        (body.mass, body.inertia, body.centre) = (0.0, Matrix3::zeros(), [0.0; 3]);
     }
     parameters.bodies[1].origin = [0.0; 3];
     let wheel = &mut parameters.bodies[2];
     (wheel.origin, wheel.centre) = ([0.0; 3], [0.0; 3]);
-    wheel.inertia = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(0.2, 0.1, 0.1));
+    wheel.inertia = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     case.devices[0] = BuiltIn::new(BuiltInKind::Dgvscmg, &parameters).expect("a bare wheel");
     case.joints[1].coordinate = core::f64::consts::FRAC_PI_2;
     case
@@ -325,6 +337,40 @@ fn parameters_and_angles_that_c_does_not_take_are_refused() {
         let expected = [[0.0, 0.0], [0.0, 3.0], parameter, parameter, parameter, parameter];
         assert_eq!(statuses, expected, "{compiler}");
     }
+}
+
+#[test]
+fn the_example_of_the_page_runs_as_in_rust() {
+    let example = include_str!("example.c");
+    assert!(PAGE.contains(&format!("```c\n{example}```\n")), "docs/c.md shows another example");
+    let files = files_of("bus", &["wheel_x".to_owned()], &["reaction_wheel"]);
+    let [spin, omega] = example::in_rust();
+    for compiler in build::compilers() {
+        let folder = build::folder(&format!("solver_example_{compiler}"));
+        let program = build::c(&folder, compiler, &files, &[("main.c", example)], &[]);
+        let output = Command::new(program).output().expect("the program starts");
+        let printed = String::from_utf8_lossy(&output.stdout);
+        let numbers: Vec<f64> = printed.split_whitespace().flat_map(str::parse).collect();
+        assert_eq!(numbers, [spin, omega], "{compiler}: {printed}");
+    }
+}
+
+/// Clang needs nothing but itself for that; GCC's C++ is a package of its own.
+#[test]
+fn the_headers_are_good_cpp_too() {
+    if !build::compilers().contains(&"clang") {
+        return;
+    }
+    let (name, names) = SETS[1];
+    let at = build::folder("solver_cpp");
+    for file in files(name, names) {
+        fs::write(at.join(&file.path), &file.text).expect("an emitted file");
+    }
+    let mut clang = Command::new("clang");
+    clang.args(["-x", "c++", "-std=c++11", "-fsyntax-only", "-Wall", "-Wextra", "-pedantic"]);
+    let header = format!("{name}.h");
+    let output = clang.args(["-Werror", &header]).current_dir(&at).output().expect("clang");
+    assert!(output.status.success(), "{output:?}");
 }
 
 /// One operation in another order, in each file written by hand: the comparison sees it.

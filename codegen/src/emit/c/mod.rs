@@ -23,7 +23,8 @@ use crate::kinds::{KINDS, Kind};
 use crate::threads::side_by_side;
 
 /// Hand-written C of the solver: what an evaluation needs besides the kernels.
-const BY_HAND: [(&str, &str); 4] = [
+const BY_HAND: [(&str, &str); 5] = [
+    ("precess_body.c", include_str!("by_hand/precess_body.c")),
     ("precess_solve.h", include_str!("by_hand/precess_solve.h")),
     ("precess_solve.c", include_str!("by_hand/precess_solve.c")),
     ("precess_sin_cos.h", include_str!("by_hand/precess_sin_cos.h")),
