@@ -23,6 +23,8 @@ use crate::units::{Measure, Plain};
 
 pub use names::check_budget_names;
 
+/// What an override of a budget begins with; those of its scenario have none.
+const PREFIX: &str = "budget.";
 /// The number of the format that this program reads.
 const FORMAT: u32 = 1;
 /// Speeds without the key.
@@ -41,7 +43,7 @@ pub(super) const SCENARIO_KEYS: [&str; 4] = ["hub", "device", "run", "structure"
 pub fn budget_overrides(set: &[Override]) -> Result<[Overrides; 2], String> {
     let [mut of_budget, mut of_scenario] = [Vec::new(), Vec::new()];
     for text in set {
-        if let Some(text) = text.trim_start().strip_prefix("budget.") {
+        if let Some(text) = text.trim_start().strip_prefix(PREFIX) {
             of_budget.push(text.to_owned());
             continue;
         }
@@ -49,7 +51,7 @@ pub fn budget_overrides(set: &[Override]) -> Result<[Overrides; 2], String> {
         // A scenario has requirements, too; a budget has no use for them.
         if key == "requirement" || BUDGET_KEYS.contains(&key) {
             let text = text.trim_start();
-            return Err(format!("{text}: `{key}` is of the budget; write budget.{text}"));
+            return Err(format!("{text}: `{key}` is of the budget; write {PREFIX}{text}"));
         }
         of_scenario.push(text.clone());
     }
@@ -64,7 +66,7 @@ pub fn budget_from_toml(
     path: &Path,
     overrides: &[Override],
 ) -> Result<(Budget, PathBuf), Diagnostics> {
-    read_file(path, "budget", overrides, |keys| budget(keys, folder_of(path)))
+    read_file(path, "budget", (PREFIX, overrides), |keys| budget(keys, folder_of(path)))
 }
 
 fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {

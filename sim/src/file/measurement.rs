@@ -54,7 +54,7 @@ pub fn measurement_from_toml(
     path: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<MeasurementFile, Diagnostics> {
-    read_file(path, "measurement", &[], |keys| read(keys, folder_of(path), progress))
+    read_file(path, "measurement", ("", &[]), |keys| read(keys, folder_of(path), progress))
 }
 
 fn read(keys: &Keys<'_>, folder: &Path, progress: &mut dyn FnMut(&str)) -> Option<MeasurementFile> {

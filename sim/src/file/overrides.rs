@@ -29,12 +29,24 @@ pub(super) fn apply(
     (overrides, numbers): (&[Override], Numbers),
     reports: &mut Diagnostics,
 ) {
+    apply_with_prefix(node, (overrides, numbers), "", reports);
+}
+
+/// The same of overrides that were written with a prefix, `budget.`, which is taken off: messages have it.
+pub(super) fn apply_with_prefix(
+    node: &mut Node,
+    (overrides, numbers): (&[Override], Numbers),
+    prefix: &str,
+    reports: &mut Diagnostics,
+) {
     let files = reports.sources.len();
     for text in overrides {
         match plain(node, text) {
-            Ok(texts) => texts.iter().for_each(|text| one(node, (text, numbers), reports)),
+            Ok(texts) => {
+                texts.iter().for_each(|text| one(node, (text, numbers), prefix, reports));
+            }
             Err((message, help)) => {
-                reports.error_anywhere(format!("--set {text}: {message}"), &help);
+                reports.error_anywhere(format!("--set {prefix}{text}: {message}"), &help);
             }
         }
     }
@@ -45,11 +57,18 @@ pub(super) fn apply(
 type MessageAndHelp = (String, String);
 
 /// Puts an override of one key over a tree.
-fn one(node: &mut Node, (text, numbers): (&str, Numbers), reports: &mut Diagnostics) {
+fn one(node: &mut Node, (text, numbers): (&str, Numbers), prefix: &str, reports: &mut Diagnostics) {
     let before = reports.all.len();
-    let parsed = parse(&format!("--set {text}"), text, numbers, reports);
+    let typed = format!("{prefix}{text}");
+    let mut parsed = parse(&format!("--set {typed}"), &typed, numbers, reports);
     if reports.all.len() > before {
         return;
+    }
+    // The table that a prefix names.
+    if let (Value::Table(outer), Some(key)) = (&mut parsed.value, prefix.strip_suffix('.'))
+        && let Some(entry) = outer.get_mut(key)
+    {
+        parsed = entry.node.clone();
     }
     if let (Value::Table(tree), Value::Table(new)) = (&mut node.value, parsed.value) {
         over(tree, new, reports);

@@ -6,21 +6,21 @@ use std::path::Path;
 use super::diagnostic::{Diagnostics, Numbers};
 use super::keys::Keys;
 use super::load::{Override, load_file};
-use super::overrides::apply;
+use super::overrides::apply_with_prefix;
 
-/// Reads a TOML file whose keys `read` takes, after overrides.
+/// Reads a TOML file whose keys `read` takes, after overrides; they were written with a prefix, which was taken off.
 ///
 /// # Errors
 /// Everything that is wrong, with its places; `what` the file is not, where nothing else is.
 pub(super) fn read_file<T>(
     path: &Path,
     what: &str,
-    overrides: &[Override],
+    (prefix, overrides): (&str, &[Override]),
     read: impl FnOnce(&Keys<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let mut reports = Diagnostics::default();
     let mut node = load_file(path, &mut reports);
-    apply(&mut node, (overrides, Numbers::WithUnits), &mut reports);
+    apply_with_prefix(&mut node, (overrides, Numbers::WithUnits), prefix, &mut reports);
     if reports.has_errors() {
         return Err(reports);
     }

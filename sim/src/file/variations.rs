@@ -36,7 +36,7 @@ const WORDS: [(&str, DistributionName); 5] = [
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> {
-    read_file(path, "plan", &[], |keys| {
+    read_file(path, "plan", ("", &[]), |keys| {
         if let Some(key) = SCENARIO_KEYS.into_iter().find(|key| keys.has(key)) {
             let help =
                 "a plan states what varies: tables `[[vary]]` with a key and its distribution";

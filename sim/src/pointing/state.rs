@@ -151,7 +151,8 @@ impl fmt::Display for NoData {
             }
             Self::Short { needed, length } => write!(
                 f,
-                "the statistic needs {needed:e} s, its window has {} s; run longer or choose shorter ones",
+                "the statistic needs {} s, its window has {} s; run longer or choose shorter ones",
+                Plain(needed),
                 Plain(length)
             ),
             Self::FewSamples { least, length } => write!(
@@ -173,11 +174,14 @@ impl fmt::Display for NoData {
             }
             Self::NoLine { band: [from, to] } => write!(
                 f,
-                "no tone and no noise is within {from:e} Hz to {to:e} Hz at any speed; choose another band"
+                "no tone and no noise is within {} Hz to {} Hz at any speed; choose another band",
+                Plain(from),
+                Plain(to)
             ),
             Self::NoShare { exposure } => write!(
                 f,
-                "no tone and no noise has a share in exposures of {exposure:e} s; choose another exposure"
+                "no tone and no noise has a share in exposures of {} s; choose another exposure",
+                Plain(exposure)
             ),
             Self::NoNumber => f.write_str("a sample has no number for it"),
             Self::NotANumber => f.write_str("its value is not a number"),

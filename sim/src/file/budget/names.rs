@@ -7,6 +7,7 @@ use super::super::document::{Node, Value};
 use super::super::keys::Keys;
 use super::super::load::Override;
 use super::super::read_file::read_file;
+use super::PREFIX;
 use crate::jitter::model::HUB;
 use crate::nearest::did_you_mean;
 use crate::scenario::Scenario;
@@ -30,7 +31,7 @@ pub fn check_budget_names(
     let bodies: Vec<String> =
         scenario.joints().map(|(_, name, info)| format!("{name}.{}", info.body)).collect();
     let bodies: Vec<&str> = bodies.iter().map(String::as_str).collect();
-    read_file(path, "budget", overrides, |keys| {
+    read_file(path, "budget", (PREFIX, overrides), |keys| {
         let named = |keys: &Keys<'_>| check(keys, "node", ("node", &nodes), scenario);
         for sight in keys.tables("line_of_sight") {
             named(&sight);

@@ -39,7 +39,7 @@ struct MappedNode {
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn structure_from_toml(path: &Path) -> Result<Structure, Diagnostics> {
-    read_file(path, "structure", &[], |keys| read(keys, folder_of(path)))
+    read_file(path, "structure", ("", &[]), |keys| read(keys, folder_of(path)))
 }
 
 fn read(keys: &Keys<'_>, folder: &Path) -> Option<Structure> {
