@@ -4,9 +4,9 @@ use std::process::ExitCode;
 
 use crate::pointing::RequirementState;
 
-/// The code of a program that a second Ctrl-C ended.
+/// The code of a program that Ctrl-C ended.
 pub(super) const INTERRUPTED: u8 = 130;
-/// The code of a program that a second SIGTERM ended.
+/// The code of a program that SIGTERM ended.
 #[cfg(unix)]
 pub(super) const TERMINATED: u8 = 143;
 
@@ -18,7 +18,8 @@ Exit codes:
   2    a requirement is violated, results differ, a fitted model does not hold, or a run ended before its time
   3    a requirement could not be evaluated, and none is violated
   64   the command line is wrong
-  130  ended at once by a second Ctrl-C; 143 by a second SIGTERM. The first ends a run early, with results that say so";
+  130  ended by Ctrl-C, 143 by SIGTERM: of a run by the second, where the first ends it early, with results that say so;
+       of jitter and fit by the first, and nothing is written";
 
 /// How a command ended. The order is that of weight: of several files the heaviest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

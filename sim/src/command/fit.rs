@@ -12,6 +12,7 @@ use indicatif::ProgressBar;
 use super::error::CommandError;
 use super::exit::Exit;
 use super::outputs::Outputs;
+use super::progress::{end_by_interrupts, uninterrupted};
 use super::table::{aligned, six};
 use super::terminal::print;
 use crate::file::measurement_from_toml;
@@ -59,6 +60,7 @@ impl FitCommand {
             return Ok(Exit::Success);
         }
         let Some(path) = &self.file else { return Ok(Exit::Error) };
+        end_by_interrupts();
         // Silent where the output is no terminal.
         let bar = ProgressBar::new_spinner();
         bar.enable_steady_tick(Duration::from_millis(100));
@@ -116,7 +118,7 @@ fn write(
     files: &[(String, String)],
     force: bool,
 ) -> Result<String, CommandError> {
-    let paths = Outputs::reserve(folder, &[], force)?.write(files)?;
+    let paths = uninterrupted(|| Outputs::reserve(folder, &[], force)?.write(files))?;
     let lines: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
     Ok(lines.join("\n") + "\n")
 }

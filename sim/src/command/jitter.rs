@@ -11,7 +11,7 @@ use super::error::CommandError;
 use super::exit::Exit;
 use super::options::{Threads, as_toml};
 use super::outputs::Outputs;
-use super::progress::progress_bar;
+use super::progress::{end_by_interrupts, end_if_interrupted, progress_bar, uninterrupted};
 use super::table::{aligned, six};
 use super::terminal::{note, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
@@ -105,6 +105,7 @@ struct JitterResults {
 
 impl Jitter {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
+        end_by_interrupts();
         let [of_budget, of_scenario] = by_file(&self.set)?;
         let (budget, path) =
             budget_from_toml(&self.file, &of_budget).map_err(CommandError::Scenario)?;
@@ -112,7 +113,9 @@ impl Jitter {
         check_budget_names(&self.file, &of_budget, &scenario).map_err(CommandError::Scenario)?;
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         // Before the work, too; not kept, since an interrupt during the work would leave it.
-        drop(Outputs::reserve(&self.out, &[format!("{stem}.html")], self.force)?);
+        let page = [format!("{stem}.html")];
+        uninterrupted(|| Outputs::reserve(&self.out, &page, self.force).map(drop))?;
+        end_if_interrupted();
         let prepared = Prepared::new(&scenario, &budget).map_err(|error| match error {
             PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
             PrepareError::Model(error) => {
@@ -162,7 +165,7 @@ impl Jitter {
         for (name, svg) in report.figures().map_err(|error| other(&error))? {
             files.push((format!("{stem}-{name}.svg"), svg));
         }
-        Outputs::reserve(&self.out, &[], self.force)?.write(&files)?;
+        uninterrupted(|| Outputs::reserve(&self.out, &[], self.force)?.write(&files))?;
         print(&summary(&budget, &found))?;
         let folder = self.out.display();
         print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;

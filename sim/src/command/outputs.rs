@@ -7,6 +7,7 @@ use std::io::{self, BufRead as _, ErrorKind, IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::error::CommandError;
+use super::progress::interruptible;
 use super::terminal::written;
 use crate::opened::opened;
 use crate::record::partial::{Partial, Reservation, partial_name};
@@ -189,7 +190,7 @@ impl Outputs {
             format!("{} exists. Replace it and the results beside it? [y/N] ", path.display());
         let mut answer = String::new();
         let asked = written(&mut io::stderr(), &question);
-        let read = asked.and_then(|()| stdin.lock().read_line(&mut answer));
+        let read = interruptible(|| asked.and_then(|()| stdin.lock().read_line(&mut answer)));
         if read.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {
             self.force = true;
             return Ok(());

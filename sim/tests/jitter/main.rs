@@ -1,7 +1,10 @@
 //! Jitter in the frequency domain against closed forms and against runs of the coupled equations.
 
 mod command;
+mod cubesat;
 mod errors;
+#[cfg(target_os = "linux")]
+mod interrupted;
 mod known;
 mod map;
 mod run;
