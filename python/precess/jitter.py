@@ -42,7 +42,8 @@ class Limit:
     worst : float
         The speed at which it is largest, rad/s.
     shares : dict of Contributor to float
-        Shares of the mean square there, largest first; ``noise`` is that of broadband noise.
+        Shares of the mean square there, as the phases of the budget add tones up, largest first; with ``noise``, that of
+        broadband noise, they add up to one. With given phases the share of a tone is its projection on the sum, and may be negative.
     keep_out : list of (float, float)
         Speeds at which the limit is violated, rad/s.
     state : str

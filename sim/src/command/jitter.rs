@@ -1,6 +1,9 @@
 //! `jitter`: a budget into a verdict: lines of rotors over the speed through the structure to the lines of sight, against
 //! their limits, with a report.
 
+mod csv;
+mod summary;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -12,22 +15,22 @@ use super::exit::Exit;
 use super::options::{Threads, as_toml};
 use super::outputs::Outputs;
 use super::progress::{end_by_interrupts, end_if_interrupted, progress_bar, uninterrupted};
-use super::table::{aligned, six};
 use super::terminal::{note, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
 use crate::jitter::coupled::{Compared, compare};
 use crate::jitter::model::Contributor;
+use crate::jitter::own_speeds::AtOwnSpeeds;
 use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
-use crate::names::column_heads;
 use crate::pointing::RequirementState;
-use crate::report::jitter::{
-    AGREEMENT, JitterReport, disagreements, intervals, metric, rpm, worst_speed,
-};
+use crate::report::jitter::{JitterReport, disagreements, rpm};
 use crate::scenario::Scenario;
+use crate::structure::Fault;
+use csv::{lines_csv, own_speeds_csv, requirements_csv};
+use summary::summary;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -94,6 +97,8 @@ fn speed(text: &str) -> Result<f64, String> {
 struct JitterResults {
     sweep: Sweep,
     assessed: Vec<Assessed>,
+    /// The same with each rotor at its own speed.
+    at_own_speeds: Result<Vec<AtOwnSpeeds>, Fault>,
     campbell_speeds: Vec<f64>,
     branches: Vec<Branch>,
     crossings: Vec<Crossing>,
@@ -101,6 +106,13 @@ struct JitterResults {
     has_imbalance: bool,
     /// Of each requirement.
     sensitivities: Vec<Vec<Sensitivity>>,
+}
+
+impl JitterResults {
+    /// What is known of the rotors at their own speeds; empty where it is not.
+    fn own(&self) -> &[AtOwnSpeeds] {
+        self.at_own_speeds.as_deref().unwrap_or_default()
+    }
 }
 
 impl Jitter {
@@ -125,6 +137,7 @@ impl Jitter {
         let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         warnings.extend(prepared.left_out.iter().cloned());
+        warnings.extend(prepared.warnings_at_rest(&budget));
         warnings.extend(self.compared_outside(&budget));
         if !prepared.has_imbalance && !self.compare.is_empty() {
             warnings.push(format!("--compare: {NOT_COMPARED}"));
@@ -132,8 +145,12 @@ impl Jitter {
         for warning in &warnings {
             note(&format!("warning: {warning}"));
         }
+        let rotors = prepared.rotors(&budget);
         let found = self.find(&scenario, &budget, prepared)?;
-        for text in disagreements(&found.compared) {
+        let at_resonance = found.at_own_speeds.as_ref().err().map(|fault| {
+            format!("nothing is known of the rotors at the speeds of the scenario: {fault}")
+        });
+        for text in at_resonance.into_iter().chain(disagreements(&found.compared)) {
             note(&format!("warning: {text}"));
             warnings.push(text);
         }
@@ -147,7 +164,9 @@ impl Jitter {
             budget: &budget,
             text: &text,
             sweep: &found.sweep,
+            rotors: &rotors,
             assessed: &found.assessed,
+            at_own_speeds: found.own(),
             campbell_speeds: &found.campbell_speeds,
             branches: &found.branches,
             crossings: &found.crossings,
@@ -161,6 +180,7 @@ impl Jitter {
             (format!("{stem}.html"), report.html().map_err(|error| other(&error))?),
             (format!("{stem}-lines.csv"), lines_csv(&found.sweep)),
             (format!("{stem}-requirements.csv"), requirements_csv(&found)),
+            (format!("{stem}-scenario.csv"), own_speeds_csv(&budget, &found)),
         ];
         for (name, svg) in report.figures().map_err(|error| other(&error))? {
             files.push((format!("{stem}-{name}.svg"), svg));
@@ -211,6 +231,7 @@ impl Jitter {
             bar.finish_and_clear();
         }
         let assessed = budget.assess(&found).map_err(|error| other(&error))?;
+        let at_own_speeds = budget.at_own_speeds(scenario);
         // The runs are without sources: without imbalance nothing moves in them.
         let mut at: Vec<f64> = if has_imbalance { self.compare.clone() } else { Vec::new() };
         if at.is_empty() && !self.no_compare && has_imbalance {
@@ -247,6 +268,7 @@ impl Jitter {
             sensitivities: ranked.map_err(|error| other(&error))?,
             sweep: found,
             assessed,
+            at_own_speeds,
             campbell_speeds,
             branches,
             crossings,
@@ -254,147 +276,4 @@ impl Jitter {
             has_imbalance,
         })
     }
-}
-
-/// For the terminal: verdicts, worst speeds, agreement.
-fn summary(budget: &Budget, found: &JitterResults) -> String {
-    let mut rows = vec![
-        ["requirement", "state", "worst", "limit", "margin dB", "at", "keep out of"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
-    for of in &found.assessed {
-        let (unit, size) = &of.limit.unit;
-        rows.push(vec![
-            format!("{} ({})", of.limit.name, metric(&of.limit.metric)),
-            match of.violated_by() {
-                Some(by) => format!("{}, but {}", of.state().word(), by.excess()),
-                None => of.state().word().to_owned(),
-            },
-        ]);
-        let Some(row) = rows.last_mut() else { continue };
-        if of.no_data.is_some() {
-            row.extend([String::new(), format!("{} {unit}", six(of.limit.limit / size))]);
-            row.extend(["", "", ""].map(str::to_owned));
-            continue;
-        }
-        row.extend([
-            format!("{} {unit}", six(of.margin.value / size)),
-            format!("{} {unit}", six(of.limit.limit / size)),
-            format!("{:.1}", of.margin.decibels()),
-            worst_speed(&found.sweep.speeds, of.worst, of.is_flat()),
-            intervals(&of.keep_out),
-        ]);
-    }
-    let mut text = format!("{}\n", budget.title);
-    if found.assessed.is_empty() {
-        text.push_str("no requirements\n");
-    } else {
-        text.push_str(&aligned(&rows));
-    }
-    for of in &found.assessed {
-        if let Some(reason) = &of.no_data {
-            let _ = writeln!(text, "{}: not evaluated: {reason}", of.limit.name);
-        }
-    }
-    for of in found.assessed.iter().filter(|of| of.no_data.is_none()) {
-        let (unit, size) = &of.limit.unit;
-        for other in of.by_phases.iter().skip(1) {
-            let _ = writeln!(
-                text,
-                "{}: {} with {}, {} {unit}, margin {:.1} dB",
-                of.limit.name,
-                of.state_of(&other.margin).word(),
-                other.phases.words(),
-                six(other.margin.value / size),
-                other.margin.decibels()
-            );
-        }
-    }
-    for of in &found.assessed {
-        if let Some((index, share)) = of.shares.first()
-            && let Some(contributor) = found.sweep.contributors.get(*index)
-        {
-            let _ = writeln!(
-                text,
-                "{}: largest contributor {} ({}, order {}), {:.0} % of the mean square",
-                of.limit.name,
-                contributor.rotor,
-                contributor.cause,
-                contributor.order,
-                100.0 * share
-            );
-        }
-    }
-    for of in found.assessed.iter().filter(|of| of.noise > 0.0) {
-        let _ = writeln!(
-            text,
-            "{}: broadband noise, {:.0} % of the mean square",
-            of.limit.name,
-            100.0 * of.noise
-        );
-    }
-    for (of, resonant) in &found.compared {
-        let bound = if *resonant { AGREEMENT[1] } else { AGREEMENT[0] };
-        let difference = of.difference();
-        let _ = writeln!(
-            text,
-            "coupled run at {}: amplitudes differ by {} % of the magnitudes of their tones at most, {} {} % {}",
-            rpm(of.speed),
-            six(100.0 * difference),
-            if difference <= bound { "within" } else { "above" },
-            100.0 * bound,
-            if *resonant { "at resonance" } else { "off resonance" }
-        );
-    }
-    if !found.has_imbalance {
-        let _ = writeln!(text, "no coupled run: {NOT_COMPARED}");
-    }
-    text
-}
-
-/// A row for each speed and tone: amplitude and phase of each output.
-fn lines_csv(sweep: &Sweep) -> String {
-    let mut text = String::from("speed_rad_per_s,rotor,cause,order,frequency_hz");
-    for name in column_heads(&sweep.outputs) {
-        let _ = write!(text, ",{name}_re,{name}_im");
-    }
-    text.push('\n');
-    let mut digits = zmij::Buffer::new();
-    for (speed, lines) in sweep.speeds.iter().zip(&sweep.lines) {
-        for line in lines {
-            let Some(of) = sweep.contributors.get(line.contributor) else { continue };
-            text.push_str(digits.format(*speed));
-            let _ = write!(text, ",{},{}", of.rotor, of.cause.replace(',', " "));
-            for value in [of.order, line.frequency / std::f64::consts::TAU] {
-                text.push(',');
-                text.push_str(digits.format(value));
-            }
-            for part in line.values.iter().flat_map(|value| [value.re, value.im]) {
-                text.push(',');
-                text.push_str(digits.format(part));
-            }
-            text.push('\n');
-        }
-    }
-    text
-}
-
-/// A row for each speed: the metric of each requirement, SI.
-fn requirements_csv(found: &JitterResults) -> String {
-    let mut text = String::from("speed_rad_per_s");
-    for name in column_heads(found.assessed.iter().map(|of| &of.limit.name)) {
-        let _ = write!(text, ",{name}");
-    }
-    text.push('\n');
-    let mut digits = zmij::Buffer::new();
-    for (index, speed) in found.sweep.speeds.iter().enumerate() {
-        text.push_str(digits.format(*speed));
-        for of in &found.assessed {
-            text.push(',');
-            text.push_str(digits.format(of.values.get(index).copied().unwrap_or(f64::NAN)));
-        }
-        text.push('\n');
-    }
-    text
 }

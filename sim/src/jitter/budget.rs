@@ -12,7 +12,7 @@ use crate::structure::dynamic_mass::Motor;
 
 /// A metric that varies over the speed by less than this part of it is the same at every speed: it varies by rounding.
 const VARIATION_MIN: f64 = 1e-9;
-/// A smaller share of a mean square is left out.
+/// A share of a mean square that is smaller than this is left out.
 const SHARE_MIN: f64 = 1e-9;
 
 /// A line of sight with its name.
@@ -64,7 +64,8 @@ pub struct Assessed {
     pub no_data: Option<NoData>,
     /// The same by each assumption about phases: that of the budget, and the other ones.
     pub by_phases: Vec<ByPhases>,
-    /// Contributors and their shares of the mean square there, largest first.
+    /// Contributors and their shares of the mean square there, as the budget's phases add them up, largest first. With that of
+    /// the noise they add up to one. Of given phases a share may be negative.
     pub shares: Vec<(usize, f64)>,
     /// The share of broadband noise there.
     pub noise: f64,
@@ -118,8 +119,7 @@ impl Assessed {
     /// The same by a margin of another assumption.
     #[must_use]
     pub fn state_of(&self, margin: &Margin) -> RequirementState {
-        let by_margin = || RequirementState::from_margin(margin);
-        self.no_data.map_or_else(by_margin, RequirementState::NotEvaluated)
+        state_of(self.no_data, margin)
     }
 }
 
@@ -175,8 +175,7 @@ impl Budget {
                     sweep.speeds.iter().enumerate().map(value).collect()
                 };
                 let largest = |phases, values: &[f64]| {
-                    let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
-                    let worst = worst.unwrap_or(0);
+                    let worst = worst_of(values);
                     let value = values.get(worst).copied().unwrap_or(f64::NAN);
                     ByPhases {
                         phases,
@@ -192,13 +191,7 @@ impl Budget {
                     by_phases.push(largest(phases, &over_speed(phases)));
                 }
                 let worst = stated.worst;
-                let shares = sweep.shares(worst, &outputs, &weight);
-                let noise = sweep.noise_square(worst, &outputs, &weight);
-                let whole: f64 = shares.iter().sum::<f64>() + noise;
-                let mut shares: Vec<(usize, f64)> =
-                    shares.into_iter().map(|share| share / whole).enumerate().collect();
-                shares.retain(|(_, share)| *share > SHARE_MIN);
-                shares.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+                let (shares, noise) = shares(sweep, worst, (&outputs, self.phases, &weight));
                 Ok(Assessed {
                     sight: *sight,
                     limit: limit.clone(),
@@ -209,11 +202,42 @@ impl Budget {
                     values,
                     worst,
                     shares,
-                    noise: if whole > 0.0 { noise / whole } else { 0.0 },
+                    noise,
                 })
             })
             .collect()
     }
+}
+
+/// What becomes of a limit by a margin, or why it is not evaluated.
+pub(super) fn state_of(no_data: Option<NoData>, margin: &Margin) -> RequirementState {
+    let by_margin = || RequirementState::from_margin(margin);
+    no_data.map_or_else(by_margin, RequirementState::NotEvaluated)
+}
+
+/// Contributors and their shares of a mean square at a speed, largest first, and that of the noise.
+fn shares(
+    sweep: &Sweep,
+    speed: usize,
+    (outputs, phases, weight): (&[usize], Phases, &Weight),
+) -> (Vec<(usize, f64)>, f64) {
+    let shares = sweep.shares(speed, outputs, phases, weight);
+    let noise = sweep.noise_square(speed, outputs, weight);
+    let whole: f64 = shares.iter().sum::<f64>() + noise;
+    let mut shares: Vec<(usize, f64)> =
+        shares.into_iter().map(|share| share / whole).enumerate().collect();
+    shares.retain(|(_, share)| share.abs() > SHARE_MIN && share.is_finite());
+    shares.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()).then(a.0.cmp(&b.0)));
+    (shares, if whole > 0.0 { noise / whole } else { 0.0 })
+}
+
+/// The number of the largest of some values: the first of those that are equal, and the first of all where all are the same, but
+/// for rounding.
+#[must_use]
+pub fn worst_of(values: &[f64]) -> usize {
+    let largest =
+        || (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]).then(b.cmp(a)));
+    if is_flat(values) { 0 } else { largest().unwrap_or(0) }
 }
 
 /// Whether values of several speeds are the same, but for rounding.
@@ -221,7 +245,7 @@ impl Budget {
 pub fn is_flat(values: &[f64]) -> bool {
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    values.len() > 1 && most - least <= VARIATION_MIN * most
+    values.len() > 1 && most - least <= VARIATION_MIN * most.abs().max(least.abs())
 }
 
 /// Outputs of a line of sight.

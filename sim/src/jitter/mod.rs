@@ -21,8 +21,10 @@
 //! | a device over the speed, and its tones | [`device`] |
 //! | structure, devices and lines of sight at one speed | [`model`] |
 //! | sources of the scenario: harmonics and noise | [`sources`], [`noise`] |
+//! | the same with each rotor at the speed of the scenario | [`own_speeds`] |
 //! | the model for a budget, and the speeds of its sweep | [`prepared`] |
 //! | the share of a line in a metric | [`weight`] |
+//! | how lines of one frequency are added, by their phases | [`Phases`](sweep::Phases), [`Sweep::shares`](sweep::Sweep::shares) |
 //! | many speeds, on threads | [`sweep`] |
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
@@ -43,11 +45,13 @@ mod magnitudes;
 pub mod mean_acceleration;
 pub mod model;
 pub mod noise;
+pub mod own_speeds;
 pub mod prepared;
 pub mod sensitivity;
 pub mod settled;
 pub mod simplified;
 pub mod sources;
+mod superposition;
 pub mod sweep;
 mod transfer;
 pub mod weight;

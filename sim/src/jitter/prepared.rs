@@ -8,7 +8,8 @@ use super::coupled::CoupledError;
 use super::device::Steady;
 use super::model::Model;
 use super::sweep::{refined, speeds};
-use crate::scenario::Scenario;
+use crate::scenario::steady::SteadyJoints;
+use crate::scenario::{Scenario, members};
 use crate::structure::Fault;
 
 /// Speeds of the Campbell diagram, between which crossings are found.
@@ -23,6 +24,8 @@ pub struct Prepared {
     pub has_imbalance: bool,
     /// Why sources of the scenario are not in the model.
     pub left_out: Vec<String>,
+    /// Names of wheels of the scenario that are at rest: they do not turn at any speed of the sweep.
+    pub at_rest: Vec<String>,
     /// Speeds at which natural frequencies were computed, rad/s.
     pub campbell_speeds: Vec<f64>,
     /// Natural frequencies over these speeds.
@@ -95,7 +98,50 @@ impl Prepared {
         orders.dedup();
         let crossings = crossings(&campbell_speeds, &branches, &orders);
         let speeds = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
-        Ok(Self { model, has_imbalance, left_out, campbell_speeds, branches, crossings, speeds })
+        let all: Vec<usize> = (0..members(&scenario.devices).len()).collect();
+        let at_rest = SteadyJoints::new(scenario, &all, budget.motor, budget.sprung).at_rest;
+        Ok(Self {
+            model,
+            has_imbalance,
+            left_out,
+            at_rest,
+            campbell_speeds,
+            branches,
+            crossings,
+            speeds,
+        })
+    }
+
+    /// Of each wheel at rest that the budget sweeps, a sentence.
+    #[must_use]
+    pub fn warnings_at_rest(&self, budget: &Budget) -> Vec<String> {
+        let is_swept = |name: &&String| budget.swept.is_empty() || budget.swept.contains(name);
+        let text = |name: &String| {
+            format!(
+                "`{name}` is at rest in the scenario: it does not turn, and has no tones at any speed; give it a rate, whose sign \
+                 is its direction"
+            )
+        };
+        self.at_rest.iter().filter(is_swept).map(text).collect()
+    }
+
+    /// The rotors that have the speed of the sweep, in words: all, how many where some are at rest, or the names of the budget.
+    #[must_use]
+    pub fn rotors(&self, budget: &Budget) -> String {
+        if self.at_rest.is_empty() && budget.swept.is_empty() {
+            return "all rotors".to_owned();
+        }
+        if budget.swept.is_empty() {
+            let rotors = self.model.devices.iter().flat_map(|(_, device)| &device.rotors);
+            let turning = rotors.filter(|rotor| rotor.is_swept()).count();
+            let (all, at_rest) = (turning + self.at_rest.len(), self.at_rest.join(", "));
+            return format!("{turning} of {all} rotors; at rest: {at_rest}");
+        }
+        let name = |name: &String| {
+            let at_rest = if self.at_rest.contains(name) { " (at rest)" } else { "" };
+            format!("{name}{at_rest}")
+        };
+        budget.swept.iter().map(name).collect::<Vec<_>>().join(", ")
     }
 }
 

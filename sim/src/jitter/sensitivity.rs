@@ -1,7 +1,7 @@
 //! Sensitivities of a metric at one speed: by how many percent it changes for one percent of a parameter.
 //!
-//! With `s` the metric and `s^2` the sum of the mean squares of independent lines, one percent more of the amplitude of a
-//! tone changes `s` by its share of `s^2`, exactly. Frequencies and damping ratios of modes change the transmission; their
+//! With `s` the metric, one percent more of the amplitude of a tone changes `s` by its share of `s^2` in percent, exactly, where the
+//! shares are those of the budget's phases ([`Sweep::shares`](super::sweep::Sweep::shares)). Frequencies and damping ratios of modes change the transmission; their
 //! derivatives are central differences of the same model, whose error is the square of the step.
 
 use super::budget::{Assessed, Budget, outputs_of};

@@ -3,8 +3,6 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use nalgebra::Complex;
-
 use super::campbell::Crossing;
 use super::model::{Contributor, Line, Model};
 use super::noise::{Densities, NoiseSweep};
@@ -48,6 +46,16 @@ pub enum Phases {
 }
 
 impl Phases {
+    /// The assumption as a budget has it: `unknown`, `given`, `worst`.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Unknown => "unknown",
+            Self::Given => "given",
+            Self::Worst => "worst",
+        }
+    }
+
     /// The assumption in words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -195,8 +203,7 @@ impl Sweep {
         phases: Phases,
         weight: &Weight,
     ) -> f64 {
-        let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
-        outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum()
+        self.squares(speed, outputs, phases, weight).iter().map(|(_, square)| square).sum()
     }
 
     /// The part of [`Self::mean_square`] that is of broadband noise.
@@ -206,38 +213,10 @@ impl Sweep {
         self.noise.mean_square(speed, outputs, weight)
     }
 
-    /// Mean squares of each contributor by itself at a speed.
-    #[must_use]
-    pub fn shares(&self, speed: usize, outputs: &[usize], weight: &Weight) -> Vec<f64> {
-        let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
-        let of = |line: &Line| -> f64 {
-            let values = outputs.iter().filter_map(|output| line.values.get(*output));
-            values.map(|value| 0.5 * value.norm_sqr() * weight.at(line.frequency)).sum()
-        };
-        lines.iter().map(of).collect()
-    }
-
     /// Whether a line or noise has a share by a weight, at any speed.
     #[must_use]
     pub fn has_share(&self, weight: &Weight) -> bool {
         let mut lines = self.lines.iter().flatten();
         lines.any(|line| weight.at(line.frequency) > 0.0) || self.noise.has_share(weight)
     }
-}
-
-fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &Weight) -> f64 {
-    let mut sorted: Vec<&Line> = lines.iter().collect();
-    sorted.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
-    let mut sum = 0.0;
-    for shared in sorted.chunk_by(|a, b| a.frequency.to_bits() == b.frequency.to_bits()) {
-        let frequency = shared.first().map_or(0.0, |line| line.frequency);
-        let values = || shared.iter().filter_map(|line| line.values.get(output));
-        let square = match phases {
-            Phases::Unknown => values().map(Complex::norm_sqr).sum::<f64>(),
-            Phases::Given => values().sum::<Complex<f64>>().norm_sqr(),
-            Phases::Worst => values().map(|value| value.norm()).sum::<f64>().powi(2),
-        };
-        sum += 0.5 * square * weight.at(frequency);
-    }
-    sum
 }

@@ -4,6 +4,9 @@
 use super::{Drive, Member, Scenario, members};
 use crate::structure::dynamic_mass::Motor;
 
+/// The body of a rotor, in all kinds.
+const WHEEL: &str = "wheel";
+
 /// Joints of some devices, in the order of the set.
 #[derive(Clone, Debug, Default)]
 pub struct SteadyJoints {
@@ -13,6 +16,8 @@ pub struct SteadyJoints {
     pub motors: Vec<Motor>,
     /// The name of each: device, body.
     pub names: Vec<String>,
+    /// Names of wheels that could spin and are at rest.
+    pub at_rest: Vec<String>,
     /// Joints that move at first but are taken as at rest, with their rates.
     pub stopped: Vec<(String, f64)>,
 }
@@ -41,6 +46,9 @@ impl SteadyJoints {
             let spins = spins && !on_spring;
             if rate != 0.0 && !spins {
                 joints.stopped.push((format!("{name}, {}", info.rate), rate));
+            }
+            if rate == 0.0 && spins && info.body == WHEEL {
+                joints.at_rest.push(name.clone());
             }
             // What its kind keeps at its rate has no motor torque, whatever drives it.
             let is_driven = info.driven && matches!(drive, Drive::Torque { .. });

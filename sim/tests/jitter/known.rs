@@ -105,7 +105,7 @@ fn phases_between_rotors_are_unknown_given_or_the_worst() {
     assert!(sum(Phases::Given) < 1e-20 * one, "{:e}", sum(Phases::Given));
     let above = Metric::BandRms([200.0 / std::f64::consts::TAU, 1e9]);
     let above = Weight::of_metric(&above).expect("no index");
-    let shares = found.shares(0, &[1], &above);
+    let shares = found.shares(0, &[1], Phases::Unknown, &above);
     assert_eq!(shares.len(), 2);
     assert!(shares.iter().all(|share| (share / one - 1.0).abs() < 1e-9));
     let nowhere = Weight::of_metric(&Metric::BandRms([1e8, 1e9])).expect("no index");

@@ -7,9 +7,11 @@ mod errors;
 mod interrupted;
 mod known;
 mod map;
+mod phases;
 mod run;
 mod settled;
 mod sources;
+mod speeds;
 
 #[path = "../../examples/imbalance_map/page.rs"]
 mod page;

@@ -69,7 +69,7 @@ fn axial_tones_and_noise_of_a_data_sheet_move_the_hub_by_force_over_mass() {
     let all = sweep(&model, &rates, 1, &|_| {}).expect("regular");
     let one = Weight::one();
     let whole = all.mean_square(1, &[0], Phases::Unknown, &one);
-    let parts: f64 = all.shares(1, &[0], &one).iter().sum();
+    let parts: f64 = all.shares(1, &[0], Phases::Unknown, &one).iter().sum();
     let of_noise = all.noise_square(1, &[0], &one);
     assert!(of_noise > 0.0 && (whole / (parts + of_noise) - 1.0).abs() < 1e-12);
 }

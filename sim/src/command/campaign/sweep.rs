@@ -13,6 +13,7 @@ use crate::command::exit::Exit;
 use crate::command::table::{aligned, six};
 use crate::command::terminal::print;
 use crate::disturbance::Model as SourceModel;
+use crate::jitter::budget::is_flat;
 use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
 use crate::jitter::device::Steady;
 use crate::jitter::model::Model;
@@ -207,13 +208,19 @@ impl Sweep {
             let values = values_of(finished, field);
             let known =
                 values.iter().enumerate().filter_map(|(index, value)| Some((index, (*value)?)));
-            let worst = known.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            let every: Option<Vec<f64>> = values.iter().copied().collect();
+            let is_flat = every.is_some_and(|every| is_flat(&every));
+            let mut known = known.peekable();
+            let first = known.peek().copied();
+            let largest = known.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            let worst = if is_flat { first } else { largest };
             let at = |sample: usize| {
                 let values = plan.samples.get(sample).map_or(&[][..], |sample| &sample.values);
                 let pairs = self.over.iter().zip(values);
                 let words: Vec<_> =
                     pairs.map(|(axis, value)| format!("{} {}", six(*value), axis.unit)).collect();
-                words.join(", ").trim_end().to_owned()
+                let same = if is_flat { ", the same at every value" } else { "" };
+                format!("{}{same}", words.join(", ").trim_end())
             };
             let mut row = vec![name.clone(), String::new()];
             let mut state = "";

@@ -9,7 +9,7 @@ use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::super::number::{short, with_unit};
 use super::super::sweep::scaled;
 use super::super::unit::{SMALL_ANGLE, for_peak};
-use super::{JitterReport, RPM, metric, rpm};
+use super::{JitterReport, RPM, metric, rpm, worst_speed};
 use crate::jitter::budget::{Assessed, outputs_of};
 use crate::jitter::model::Line;
 use crate::jitter::weight::Weight;
@@ -19,7 +19,7 @@ use crate::spectra::float;
 const DOT_MIN: f64 = 1e-2;
 /// Parts of the range of speeds, at most, of which a waterfall shows the largest lines.
 const WATERFALL_PARTS: usize = 240;
-/// A metric is drawn over a logarithmic axis where its largest value is this many times its least.
+/// Metrics of a page are drawn over logarithmic axes where the largest value of one of them is this many times its least.
 const DECADES: f64 = 30.0;
 /// A limit is drawn up to this many times the RMS.
 const LIMIT_SHOWN: f64 = 3.0;
@@ -35,6 +35,18 @@ fn unit_of(of: &Assessed, values: impl Iterator<Item = f64>) -> (String, f64) {
     scaled((unit, *size), values.chain([of.limit.limit]))
 }
 
+/// The least and the largest of a metric over the speed and its limit, SI, of those above zero.
+fn shown(of: &Assessed) -> [f64; 2] {
+    let all = || of.values.iter().copied().chain([of.limit.limit]).filter(|value| *value > 0.0);
+    [all().fold(f64::MAX, f64::min), all().fold(0.0, f64::max)]
+}
+
+/// Whether a metric over the speed wants a logarithmic axis.
+fn is_over_decades(of: &Assessed) -> bool {
+    let [least, most] = shown(of);
+    most > DECADES * least
+}
+
 impl JitterReport<'_> {
     /// A metric over the speed, in the unit of its limit.
     pub(super) fn over_speed(&self, of: &Assessed) -> Plane {
@@ -43,8 +55,7 @@ impl JitterReport<'_> {
         let points = points.map(|(speed, value)| [speed * RPM, value / size]).collect();
         let ends = [self.budget.speeds[0], self.budget.speeds[1]];
         let limit = ends.map(|speed| [speed * RPM, of.limit.limit / size]).to_vec();
-        let shown = || of.values.iter().copied().chain([of.limit.limit]).filter(|v| *v > 0.0);
-        let (least, most) = (shown().fold(f64::MAX, f64::min), shown().fold(0.0, f64::max));
+        let [_, most] = shown(of);
         Plane {
             description: format!("{} over the speed in rpm, in {unit}.", of.limit.name),
             title: format!("{}: {}", of.limit.name, metric(&of.limit.metric)),
@@ -54,27 +65,27 @@ impl JitterReport<'_> {
             dots: Vec::new(),
             marks: Vec::new(),
             large: true,
-            logarithmic: most > DECADES * least,
+            logarithmic: self.assessed.iter().any(is_over_decades),
             ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * most / size])],
         }
     }
 
-    /// A metric of all lines up to a frequency, and from it, at the worst speed; squares are added.
+    /// A metric of all lines up to a frequency, and from it, at the worst speed: lines of one frequency are added as the
+    /// budget's phases say, so the end is the metric. The noise is that of the nearest speed at which its density is known, times
+    /// what makes its mean square that of the worst speed.
     pub(super) fn cumulative(&self, of: &Assessed) -> Plane {
         let outputs = outputs_of(of.sight);
         let weight = weight(of);
         let speed = self.sweep.speeds.get(of.worst).copied().unwrap_or(0.0);
-        let lines = self.sweep.lines.get(of.worst).map_or(&[][..], Vec::as_slice);
-        let mut sorted: Vec<_> = lines
-            .iter()
-            .map(|line| {
-                let values = outputs.iter().filter_map(|output| line.values.get(*output));
-                let square = values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>();
-                (line.frequency / TAU, square * weight.at(line.frequency))
-            })
-            .collect();
+        let lines = self.sweep.squares(of.worst, &outputs, self.budget.phases, &weight);
+        let mut sorted: Vec<_> =
+            lines.into_iter().map(|(frequency, square)| (frequency / TAU, square)).collect();
         if let Some(densities) = self.sweep.noise.nearest(speed) {
-            sorted.extend(densities.squares(&outputs, &weight));
+            let noise = densities.squares(&outputs, &weight);
+            let there: f64 = noise.iter().map(|(_, square)| square).sum();
+            let here = self.sweep.noise_square(of.worst, &outputs, &weight);
+            let factor = if there > 0.0 { here / there } else { 0.0 };
+            sorted.extend(noise.into_iter().map(|(at, square)| (at, factor * square)));
         }
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
@@ -93,7 +104,8 @@ impl JitterReport<'_> {
         }
         forward.push([top, whole.sqrt() / size]);
         backward.push([top, 0.0]);
-        let (speed, limit) = (rpm(speed), of.limit.limit / size);
+        let speed = worst_speed(&self.sweep.speeds, of.worst, of.is_flat());
+        let limit = of.limit.limit / size;
         let found = whole.sqrt() / size;
         let highest = if limit < LIMIT_SHOWN * found { limit.max(found) } else { found };
         let mut curves =

@@ -18,8 +18,9 @@ use super::row_state;
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing};
 use crate::jitter::coupled::Compared;
+use crate::jitter::own_speeds::AtOwnSpeeds;
 use crate::jitter::sensitivity::Sensitivity;
-use crate::jitter::sweep::Sweep;
+use crate::jitter::sweep::{Phases, Sweep};
 use crate::names::file_names;
 use crate::pointing::Metric;
 use crate::scenario::Scenario;
@@ -40,7 +41,11 @@ pub(crate) struct JitterReport<'a> {
     /// The text of the budget's file.
     pub(crate) text: &'a str,
     pub(crate) sweep: &'a Sweep,
+    /// The rotors that have the speed of the sweep, in words.
+    pub(crate) rotors: &'a str,
     pub(crate) assessed: &'a [Assessed],
+    /// The same with each rotor at its own speed; empty where it is not known.
+    pub(crate) at_own_speeds: &'a [AtOwnSpeeds],
     /// Speeds of the branches, rad/s.
     pub(crate) campbell_speeds: &'a [f64],
     pub(crate) branches: &'a [Branch],
@@ -59,12 +64,13 @@ pub(crate) fn rpm(speed: f64) -> String {
     format!("{} rpm", short(speed * RPM, 5))
 }
 
-/// The speed at which a metric is largest, in words.
+/// The speeds of rotors that are as in the scenario, in words.
+pub(crate) const OWN_SPEEDS: &str = "its own speeds";
+
+/// The speed at which a metric is largest, in words; of one that does not vary it is the first.
 pub(crate) fn worst_speed(speeds: &[f64], worst: usize, is_flat: bool) -> String {
-    if is_flat {
-        return "the same at every speed".to_owned();
-    }
-    speeds.get(worst).map_or_else(String::new, |speed| rpm(*speed))
+    let same = if is_flat { ", the same at every speed" } else { "" };
+    speeds.get(worst).map_or_else(String::new, |speed| format!("{}{same}", rpm(*speed)))
 }
 
 /// What a metric is, in words.
@@ -152,17 +158,12 @@ impl JitterReport<'_> {
         let title = self.scenario.title.trim_end_matches('.');
         let mut paragraphs = vec![format!("Spacecraft: {title}.")];
         paragraphs.extend(disagreements(self.compared));
-        let rotors = if self.budget.swept.is_empty() {
-            "all rotors".to_owned()
-        } else {
-            self.budget.swept.join(", ")
-        };
         let facts = vec![
             Fact::new(
                 "Speeds",
                 format!("{} at {} to {}", self.sweep.speeds.len(), rpm(from), rpm(to)),
             ),
-            Fact::new("Rotors", rotors),
+            Fact::new("Rotors", self.rotors.to_owned()),
             Fact::new("Tones", self.sweep.contributors.len().to_string()),
             Fact::new("Modes of the structure", self.modes()),
         ];
@@ -178,7 +179,7 @@ impl JitterReport<'_> {
         if self.assessed.is_empty() {
             return Ok(Vec::new());
         }
-        let rows = self.assessed.iter().map(|of| {
+        let rows = self.assessed.iter().enumerate().flat_map(|(index, of)| {
             let (unit, size) = &of.limit.unit;
             let state = of.state();
             let missing = of.no_data.is_some();
@@ -194,7 +195,7 @@ impl JitterReport<'_> {
                 format!("{}, {sight}", metric(&of.limit.metric)),
                 known(intervals(&of.keep_out)),
             ];
-            (row_state(&state), cells)
+            std::iter::once((row_state(&state), cells)).chain(self.as_in_scenario(index, of))
         });
         let columns = [
             ("Requirement", ""),
@@ -206,8 +207,12 @@ impl JitterReport<'_> {
             ("Metric", ""),
             ("Speeds to keep out of", ""),
         ];
-        let mut blocks =
-            vec![table("Requirements, and the worst speed of each", &columns, 2..5, rows)];
+        let mut blocks = vec![table(
+            "Requirements: the worst speed of each, and the scenario as it is",
+            &columns,
+            2..5,
+            rows,
+        )];
         blocks.push(self.by_phases());
         blocks.extend(self.peaks());
         for (index, of) in self.assessed.iter().enumerate() {
@@ -221,6 +226,26 @@ impl JitterReport<'_> {
             });
         }
         Ok(blocks)
+    }
+
+    /// The row of a requirement with each rotor at its own speed; none where it is not known.
+    fn as_in_scenario(&self, index: usize, of: &Assessed) -> Option<(&'static str, Vec<String>)> {
+        let own = self.at_own_speeds.get(index)?;
+        let (_, margin) = own.by_phases.first()?;
+        let (unit, size) = &of.limit.unit;
+        let state = own.state(margin);
+        let known = |text: String| if state.reason().is_some() { "–".to_owned() } else { text };
+        let cells = vec![
+            format!("{}, as in the scenario", of.limit.name),
+            state.word().to_owned(),
+            known(with_unit(margin.value / size, 4, unit)),
+            with_unit(of.limit.limit / size, 4, unit),
+            known(format!("{} dB", short(margin.decibels(), 3))),
+            OWN_SPEEDS.to_owned(),
+            String::new(),
+            String::new(),
+        ];
+        Some((row_state(&state), cells))
     }
 
     fn contributors(&self) -> Vec<Block> {
@@ -249,14 +274,25 @@ impl JitterReport<'_> {
                 )
             });
             let rows = rows.chain(noise);
-            let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |s| rpm(*s));
+            let speed = worst_speed(&self.sweep.speeds, of.worst, of.is_flat());
             let columns =
                 [("Rotor", ""), ("Cause", ""), ("Frequency", ""), ("Share of the mean square", "")];
             table(&format!("{} at {speed}", of.limit.name), &columns, 2..4, rows)
         };
         let mut blocks: Vec<Block> = self.assessed.iter().map(one).collect();
         if !blocks.is_empty() {
-            let text = "Shares of single tones by themselves; tones of one frequency are added as the assumptions say.";
+            let text = match self.budget.phases {
+                Phases::Unknown => {
+                    "Mean squares are added: the share of a tone is its own. Shares add up to 100 %."
+                }
+                Phases::Given => {
+                    "Amplitudes of one frequency are added as the angles of the scenario have them: the share of a tone is its \
+                     projection on the sum, and negative where it opposes the sum. Shares add up to 100 %."
+                }
+                Phases::Worst => {
+                    "Magnitudes of one frequency are added: the share of a tone is its part of the sum. Shares add up to 100 %."
+                }
+            };
             blocks.push(Block::Note { text: text.to_owned() });
         }
         for (index, of) in self.assessed.iter().enumerate() {
@@ -266,8 +302,10 @@ impl JitterReport<'_> {
                     id: format!("figure-cumulative-{}", index + 1),
                     number: format!("C{}", index + 1),
                     caption: format!(
-                        "{}: the metric of all lines up to a frequency, and from it, at the worst speed; squares are added.",
-                        of.limit.name
+                        "{}: the metric of all lines up to a frequency, and from it, at the worst speed; lines of one frequency are \
+                         added with {}, mean squares of several.",
+                        of.limit.name,
+                        self.budget.phases.words()
                     ),
                     svg,
                     charts: figure.chart().into_iter().collect(),

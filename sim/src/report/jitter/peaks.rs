@@ -3,7 +3,7 @@
 use super::super::blocks::{Block, table};
 use super::super::number::with_unit;
 use super::{JitterReport, worst_speed};
-use crate::jitter::budget::{Assessed, is_flat, outputs_of};
+use crate::jitter::budget::{Assessed, is_flat, outputs_of, worst_of};
 use crate::jitter::model::Line;
 use crate::jitter::weight::Weight;
 use crate::pointing::Metric;
@@ -31,8 +31,8 @@ impl JitterReport<'_> {
                 let (unit, size) = &of.limit.unit;
                 let peaks = self.sweep.lines.iter().map(|lines| Self::peak(of, &weight, lines));
                 let all: Vec<f64> = peaks.collect();
-                let (at, largest) =
-                    all.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+                let at = worst_of(&all);
+                let largest = all.get(at).copied()?;
                 let there = all.get(of.worst).copied()?;
                 let speed = |index, is_flat| worst_speed(&self.sweep.speeds, index, is_flat);
                 let cells = vec![

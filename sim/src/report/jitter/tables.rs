@@ -2,7 +2,7 @@
 
 use super::super::blocks::{Block, table};
 use super::super::number::short;
-use super::{AGREEMENT, JitterReport, rpm};
+use super::{AGREEMENT, JitterReport, rpm, worst_speed};
 use crate::jitter::budget::Assessed;
 use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
@@ -84,14 +84,14 @@ impl JitterReport<'_> {
                 .iter()
                 .take(RANKED_MAX)
                 .map(|one| ("", vec![one.parameter.clone(), format!("{} %", short(one.ratio, 3))]));
-            let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |s| rpm(*s));
+            let speed = worst_speed(&self.sweep.speeds, of.worst, of.is_flat());
             let columns = [("Parameter", ""), ("Change of the metric for 1 % of it", "")];
             table(&format!("{} at {speed}", of.limit.name), &columns, 1..2, rows)
         };
         let mut blocks: Vec<Block> =
             self.assessed.iter().zip(self.sensitivities).map(one).collect();
         if !blocks.is_empty() {
-            let text = "At the worst speed of each requirement, derivatives there: a resonance moves away when its frequency changes \
+            let text = "At the worst speed of each requirement, derivatives there, with the phases of the budget: a resonance moves away when its frequency changes \
                         by more than its damping ratio.";
             blocks.push(Block::Note { text: text.to_owned() });
         }
