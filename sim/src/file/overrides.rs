@@ -43,7 +43,9 @@ pub(super) fn apply_with_prefix(
     for text in overrides {
         match plain(node, text) {
             Ok(texts) => {
-                texts.iter().for_each(|text| one(node, (text, numbers), prefix, reports));
+                for text in &texts {
+                    one(node, (text, numbers), prefix, reports);
+                }
             }
             Err((message, help)) => {
                 reports.error_anywhere(format!("--set {prefix}{text}: {message}"), &help);
