@@ -39,7 +39,7 @@ double precess_largest_offset(const struct precess_body_parameters *bodies, int 
 /** The sum of the moments of inertia of a body, kg m². */
 double precess_trace(const struct precess_body_parameters *body);
 
-/** Whether these are parameters of a hub: finite, mass above zero, moments of inertia not negative. */
+/** Whether these are parameters of a hub: finite, mass above zero, no moment of inertia below. */
 int precess_hub_is_possible(const struct precess_hub_parameters *hub);
 
 /**
@@ -76,8 +76,8 @@ int precess_pivots_are_positive(
     const struct precess_pivot *pivots,
     const struct precess_drive *drives);
 
-/** Adds wrenches across joints to their drives, and that on the hub, along the device's axes, to the
- * hub's equations. */
+/** Adds wrenches across joints to their drives, and that on the hub, along the device's axes, to
+ * the hub's equations. */
 void precess_add_carried(
     const struct precess_joint_kind *kinds,
     int count,

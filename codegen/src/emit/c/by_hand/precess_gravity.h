@@ -59,8 +59,8 @@ void precess_gravity_at(
 /** Second moment of a mass distribution from its inertia about the same point, kg m². */
 void precess_second_moment(const double inertia[6], double out[6]);
 
-/** Force, N, and moment about B, N m, that the gradient exerts on a rigid body, by its first moment,
- * kg m, and second moment, kg m², about B. */
+/** Force, N, and moment about B, N m, that the gradient exerts on a rigid body, by its first
+ * moment, kg m, and second moment, kg m², about B. */
 void precess_central_wrench(
     const struct precess_central *central,
     const double first_moment[3],

@@ -128,7 +128,9 @@ void precess_joint_reductions(
         out[k].held = driven ? 0.0 : 1.0;
         out[k].given = 0.0;
         if (driven && !precess_passive_is_none(&passive[k])) {
-            out[k].held = -(taken(reduction->damping, precess_passive_damping(&passive[k], rates[k]))
+            const double damping = precess_passive_damping(&passive[k], rates[k]);
+
+            out[k].held = -(taken(reduction->damping, damping)
                             + taken(reduction->stiffness, passive[k].stiffness));
         }
     }

@@ -103,7 +103,8 @@ struct precess_reduction {
 int precess_passive_is_none(const struct precess_passive *passive);
 
 /** Torque or force of spring and friction. */
-double precess_passive_torque(const struct precess_passive *passive, double coordinate, double rate);
+double precess_passive_torque(
+    const struct precess_passive *passive, double coordinate, double rate);
 
 /** By how much friction grows with the rate, N m s/rad or N s/m. */
 double precess_passive_damping(const struct precess_passive *passive, double rate);
@@ -119,7 +120,8 @@ enum precess_status precess_joint_drives(
     const struct precess_joint_inputs *inputs,
     struct precess_drive *out);
 
-/** Drives without torques: of driven joints what is subtracted from their inertia, at these rates. */
+/** Drives without torques; of driven joints what is subtracted from their inertia, at these
+ * rates. */
 void precess_joint_reductions(
     int count,
     const struct precess_passive *passive,

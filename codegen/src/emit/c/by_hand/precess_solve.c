@@ -262,7 +262,7 @@ static int is_finite(double x)
     return x - x == 0.0;
 }
 
-/* Factors of rows one to three, rows four to six of L by columns, factors of the Schur complement. */
+/* Factors of rows one to three, rows four to six of L by columns, those of the Schur complement. */
 static void factorise_system(
     const struct system *system, struct factors *vv, double z[3][3], struct factors *ww)
 {

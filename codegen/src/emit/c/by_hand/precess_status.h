@@ -14,8 +14,8 @@ enum precess_status {
     PRECESS_OK = 0,
     /** A parameter is none that a spacecraft of these kinds can have. */
     PRECESS_BAD_PARAMETER = 1,
-    /** A number of the state or of the inputs, or the time step, is infinite or NaN, or the attitude
-     * is none. */
+    /** A number of the state or of the inputs, or the time step, is infinite or NaN, or the
+     * attitude is none. */
     PRECESS_BAD_INPUT = 2,
     /** An angle is beyond PRECESS_LARGEST_ANGLE. Wrap it by whole turns, unless the joint has a
      * spring. */
