@@ -12,6 +12,9 @@ use crate::model::error::ControlError;
 
 /// Sweeps for one eigenvalue: two or three are usual.
 const SWEEPS: u32 = 60;
+/// Sweeps after which an element is small beside the whole matrix, not only beside its neighbours: of many eigenvalues at zero, as
+/// of commands that wait, these are rounding themselves.
+const PATIENCE: u32 = 20;
 
 /// In no stated order; those that are a pair are conjugate to the last bit.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, ControlError> {
@@ -28,7 +31,8 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
     let mut sweeps = 0_u32;
     let mut size = h.nrows();
     while let Some(end) = size.checked_sub(1) {
-        let start = deflated(&mut h, end, norm);
+        let least = if sweeps < PATIENCE { 0.0 } else { f64::EPSILON * norm };
+        let start = deflated(&mut h, end, (norm, least));
         if start == end {
             found.push(Complex::new(h[(end, end)] + shifted, 0.0));
             (size, sweeps) = (end, 0);
@@ -60,13 +64,13 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
     Ok(found)
 }
 
-/// Sets an element below the diagonal to zero that is small beside its neighbours; where the block that ends at `end` starts.
-fn deflated(h: &mut DMatrix<f64>, end: usize, norm: f64) -> usize {
+/// Sets an element below the diagonal to zero that is small beside its neighbours, or no larger than `least`; where the block that ends at `end` starts.
+fn deflated(h: &mut DMatrix<f64>, end: usize, (norm, least): (f64, f64)) -> usize {
     for row in (1..=end).rev() {
         let above = row.saturating_sub(1);
         let beside = libm::fabs(h[(above, above)]) + libm::fabs(h[(row, row)]);
         let beside = if beside == 0.0 { norm } else { beside };
-        if libm::fabs(h[(row, above)]) <= f64::EPSILON * beside {
+        if libm::fabs(h[(row, above)]) <= libm::fmax(f64::EPSILON * beside, least) {
             h[(row, above)] = 0.0;
             return row;
         }

@@ -6,7 +6,7 @@ use nalgebra::Complex;
 
 use crate::linear::feedback::Feedback;
 use crate::linear::plant::{Plant, SampledPlant, Sampling};
-use crate::linear::sampled_loop::SampledLoop;
+use crate::linear::sampled_loop::{LoopResponse, SampledLoop};
 use crate::model::error::ControlError;
 
 /// A number and the angular frequency at which it was found, rad/s.
@@ -35,6 +35,8 @@ pub struct AxisMargins {
 const PER_PERIOD: f64 = 8.0;
 /// A loop of this magnitude at the frequency zero integrates.
 const INTEGRATES: f64 = 1e9;
+/// The longest delay looked at, in periods.
+const LONGEST: f64 = 32.0;
 /// Halvings of an interval of frequencies: to the last bit.
 const HALVINGS: u32 = 80;
 
@@ -111,8 +113,17 @@ impl SampledLoop {
         if !self.is_stable()? {
             return Ok(None);
         }
+        self.largest(LoopResponse::peak).map(Some)
+    }
+
+    /// The largest value of a function of the response over [`Self::frequencies`], each maximum between two of them refined.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::frequencies`].
+    pub fn largest(&self, of: impl Fn(&LoopResponse) -> f64) -> Result<AtFrequency, ControlError> {
         let frequencies = self.frequencies()?;
-        let at = |omega: f64| self.response(omega).map_or(0.0, |found| found.peak());
+        let at = |omega: f64| self.response(omega).map_or(0.0, |found| of(&found));
         let mut best = AtFrequency { value: 0.0, omega: 0.0 };
         for pair in frequencies.windows(2) {
             let [low, high] = pair else { continue };
@@ -121,7 +132,7 @@ impl SampledLoop {
                 best = found;
             }
         }
-        Ok(Some(best))
+        Ok(best)
     }
 }
 
@@ -221,16 +232,30 @@ pub fn delay_margin(
     sampling: Sampling,
     feedback: &Feedback,
 ) -> Result<Option<f64>, ControlError> {
-    let Sampling { period, delay } = sampling;
-    let stable = |delay: f64| {
+    let period = sampling.period;
+    let closed = |delay: f64| {
         let plant = SampledPlant::new(plant, Sampling { period, delay })?;
-        SampledLoop::new(plant, feedback.clone())?.is_stable()
+        SampledLoop::new(plant, feedback.clone())
     };
+    longest_delay(sampling, closed)
+}
+
+/// [`delay_margin`] of any loop by its delay, s.
+///
+/// # Errors
+///
+/// Those of the loop, and [`SampledLoop::poles`].
+pub fn longest_delay<E: From<ControlError>>(
+    sampling: Sampling,
+    closed: impl Fn(f64) -> Result<SampledLoop, E>,
+) -> Result<Option<f64>, E> {
+    let Sampling { period, delay } = sampling;
+    let stable = |delay: f64| closed(delay)?.is_stable().map_err(E::from);
     let (mut low, mut high) = (delay, delay);
     while stable(high)? {
         low = high;
         high += period / PER_PERIOD;
-        if high > 32.0 * period {
+        if high > LONGEST * period {
             return Ok(None);
         }
     }

@@ -83,8 +83,8 @@ impl SampledPlant {
             periods += 1.0;
             rest = 0.0;
         }
-        let (before, held) = integrated(a, b, rest);
-        let (after, gamma_0) = integrated(a, b, period - rest);
+        let (before, held) = held_step(a, b, rest);
+        let (after, gamma_0) = held_step(a, b, period - rest);
         let (phi, gamma_1) = (&after * before, after * held);
         let numbers = phi.iter().chain(&gamma_0).chain(&gamma_1);
         numbers.copied().try_for_each(|element| error::finite("sampled plant", element))?;
@@ -95,6 +95,32 @@ impl SampledPlant {
         )]
         let periods = periods as usize;
         Ok(Self { sampling, phi, gamma_0, gamma_1, c: c.clone(), periods })
+    }
+
+    /// A plant in discrete time, `x_k+1 = Phi x_k + Gamma u_k`, `y_k = C x_k`, whose matrices are known: one with a delay
+    /// within, or with a servo at a rate of its own, has its commands that wait among its states.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn from_matrices(
+        sampling: Sampling,
+        [phi, gamma, c]: [DMatrix<f64>; 3],
+    ) -> Result<Self, ControlError> {
+        let n = phi.nrows();
+        for (what, found) in [
+            ("columns of Phi", phi.ncols()),
+            ("rows of Gamma", gamma.nrows()),
+            ("columns of C", c.ncols()),
+        ] {
+            error::count(what, found, n)?;
+        }
+        error::positive("period", sampling.period)?;
+        error::not_negative("delay", sampling.delay)?;
+        let numbers = phi.iter().chain(&gamma).chain(&c);
+        numbers.copied().try_for_each(|element| error::finite("sampled plant", element))?;
+        let gamma_1 = DMatrix::zeros(n, gamma.ncols());
+        Ok(Self { sampling, phi, gamma_0: gamma, gamma_1, c, periods: 0 })
     }
 
     /// Period and delay.
@@ -165,8 +191,10 @@ impl SampledPlant {
     }
 }
 
-/// `e^(A t)` and `int_0^t e^(A s) ds B`, blocks of the exponential of `[A B; 0 0] t` (Van Loan 1978).
-fn integrated(a: &DMatrix<f64>, b: &DMatrix<f64>, t: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+/// `e^(A t)` and `int_0^t e^(A s) ds B`, blocks of the exponential of `[A B; 0 0] t` (Van Loan 1978): what a state and an input
+/// that is held give after the time t. As many rows of `B` as of the square matrix `A`.
+#[must_use]
+pub fn held_step(a: &DMatrix<f64>, b: &DMatrix<f64>, t: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     let (n, inputs) = b.shape();
     let size = n.saturating_add(inputs);
     let mut both = DMatrix::zeros(size, size);

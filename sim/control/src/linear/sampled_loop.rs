@@ -67,6 +67,18 @@ impl SampledLoop {
         &self.plant
     }
 
+    /// The feedback.
+    #[must_use]
+    pub fn feedback(&self) -> &Feedback {
+        &self.feedback
+    }
+
+    /// From one sample to the next: of the states of [`SampledPlant::with_waiting`], then those of the feedback.
+    #[must_use]
+    pub fn state_matrix(&self) -> &DMatrix<f64> {
+        &self.closed
+    }
+
     /// `pi / T`, rad/s: higher frequencies repeat the lower ones.
     #[must_use]
     pub fn nyquist(&self) -> f64 {

@@ -153,6 +153,57 @@ fn coupled_axes_with_gains_in_proportion_are_alike() {
     assert!(all.value >= alone.value * (1.0 - CLOSED_FORM));
 }
 
+/// A delay within the matrices, and a delay beside them.
+#[test]
+fn a_plant_of_its_matrices_is_the_same_loop() {
+    const PERIOD: f64 = 0.1;
+    let one = |value: f64| DMatrix::from_element(1, 1, value);
+    for delay in [0.0, 0.07, 0.23] {
+        let sampling = Sampling { period: PERIOD, delay };
+        let plant = SampledPlant::new(&turning(&one(1.0)), sampling).expect("plant");
+        let within = SampledPlant::from_matrices(sampling, plant.with_waiting()).expect("plant");
+        let feedback = Feedback::pid([&one(0.8), &one(1.4), &one(0.0)], PERIOD);
+        let [a, b] =
+            [plant, within].map(|plant| SampledLoop::new(plant, feedback.clone()).expect("a loop"));
+        for omega in [0.05, 1.0, 20.0] {
+            let [a, b] = [&a, &b].map(|of| of.response(omega).expect("no pole").open[(0, 0)]);
+            assert!((a - b).modulus() < RESPONSE * a.modulus());
+        }
+        let [a, b] =
+            [a, b].map(|of| of.margins().expect("poles").expect("stable")[0].phase.expect("one"));
+        assert!((a.value - b.value).abs() < CLOSED_FORM);
+    }
+    let sampling = Sampling { period: PERIOD, delay: 0.0 };
+    let wrong = [one(1.0), DMatrix::zeros(2, 1), one(1.0)];
+    let text = SampledPlant::from_matrices(sampling, wrong).expect_err("a shape").to_string();
+    assert_eq!(text, "rows of Gamma: 2; there must be 1");
+}
+
+/// Twelve commands that wait for ten periods: 120 eigenvalues at zero in ten long chains, beside those of three axes.
+#[test]
+fn many_commands_that_wait_have_eigenvalues() {
+    const PERIOD: f64 = 0.1;
+    let unit = DMatrix::<f64>::identity(3, 3);
+    let plant = turning(&unit);
+    // Four alike for each axis, each with a quarter.
+    let spread = DMatrix::from_fn(3, 12, |row, column| if column % 3 == row { 0.25 } else { 0.0 });
+    let plant = Plant { b: &plant.b * &spread, ..plant };
+    let sampling = Sampling { period: PERIOD, delay: 1.0 };
+    let sampled = SampledPlant::new(&plant, sampling).expect("plant");
+    let gains = [0.1, 0.4, 0.0].map(|gain| &unit * gain);
+    let law = Feedback::pid([&gains[0], &gains[1], &gains[2]], PERIOD);
+    let each = Feedback::gain(spread.map(|part| if part > 0.0 { 1.0 } else { 0.0 }).transpose());
+    let closed = SampledLoop::new(sampled, law.then(&each).expect("shapes")).expect("a loop");
+    let poles = closed.poles().expect("they converge");
+    assert_eq!(poles.len(), 6 + 11 * 12);
+    let one = |value: f64| DMatrix::from_element(1, 1, value);
+    let single = SampledPlant::new(&turning(&one(1.0)), sampling).expect("plant");
+    let single = SampledLoop::new(single, Feedback::pid([&one(0.1), &one(0.4), &one(0.0)], PERIOD));
+    let slowest = single.expect("a loop").poles().expect("they converge")[0];
+    // Three times the same, which rounding takes apart.
+    assert!((poles[0].modulus() - slowest.modulus()).abs() < 1e-6);
+}
+
 #[test]
 fn feedback_in_series_multiplies() {
     let section = |a: f64, b: f64, c: f64, d: f64| {
