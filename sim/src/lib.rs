@@ -55,6 +55,7 @@ pub mod evaluation;
 pub mod file;
 pub mod fit;
 pub mod jitter;
+pub mod margins;
 mod names;
 mod nearest;
 mod opened;

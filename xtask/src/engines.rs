@@ -12,8 +12,9 @@ use xtask::skip::skip;
 
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated platforms; pyYeti, of structures; Basilisk's
-/// laws, of steering and of attitude, and its law and servo over a run; `SciPy`, of filters.
-const SCRIPTS: [&str; 11] = [
+/// laws, of steering and of attitude, and its law and servo over a run; `SciPy`, of filters; python-control, of
+/// loops.
+const SCRIPTS: [&str; 12] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -23,6 +24,7 @@ const SCRIPTS: [&str; 11] = [
     "tests/engines/structures.py",
     "tests/engines/steering.py",
     "tests/engines/filters.py",
+    "tests/engines/loops.py",
     "tests/engines/steered.py",
     "tests/engines/mrp_feedback.py",
 ];

@@ -15,6 +15,7 @@ mod fit;
 mod jitter;
 mod kinds;
 mod limits_and_springs;
+mod margins;
 mod new;
 mod options;
 mod outputs;
@@ -97,6 +98,9 @@ enum Command {
     /// Sweep the speed of rotors, and compare the jitter of lines of sight with its limits
     #[command(after_help = jitter::HELP)]
     Jitter(jitter::Jitter),
+    /// Compute margins, sensitivity and poles of a controller's loop, and what lines of rotors do through it
+    #[command(after_help = margins::HELP)]
+    Margins(Box<margins::Margins>),
     /// Fit imbalance, harmonics, modes and noise of a wheel to forces and moments on a rigid table
     #[command(after_help = fit::HELP)]
     Fit(fit::FitCommand),
@@ -152,6 +156,7 @@ impl Cli {
             Command::Structure(structure) => structure.execute(),
             Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Jitter(jitter) => jitter.execute(),
+            Command::Margins(margins) => margins.execute(),
             Command::Fit(fit) => fit.execute(),
             Command::Sweep(sweep) => sweep.execute(),
             Command::MonteCarlo(campaign) => campaign.execute(),

@@ -20,6 +20,7 @@ pub(crate) mod tests;
 
 pub(crate) use precess_craft::{Craft, rigid_state};
 
+pub(crate) use control::linear::{LinearAllocation, linear_allocation};
 pub(crate) use equations::inputs::SegmentInputs;
 pub(crate) use equations::kinematics::Chain;
 pub(crate) use equations::packing::Layout;

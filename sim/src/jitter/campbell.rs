@@ -90,8 +90,8 @@ pub fn oscillations(model: &Model, speed: f64) -> Result<Vec<Oscillation>, Fault
     Ok(found)
 }
 
-/// Mass, rate and stiffness matrix.
-fn matrices(model: &Model, speed: f64) -> [DMatrix<f64>; 3] {
+/// Mass, rate and stiffness matrix, of coordinates `[rigid motion; modal coordinates; free joints]`.
+pub(crate) fn matrices(model: &Model, speed: f64) -> [DMatrix<f64>; 3] {
     let structure = &model.structure;
     let modes = structure.modes.len();
     let means: Vec<_> = model.devices.iter().map(|(_, device)| device.mean(speed)).collect();
@@ -111,36 +111,48 @@ fn matrices(model: &Model, speed: f64) -> [DMatrix<f64>; 3] {
         all[1][at] = 2.0 * mode.damping * mode.frequency;
         all[2][at] = mode.frequency * mode.frequency;
     }
-    // Motion of each mount by the coordinates.
-    let moved = |mount: usize| {
-        let node = model.mounts.get(mount).copied().unwrap_or(0);
-        let mut rows = DMatrix::zeros(COORDINATES, size);
-        if let Some(place) = structure.nodes.get(node) {
-            rows.view_mut((0, 0), (COORDINATES, COORDINATES))
-                .copy_from(&rigid_rows(&place.position));
-            let shapes = structure.shapes.rows(COORDINATES * node, COORDINATES);
-            rows.view_mut((0, COORDINATES), (COORDINATES, modes)).copy_from(&shapes);
-        }
-        rows
-    };
-    let mut next = rigid;
-    for ((mount, _), mean) in model.devices.iter().zip(&means) {
-        let own = joints(mean);
-        let mut rows = DMatrix::zeros(COORDINATES + own, size);
-        rows.rows_mut(0, COORDINATES).copy_from(&moved(*mount));
-        rows.view_mut((COORDINATES, next), (own, own)).fill_diagonal(1.0);
-        next += own;
+    for (rows, mean) in device_rows(model).iter().zip(&means) {
         for (sum, part) in all.iter_mut().zip(mean) {
-            *sum += rows.transpose() * part * &rows;
+            *sum += rows.transpose() * part * rows;
         }
     }
     for (mount, contained) in model.contained.iter().enumerate() {
         if let Some(mass) = contained {
-            let rows = moved(mount);
+            let node = model.mounts.get(mount).copied().unwrap_or(0);
+            let rows = node_rows(model, node, size);
             all[0] -= rows.transpose() * mass * rows;
         }
     }
     all
+}
+
+/// Motion of a node by the coordinates of [`matrices`]: six rows.
+pub(crate) fn node_rows(model: &Model, node: usize, size: usize) -> DMatrix<f64> {
+    let (structure, modes) = (&model.structure, model.structure.modes.len());
+    let mut rows = DMatrix::zeros(COORDINATES, size);
+    if let Some(place) = structure.nodes.get(node) {
+        rows.view_mut((0, 0), (COORDINATES, COORDINATES)).copy_from(&rigid_rows(&place.position));
+        let shapes = structure.shapes.rows(COORDINATES * node, COORDINATES);
+        rows.view_mut((0, COORDINATES), (COORDINATES, modes)).copy_from(&shapes);
+    }
+    rows
+}
+
+/// Motion of the mount and of the free joints of each device by the coordinates of [`matrices`].
+pub(crate) fn device_rows(model: &Model) -> Vec<DMatrix<f64>> {
+    let rigid = COORDINATES + model.structure.modes.len();
+    let size = rigid + model.devices.iter().map(|(_, device)| device.free.len()).sum::<usize>();
+    let mut next = rigid;
+    let of = |(mount, device): &(usize, super::device::SweptDevice)| {
+        let own = device.free.len();
+        let node = model.mounts.get(*mount).copied().unwrap_or(0);
+        let mut rows = DMatrix::zeros(COORDINATES + own, size);
+        rows.rows_mut(0, COORDINATES).copy_from(&node_rows(model, node, size));
+        rows.view_mut((COORDINATES, next), (own, own)).fill_diagonal(1.0);
+        next += own;
+        rows
+    };
+    model.devices.iter().map(of).collect()
 }
 
 /// Branches through the oscillations at rising speeds: each goes on to the nearest frequency that its slope predicts.

@@ -31,7 +31,7 @@ pub struct Rotor {
     /// Device and body: `rw1.wheel`.
     pub name: String,
     /// Number of its joint among those of the device.
-    pub(super) joint: usize,
+    pub(crate) joint: usize,
     /// Its rate by the speed, 1 or -1, and what is added, rad/s: one of them is zero.
     rate: [f64; 2],
 }
@@ -74,11 +74,13 @@ pub struct SweptDevice {
     /// The tones.
     pub tones: Vec<Tone>,
     /// Numbers among the joints of the device of those that are free.
-    pub(super) free: Vec<usize>,
+    pub(crate) free: Vec<usize>,
     /// The first of its joints among those of the scenario.
-    pub(super) first_joint: usize,
+    pub(crate) first_joint: usize,
     /// Coefficients of the speed's powers 0, 1, 2.
     powers: [Derivatives; 3],
+    /// As it is at the initial rates, by which what averaging leaves out is known.
+    averaged: AveragedDevices,
 }
 
 /// What is swept and what small motions do.
@@ -105,8 +107,23 @@ impl SweptDevice {
         mount: &Vector3<f64>,
         steady: &Steady<'_>,
     ) -> Result<Self, Fault> {
+        Self::with_free(scenario, chosen, mount, steady, &[])
+    }
+
+    /// The same with more joints free, by their numbers among those of the scenario.
+    ///
+    /// # Errors
+    /// As [`AveragedDevices::new`].
+    pub(super) fn with_free(
+        scenario: &Scenario,
+        chosen: &[usize],
+        mount: &Vector3<f64>,
+        steady: &Steady<'_>,
+        free: &[usize],
+    ) -> Result<Self, Fault> {
         let set = set_of(scenario, chosen);
-        let joints = SteadyJoints::new(scenario, chosen, steady.motor, steady.sprung);
+        let joints = SteadyJoints::new(scenario, chosen, steady.motor, steady.sprung)
+            .with_free(scenario, chosen, free);
         let turning = joints.states.iter().zip(&joints.names).enumerate();
         let turning = turning.filter(|(_, ([_, rate], _))| *rate != 0.0);
         let rotor = |(joint, ([_, rate], name)): (usize, (&[f64; 2], &String))| {
@@ -125,10 +142,11 @@ impl SweptDevice {
             let states = states_at(&joints.states, &rotors, speed);
             AveragedDevices::of_set(&set, mount, &states, &joints.motors)
         };
+        let averaged = at(unit)?;
         let powers = if rotors.iter().any(Rotor::is_swept) {
-            polynomials(unit, [at(unit)?.mean(), at(-unit)?.mean(), at(2.0 * unit)?.mean()])
+            polynomials(unit, [averaged.mean(), at(-unit)?.mean(), at(2.0 * unit)?.mean()])
         } else {
-            let mean = at(unit)?.mean().clone();
+            let mean = averaged.mean().clone();
             let none = mean.each_ref().map(|m| DMatrix::zeros(m.nrows(), m.ncols()));
             [mean, none.clone(), none]
         };
@@ -155,7 +173,7 @@ impl SweptDevice {
         let free = free.filter(|(_, motor)| **motor == Motor::ConstantTorque).map(|(k, _)| k);
         let first = chosen.first().copied().unwrap_or(0);
         let first_joint = scenario.joints().take_while(|(device, ..)| *device < first).count();
-        Ok(Self { name, rotors, tones, free: free.collect(), first_joint, powers })
+        Ok(Self { name, rotors, tones, free: free.collect(), first_joint, powers, averaged })
     }
 
     /// Adds a tone of a blocked force and moment at the mount, by the rate squared, for `exp(i h |Omega| t)`, kg m and
@@ -237,6 +255,11 @@ impl SweptDevice {
         condensed(&self.mean(speed), frequency)
     }
 
+    /// What averaging leaves out at an angular frequency, rad/s, as [`AveragedDevices::periodic`] has it, at the initial rates.
+    pub(crate) fn periodic(&self, frequency: f64) -> Result<f64, Fault> {
+        self.averaged.periodic(frequency)
+    }
+
     /// Angular frequency of a tone at a speed, rad/s.
     #[must_use]
     pub fn frequency(&self, tone: &Tone, speed: f64) -> f64 {
@@ -245,7 +268,7 @@ impl SweptDevice {
     }
 
     /// Force of a tone on mount and free joints, as it is without their motion, N, N m and each joint's.
-    pub(super) fn force(&self, tone: &Tone, speed: f64) -> DVector<Complex<f64>> {
+    pub(crate) fn force(&self, tone: &Tone, speed: f64) -> DVector<Complex<f64>> {
         let rate = self.rotors.get(tone.rotor).map_or(0.0, |rotor| rotor.rate(speed));
         &tone.load * Complex::new(-rate * rate, 0.0)
     }

@@ -41,7 +41,9 @@ pub struct Model {
     pub noises: Vec<MountNoise>,
     accelerance: Accelerance,
     /// A row for each output, six columns for each of its nodes.
-    pub(super) rows: DMatrix<f64>,
+    pub(crate) rows: DMatrix<f64>,
+    /// The nodes of these columns.
+    pub(crate) output_nodes: Vec<usize>,
     /// The accelerance of mounts, and below it of the outputs.
     to_outputs: Accelerance,
 }
@@ -81,6 +83,16 @@ impl Model {
         outputs: &[Output],
         steady: &Steady<'_>,
     ) -> Result<Self, Fault> {
+        Self::with_free(scenario, outputs, steady, &[])
+    }
+
+    /// The same with more joints free, by their numbers among those of the scenario: those that a controller commands.
+    pub(crate) fn with_free(
+        scenario: &Scenario,
+        outputs: &[Output],
+        steady: &Steady<'_>,
+        free: &[usize],
+    ) -> Result<Self, Fault> {
         let structure = structure_of(scenario);
         let of_scenario = scenario.structure.as_ref();
         let mut mounts: Vec<usize> = Vec::new();
@@ -101,7 +113,8 @@ impl Model {
                     *contained = Some(contained.take().map_or(mass.clone(), |sum| sum + mass));
                 }
             }
-            devices.push((mount, SweptDevice::new(scenario, &group, &place, steady)?));
+            let device = SweptDevice::with_free(scenario, &group, &place, steady, free)?;
+            devices.push((mount, device));
         }
         let mut nodes = Vec::new();
         for (node, _) in outputs.iter().flat_map(|output| &output.terms) {
@@ -134,6 +147,7 @@ impl Model {
             noises: Vec::new(),
             accelerance,
             rows,
+            output_nodes: nodes,
             to_outputs,
         })
     }

@@ -19,6 +19,7 @@ mod draw;
 mod error;
 pub(crate) mod fit;
 pub(crate) mod jitter;
+pub(crate) mod margins;
 pub(crate) mod montecarlo;
 mod number;
 mod page;

@@ -63,4 +63,21 @@ impl SteadyJoints {
         }
         joints
     }
+
+    /// The same with more joints free, by their numbers among those of the scenario: those that a controller commands.
+    #[must_use]
+    pub(crate) fn with_free(
+        mut self,
+        scenario: &Scenario,
+        chosen: &[usize],
+        free: &[usize],
+    ) -> Self {
+        let own = scenario.joints().enumerate().filter(|(_, (device, ..))| chosen.contains(device));
+        for ((joint, (.., info)), motor) in own.zip(&mut self.motors) {
+            if info.driven && free.contains(&joint) {
+                *motor = Motor::ConstantTorque;
+            }
+        }
+        self
+    }
 }

@@ -280,6 +280,7 @@ pub(crate) const SUITES: &[Suite] = &[
         "known_answers",
         &[SOLVER, DESKTOP, &["sim/tests/known_answers", "sim/tests/known_answers.rs"]],
     ),
+    always("precess", "margins", &[SOLVER, DESKTOP, &["sim/tests/margins"]]),
     always("precess", "mutated", &[SOLVER, DESKTOP, &["sim/tests/mutated.rs", "sim/tests/shared"]]),
     always("precess", "picture", &[SOLVER, DESKTOP, &["sim/tests/picture.rs", "docs"]]),
     always("precess", "platforms", &[SOLVER, DESKTOP, &["sim/tests/platforms"]]),

@@ -65,7 +65,7 @@ pub(super) struct Pose<'a> {
 }
 
 /// Joints beyond those of a controller are padded: nothing is commanded of them.
-type Padded<T> = [T; COMMANDED_MAX];
+pub(super) type Padded<T> = [T; COMMANDED_MAX];
 
 impl Allocator {
     pub(super) fn new(of: &SampledController) -> Self {
@@ -121,7 +121,7 @@ impl Allocator {
 }
 
 /// Columns of the commanded joints, and the drift of all others.
-fn matrix(
+pub(super) fn matrix(
     steered: &Padded<Steered>,
     joints: &[Available],
     rates: &[f64],
@@ -147,7 +147,7 @@ fn matrix(
 }
 
 /// The matrix with the columns of some joints only.
-fn only(
+pub(super) fn only(
     matrix: &SteeringMatrix<f64, COMMANDED_MAX>,
     steered: &Padded<Steered>,
     keep: impl Fn(Steered) -> bool,
@@ -161,7 +161,7 @@ fn only(
 
 /// The largest column, of gimbals where the controller has any: the momentum of a wheel; of wheels by themselves an inertia.
 /// None where no such joint is available.
-fn largest(
+pub(super) fn largest(
     matrix: &SteeringMatrix<f64, COMMANDED_MAX>,
     steered: &Padded<Steered>,
     joints: &[Available],
@@ -189,7 +189,7 @@ fn clipped(
     of
 }
 
-fn inverse(of: AllocationInverse, time: f64) -> Inverse {
+pub(super) fn inverse(of: AllocationInverse, time: f64) -> Inverse {
     match of {
         AllocationInverse::Exact | AllocationInverse::LeastLargest => Inverse::Exact,
         AllocationInverse::SingularityRobust([lambda, mu]) => {

@@ -6,6 +6,7 @@
 
 mod allocation;
 mod clock;
+pub(crate) mod linear;
 mod servo;
 
 use std::collections::VecDeque;

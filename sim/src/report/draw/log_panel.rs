@@ -43,6 +43,23 @@ pub(in crate::report) enum Kind {
     Powers,
     /// Degrees.
     Phase,
+    /// Decibels.
+    Decibels,
+}
+
+/// Decibels between which a scale has its ticks.
+const DECIBELS: f64 = 20.0;
+
+/// Decibels: whole steps of twenty about the values, at most so many below the largest.
+pub(in crate::report) fn decibels(values: impl Iterator<Item = f64>, most: f64) -> Scale {
+    let levels = values.filter(|level| level.is_finite());
+    let ends = levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, highest), level| {
+        (level.min(least), level.max(highest))
+    });
+    let (least, highest) = if ends.0 > ends.1 { (-1.0, 1.0) } else { ends };
+    let top = DECIBELS * (highest / DECIBELS + 0.1).ceil();
+    let bottom = DECIBELS * (least.max(highest - most) / DECIBELS - 0.1).floor();
+    Scale { range: bottom..top, kind: Kind::Decibels }
 }
 
 /// Logarithmic, powers of ten: whole decades about the positive values, at most so many decades below the largest.
@@ -123,6 +140,13 @@ impl Scale {
         if self.kind == Kind::Phase {
             return vec![-180.0, -90.0, 0.0, 90.0, 180.0];
         }
+        if self.kind == Kind::Decibels {
+            let step = DECIBELS * ((self.range.end - self.range.start) / (8.0 * DECIBELS)).ceil();
+            let first = (self.range.start / step).ceil();
+            let count = ((self.range.end / step).floor() - first).max(0.0);
+            let ticks = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
+            return ticks.take_while(|k| *k <= count).map(|k| step * (first + k)).collect();
+        }
         let exponent = |value: f64| {
             #[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
             let exponent = value.log10().floor() as i32;
@@ -147,7 +171,7 @@ impl Ranged for Scale {
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         let (Range { start, end }, value) = (self.range.clone(), *value);
         let share = match self.kind {
-            Kind::Phase => (value - start) / (end - start),
+            Kind::Phase | Kind::Decibels => (value - start) / (end - start),
             Kind::Plain | Kind::Powers => (value / start).ln() / (end / start).ln(),
         };
         (f64::from(limit.0) + share * f64::from(limit.1 - limit.0)).round() as i32
@@ -166,7 +190,7 @@ impl ValueFormatter<f64> for Scale {
     fn format_ext(&self, value: &f64) -> String {
         match self.kind {
             Kind::Plain => short(*value, 3),
-            Kind::Phase => format!("{value:.0}").replace('-', "\u{2212}"),
+            Kind::Phase | Kind::Decibels => format!("{value:.0}").replace('-', "\u{2212}"),
             Kind::Powers => {
                 let exponent = value.log10().round();
                 let factor = value / 10_f64.powf(exponent);

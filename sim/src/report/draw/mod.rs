@@ -3,6 +3,7 @@
 //! Invariant: equal numbers give equal bytes.
 
 pub(super) mod axes;
+pub(in crate::report) mod bode;
 pub mod cells;
 pub(super) mod curves;
 pub(super) mod figure;

@@ -52,6 +52,32 @@ name = "rms"
 metric = "rms"
 limit = "1 mrad"
 "#;
+const HELD: &str = r#"format = 1
+title = "Held \u001b[2J"
+[hub]
+mass = "96 kg"
+inertia = "20, 20, 20 kg m^2"
+[[device]]
+name = "rw"
+kind = "reaction_wheel"
+layout.pyramid = { count = 3, half_angle = "50 deg", radius = "20 cm" }
+imbalance = { static = "1 g cm", dynamic = "1 g cm^2" }
+[device.wheel]
+mass = "4 kg"
+inertia = "288, 150, 150 kg cm^2"
+rate = "3000 rpm"
+[[controller]]
+name = "aocs"
+rate = "4 Hz"
+[controller.law]
+kind = "mrp_feedback"
+attitude_gain = "4 N m"
+rate_gain = "6 N m s"
+[run]
+duration = "1 s"
+[output]
+rate = "10 Hz"
+"#;
 const PLAN: &str = "format = 1\n[[vary]]\nkey = \"hub.mass\"\ndistribution = \"uniform\"\nfrom = \"90 kg\"\n\
                     to = \"100 kg\"\n";
 
@@ -116,9 +142,13 @@ pub(super) fn names() -> BTreeSet<String> {
 pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     let folder = super::super::folder(folder_name);
     let put = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
-    for (name, text) in
-        [("hub.toml", HUB), ("wheel.toml", WHEEL), ("budget.toml", BUDGET), ("plan.toml", PLAN)]
-    {
+    for (name, text) in [
+        ("hub.toml", HUB),
+        ("wheel.toml", WHEEL),
+        ("budget.toml", BUDGET),
+        ("plan.toml", PLAN),
+        ("held.toml", HELD),
+    ] {
         put(name, text);
     }
     put("push.csv", "time_s,f\n0,0\n1,0\n");
@@ -172,6 +202,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
             &["bus.npz", "--at", "camera", "--points", "20", "--out", "out"],
         ),
         of("jitter", budget, &["budget.toml", "--out", "out"]),
+        of("margins", &["held.toml"], &["held.toml", "--out", "out"]),
         of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
         of("sweep", scenario, &["wheel.toml", "--over", "hub.mass=90..110 kg:3", "--out", "out"]),
         of(

@@ -1,0 +1,36 @@
+//! The loop of a controller in the frequency domain: a scenario's spacecraft about rest, averaged over the turns of its rotors, the
+//! law, the division among joints and the servo of a [`SampledController`](crate::scenario::SampledController), exactly discretised
+//! with hold and delay.
+//!
+//! ```text
+//! M x'' + C x' + K x = E u + F      x = [theta; modes; free joints]      (the translation is eliminated)
+//! u_k = S x_k + N c_k      c_k = P tau_k + R x_k      tau = law(theta, omega) at the samples
+//! L = -K_law(z) G(z), from torque to torque, three axes of B      S = (1 + L)^-1      T = 1 - S
+//! ```
+//!
+//! `M`, `C`, `K` are the means over the turns of the rotors, as [`jitter`](crate::jitter) has them; commanded joints are free, and
+//! `E u` are the torques of their motors, held as a run holds them. The servo (`S`, `N`) is the evaluation with prescribed
+//! accelerations of the same equations. With a rate of its own it computes several times in a period: the same recursion, with
+//! these times in it. The loop is open at the torque of the law: what its margins say is what a factor or a delay of that
+//! torque does.
+//!
+//! | what | module |
+//! |---|---|
+//! | equations of motion, servo, what loads do | [`plant`] |
+//! | from sample to sample | [`sampled`] |
+//! | the law | [`feedback`] |
+//! | margins, curves, poles | [`analysis`] |
+//! | lines of rotors through the loop, and their aliases | [`lines`] |
+//! | the lines of a jitter budget with the loop closed | [`closed_sweep`] |
+//! | noise of what is measured | [`noise`] |
+
+pub mod analysis;
+pub mod closed_sweep;
+mod error;
+pub mod feedback;
+pub mod lines;
+pub mod noise;
+pub mod plant;
+pub mod sampled;
+
+pub use error::MarginsError;

@@ -1,0 +1,300 @@
+//! [`ControlledSamples`]: a [`ControlledPlant`] from one sample of its controller to the next, exactly.
+//!
+//! What a sample gives, `a_k`, acts from its delay on: torques of motors, or with a servo at a rate of its own commands, from
+//! which torques are computed when they come to act and at its own times.
+//!
+//! ```text
+//! delay = m T + r, 0 <= r < T:      x_k+1 = Phi x_k + Gamma_0 a_k-m + Gamma_1 a_k-m-1 + D w_k
+//! a_k = E x_k + F tau_k + V w_k     w_k = exp(i w k T)
+//! ```
+//!
+//! With `x = x_w + xi`, where `x_w` is the motion under a load `exp(i w t)` with motors held, `xi` has the equation without load,
+//! but that what computes torques reads `x`.
+
+use nalgebra::{Complex, DMatrix, DVector};
+use precess_control::{ControlError, SampledPlant, Sampling, held_step};
+
+use super::MarginsError;
+use super::plant::{ControlledPlant, complex};
+use crate::scenario::SampledController;
+use crate::structure::accelerance::ComplexMatrix;
+
+/// A number of periods or of servo times that is whole to within rounding.
+const WHOLE: f64 = 1e-9;
+/// A singular value that is a smaller share of the largest is rounding.
+const RANK: f64 = 1e-12;
+
+/// From sample to sample.
+#[derive(Clone, Debug)]
+pub struct ControlledSamples {
+    /// Period and delay.
+    pub sampling: Sampling,
+    /// Whole periods of the delay.
+    periods: usize,
+    phi: DMatrix<f64>,
+    /// By what acts from within this period on, and by what acted before.
+    gamma: [DMatrix<f64>; 2],
+    /// What a sample gives, by the state and by the torque of the law.
+    given: [DMatrix<f64>; 2],
+    /// What a sample gives, by loads on the coordinates.
+    by_load: DMatrix<f64>,
+    /// Times within a period, s, from which on torques of motors are held, and whether what is given at this period has come to
+    /// act.
+    times: Vec<(f64, bool)>,
+    /// At these times: torques by the state, by what acts, and by loads.
+    torques: [DMatrix<f64>; 3],
+}
+
+/// The forced motion of a load `exp(i w t)`.
+#[derive(Clone, Debug)]
+pub struct Forced {
+    /// rad/s.
+    pub frequency: f64,
+    /// The load on the coordinates that the servo knows.
+    pub known: DVector<Complex<f64>>,
+    /// The motion with motors held, as states at the time zero.
+    pub states: DVector<Complex<f64>>,
+}
+
+impl ControlledSamples {
+    /// Of a plant and its controller, with a delay of its own.
+    ///
+    /// # Errors
+    /// [`MarginsError::ServoRate`]; numbers that are not finite.
+    pub fn new(
+        plant: &ControlledPlant,
+        of: &SampledController,
+        delay: f64,
+    ) -> Result<Self, MarginsError> {
+        let period = of.rate.recip();
+        let mut periods = (delay / period).floor();
+        let mut rest = delay - periods * period;
+        if rest > period * (1.0 - WHOLE) {
+            (periods, rest) = (periods + 1.0, 0.0);
+        } else if rest < period * WHOLE {
+            rest = 0.0;
+        }
+        let [by_state, by_command, by_load] = plant.servo.clone();
+        let commands = [plant.by_state.clone(), plant.allocation.by_torque.clone()];
+        let count = by_command.nrows();
+        let mut times = vec![(0.0, rest == 0.0), (rest, true)];
+        let (given, given_by_load, torques) = match of.servo.rate {
+            None => {
+                let given = [&by_state + &by_command * &commands[0], &by_command * &commands[1]];
+                let none = |columns| DMatrix::zeros(count, columns);
+                let kept = [none(by_state.ncols()), DMatrix::identity(count, count)];
+                let [states, acts] = kept;
+                let no_load = none(by_load.ncols());
+                (given, by_load, [states, acts, no_load])
+            }
+            Some(servo) => {
+                let ratio = servo / of.rate;
+                if (ratio - ratio.round()).abs() > WHOLE * ratio {
+                    return Err(MarginsError::ServoRate { rate: of.rate, servo });
+                }
+                let steps = whole(ratio);
+                let share = |k: usize| crate::spectra::float(k) / ratio.round();
+                times.extend((1..steps).map(|k| (period * share(k), period * share(k) >= rest)));
+                let none = DMatrix::zeros(count, by_load.ncols());
+                (commands, none, [by_state, by_command, by_load])
+            }
+        };
+        times.sort_by(|a, b| a.0.total_cmp(&b.0));
+        times.dedup_by(|a, b| {
+            (a.0 - b.0).abs() < WHOLE * period && {
+                b.1 |= a.1;
+                true
+            }
+        });
+        let mut samples = Self {
+            sampling: Sampling { period, delay },
+            periods: whole(periods),
+            phi: DMatrix::zeros(0, 0),
+            gamma: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
+            given,
+            by_load: given_by_load,
+            times,
+            torques,
+        };
+        let [phi, newer, older] = samples.over_period(plant);
+        (samples.phi, samples.gamma) = (phi, [newer, older]);
+        Ok(samples)
+    }
+
+    /// The state at the next sample: by the state, by what acts newly, by what acted before.
+    fn over_period(&self, plant: &ControlledPlant) -> [DMatrix<f64>; 3] {
+        let (n, count) = (plant.a.nrows(), self.torques[1].ncols());
+        let mut maps =
+            [DMatrix::identity(n, n), DMatrix::zeros(n, count), DMatrix::zeros(n, count)];
+        let [by_state, by_given, _] = &self.torques;
+        for ((from, newly), to) in self.times.iter().zip(self.ends()) {
+            let mut by = maps.each_ref().map(|map| by_state * map);
+            by[if *newly { 1 } else { 2 }] += by_given;
+            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
+            for (map, torque) in maps.iter_mut().zip(&by) {
+                *map = &phi * &*map + &gamma * torque;
+            }
+        }
+        maps
+    }
+
+    /// The ends of the times within a period.
+    fn ends(&self) -> impl Iterator<Item = f64> {
+        let next = self.times.iter().skip(1).map(|(at, _)| *at);
+        next.chain(std::iter::once(self.sampling.period))
+    }
+
+    /// From the torque of the law to attitude and angular velocity at the samples: what was given and waits, newest first, is
+    /// behind the states of the spacecraft.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn plant(&self, measured: &DMatrix<f64>) -> Result<SampledPlant, ControlError> {
+        self.plant_of(measured, &self.gamma, &self.given)
+    }
+
+    /// The same with no more waiting than the rank of what is given: three numbers where commands follow from a torque.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn least_plant(&self, measured: &DMatrix<f64>) -> Result<SampledPlant, ControlError> {
+        let [by_state, by_torque] = &self.given;
+        let (count, states) = by_state.shape();
+        let mut both = DMatrix::zeros(count, states + by_torque.ncols());
+        both.columns_mut(0, states).copy_from(by_state);
+        both.columns_mut(states, by_torque.ncols()).copy_from(by_torque);
+        let parts = both.svd(true, false);
+        let least = RANK * parts.singular_values.max();
+        let kept: Vec<usize> = (0..parts.singular_values.len())
+            .filter(|k| parts.singular_values[*k] > least)
+            .collect();
+        let Some(directions) = parts.u.filter(|_| kept.len() < count) else {
+            return self.plant(measured);
+        };
+        let directions = directions.select_columns(&kept);
+        let gamma = self.gamma.each_ref().map(|of| of * &directions);
+        let given = self.given.each_ref().map(|of| directions.transpose() * of);
+        self.plant_of(measured, &gamma, &given)
+    }
+
+    fn plant_of(
+        &self,
+        measured: &DMatrix<f64>,
+        gamma: &[DMatrix<f64>; 2],
+        [by_state, by_torque]: &[DMatrix<f64>; 2],
+    ) -> Result<SampledPlant, ControlError> {
+        let [f, g] = self.with_waiting(gamma);
+        let n = self.phi.nrows();
+        let mut h = DMatrix::zeros(measured.nrows(), f.nrows());
+        h.columns_mut(0, n).copy_from(measured);
+        let mut closed = f;
+        let mut states = closed.columns_mut(0, n);
+        states += &g * by_state;
+        SampledPlant::from_matrices(self.sampling, [closed, &g * by_torque, h])
+    }
+
+    /// `X = [x; a_k-1; ..; a_k-m-1]`: `X_k+1 = F X_k + G a_k`.
+    fn with_waiting(&self, [newer, older]: &[DMatrix<f64>; 2]) -> [DMatrix<f64>; 2] {
+        let (n, count) = newer.shape();
+        let size = n + (self.periods + 1) * count;
+        let block = |number: usize| n + number * count;
+        let (mut f, mut g) = (DMatrix::zeros(size, size), DMatrix::zeros(size, count));
+        f.view_mut((0, 0), (n, n)).copy_from(&self.phi);
+        f.view_mut((0, block(self.periods)), (n, count)).copy_from(older);
+        match self.periods.checked_sub(1) {
+            None => g.rows_mut(0, n).copy_from(newer),
+            Some(last) => f.view_mut((0, block(last)), (n, count)).copy_from(newer),
+        }
+        g.rows_mut(n, count).fill_with_identity();
+        for number in 1..=self.periods {
+            f.view_mut((block(number), block(number - 1)), (count, count)).fill_with_identity();
+        }
+        [f, g]
+    }
+
+    /// `[D + G (E x_w + V w); 0]` and `x_w`: what a forced motion adds to the states of [`Self::plant`] in a period, `w_k` being
+    /// one, and its own states at the sample.
+    #[must_use]
+    pub fn driven_by(&self, plant: &ControlledPlant, of: &Forced) -> DVector<Complex<f64>> {
+        let [f, g] = self.with_waiting(&self.gamma);
+        let n = self.phi.nrows();
+        let mut added = DVector::zeros(f.nrows());
+        let [by_state, _, by_load] = &self.torques;
+        let torque = complex(by_state) * &of.states + complex(by_load) * &of.known;
+        // Torques that are computed within the period read the forced motion, too.
+        let mut within: DVector<Complex<f64>> = DVector::zeros(n);
+        for ((from, _), to) in self.times.iter().zip(self.ends()) {
+            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
+            let read = complex(by_state) * &within
+                + &torque * Complex::from_polar(1.0, of.frequency * from);
+            within = complex(&phi) * within + complex(&gamma) * read;
+        }
+        added.rows_mut(0, n).copy_from(&within);
+        let given = complex(&self.given[0]) * &of.states + complex(&self.by_load) * &of.known;
+        added + complex(&g) * given
+    }
+
+    /// The component at an angular frequency, rad/s, which is that of the samples or one of its images, of the torques of motors,
+    /// from the states of [`Self::plant`] for `w_k = exp(i w k T)`, the newest of what is given included.
+    #[must_use]
+    pub fn torques_at(
+        &self,
+        plant: &ControlledPlant,
+        of: &Forced,
+        (image, states, torque): (f64, &DVector<Complex<f64>>, &DVector<Complex<f64>>),
+    ) -> DVector<Complex<f64>> {
+        let (n, count) = (self.phi.nrows(), self.torques[1].ncols());
+        let own = states.rows(0, n).into_owned();
+        let newest = complex(&self.given[0]) * (&own + &of.states)
+            + complex(&self.given[1]) * torque
+            + complex(&self.by_load) * &of.known;
+        // What is given so many samples ago.
+        let ago = |samples: usize| match samples.checked_sub(1) {
+            None => newest.clone(),
+            Some(index) => states.rows(n + index * count, count).into_owned(),
+        };
+        let (newer, older) = (ago(self.periods), ago(self.periods + 1));
+        let [by_state, by_given, by_load] = &self.torques;
+        let read = complex(by_state) * &of.states + complex(by_load) * &of.known;
+        let period = self.sampling.period;
+        let mut sum: DVector<Complex<f64>> = DVector::zeros(plant.b.ncols());
+        let mut state = own;
+        for ((from, newly), to) in self.times.iter().zip(self.ends()) {
+            let acts = if *newly { &newer } else { &older };
+            let held = complex(by_state) * &state
+                + complex(by_given) * acts
+                + &read * Complex::from_polar(1.0, of.frequency * from);
+            sum += &held * (integral(image, [*from, to]) / period);
+            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
+            state = complex(&phi) * state + complex(&gamma) * held;
+        }
+        sum
+    }
+}
+
+/// `int exp(-i w t) dt`.
+fn integral(w: f64, [from, to]: [f64; 2]) -> Complex<f64> {
+    let (middle, half) = (f64::midpoint(from, to), 0.5 * (to - from));
+    let u = w * half;
+    let sinc = if u.abs() < 1e-6 { 1.0 - u * u / 6.0 } else { u.sin() / u };
+    Complex::from_polar(2.0 * half * sinc, -w * middle)
+}
+
+/// A number that is whole and not negative.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number, of at most 100 periods or a million servo times"
+)]
+fn whole(number: f64) -> usize {
+    number.round() as usize
+}
+
+/// A complex matrix of a real one, for solutions at a z.
+pub(super) fn at(z: Complex<f64>, of: &DMatrix<f64>) -> ComplexMatrix {
+    let mut system = -complex(of);
+    for k in 0..system.nrows() {
+        system[(k, k)] += z;
+    }
+    system
+}
