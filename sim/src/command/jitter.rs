@@ -25,6 +25,9 @@ use crate::jitter::own_speeds::AtOwnSpeeds;
 use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
+use crate::margins::MarginsError;
+use crate::margins::analysis::chosen;
+use crate::margins::closed_sweep::close;
 use crate::pointing::RequirementState;
 use crate::report::jitter::{JitterReport, disagreements, rpm};
 use crate::scenario::Scenario;
@@ -39,7 +42,9 @@ Examples:
   precess jitter budget.toml --set budget.phases=worst --set hub.mass='900 kg'
       keys of the budget have the prefix budget., others are of the scenario
   precess jitter budget.toml --compare '3000 rpm' --compare '4200 rpm'
-      beside it, runs of the coupled equations at two speeds";
+      beside it, runs of the coupled equations at two speeds
+  precess jitter scenarios/budgets/aliased-wheel-jitter.toml --controller aocs
+      with the loop of a controller closed, aliased lines among the others";
 
 /// Why there is no run of the coupled equations beside a budget.
 const NOT_COMPARED: &str =
@@ -70,6 +75,9 @@ pub(super) struct Jitter {
     /// requirement without this option.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
     compare: Vec<f64>,
+    /// Close the loop of a controller of the scenario: lines through it, and their aliases, without coupled runs and sensitivities.
+    #[arg(long, value_name = "NAME", conflicts_with = "compare")]
+    controller: Option<String>,
     /// Run the coupled equations at no speed.
     #[arg(long, conflicts_with = "compare")]
     no_compare: bool,
@@ -146,7 +154,7 @@ impl Jitter {
             note(&format!("warning: {warning}"));
         }
         let rotors = prepared.rotors(&budget);
-        let found = self.find(&scenario, &budget, prepared)?;
+        let found = self.find(&scenario, &budget, prepared, &mut warnings)?;
         let at_resonance = found.at_own_speeds.as_ref().err().map(|fault| {
             format!("nothing is known of the rotors at the speeds of the scenario: {fault}")
         });
@@ -173,6 +181,7 @@ impl Jitter {
             compared: &found.compared,
             has_imbalance: found.has_imbalance,
             sensitivities: &found.sensitivities,
+            controller: self.controller.as_deref(),
             warnings: &warnings,
         };
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
@@ -213,6 +222,7 @@ impl Jitter {
         scenario: &Scenario,
         budget: &Budget,
         prepared: Prepared,
+        warnings: &mut Vec<String>,
     ) -> Result<JitterResults, CommandError> {
         let other = |error: &dyn std::fmt::Display| {
             CommandError::Other(format!("{}: {error}", scenario.name))
@@ -226,15 +236,25 @@ impl Jitter {
                 bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
             }
         };
-        let found = sweep(&model, &speeds, threads, &show).map_err(|error| other(&error))?;
+        let mut found = sweep(&model, &speeds, threads, &show).map_err(|error| other(&error))?;
         if let Ok(bar) = bar.lock() {
             bar.finish_and_clear();
         }
+        if let Some(name) = &self.controller {
+            for text in closed(scenario, budget, name, &mut found)? {
+                note(&format!("warning: {text}"));
+                warnings.push(text);
+            }
+        }
         let assessed = budget.assess(&found).map_err(|error| other(&error))?;
-        let at_own_speeds = budget.at_own_speeds(scenario);
+        // Rows of one speed each are open loop.
+        let at_own_speeds = match &self.controller {
+            None => budget.at_own_speeds(scenario),
+            Some(_) => Ok(Vec::new()),
+        };
         // The runs are without sources: without imbalance nothing moves in them.
         let mut at: Vec<f64> = if has_imbalance { self.compare.clone() } else { Vec::new() };
-        if at.is_empty() && !self.no_compare && has_imbalance {
+        if at.is_empty() && !self.no_compare && has_imbalance && self.controller.is_none() {
             let evaluated = assessed.iter().filter(|of| of.no_data.is_none());
             at = evaluated.filter_map(|of| found.speeds.get(of.worst).copied()).collect();
             at.sort_by(f64::total_cmp);
@@ -259,6 +279,7 @@ impl Jitter {
         let names: Vec<String> = found.contributors.iter().map(name).collect();
         let ranked: Result<Vec<_>, _> = assessed
             .iter()
+            .filter(|_| self.controller.is_none())
             .map(|of| {
                 let speed = found.speeds.get(of.worst).copied().unwrap_or(0.0);
                 sensitivities(&model, budget, of, speed, &names)
@@ -276,4 +297,31 @@ impl Jitter {
             has_imbalance,
         })
     }
+}
+
+/// Closes the loop of a controller; what is to be said of it.
+fn closed(
+    scenario: &Scenario,
+    budget: &Budget,
+    name: &str,
+    found: &mut Sweep,
+) -> Result<Vec<String>, CommandError> {
+    let other = |error: MarginsError| CommandError::Other(format!("{}: {error}", scenario.name));
+    let of = chosen(scenario, Some(name)).map_err(other)?;
+    let bar = progress_bar(found.speeds.len(), "speeds of the loop");
+    let show = |done: usize| bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
+    let unstable = close(scenario, of, budget, found, &show).map_err(other)?;
+    bar.finish_and_clear();
+    let mut texts = Vec::new();
+    if let Some(first) = unstable.first() {
+        texts.push(format!(
+            "the loop of `{name}` is not stable at {} speeds, from {} on",
+            unstable.len(),
+            rpm(*first)
+        ));
+    }
+    if !found.noise.speeds.is_empty() {
+        texts.push(format!("broadband noise is without the loop of `{name}`"));
+    }
+    Ok(texts)
 }

@@ -56,6 +56,8 @@ pub(crate) struct JitterReport<'a> {
     pub(crate) has_imbalance: bool,
     /// Of each requirement.
     pub(crate) sensitivities: &'a [Vec<Sensitivity>],
+    /// The controller whose loop is closed.
+    pub(crate) controller: Option<&'a str>,
     pub(crate) warnings: &'a [String],
 }
 
@@ -158,7 +160,7 @@ impl JitterReport<'_> {
         let title = self.scenario.title.trim_end_matches('.');
         let mut paragraphs = vec![format!("Spacecraft: {title}.")];
         paragraphs.extend(disagreements(self.compared));
-        let facts = vec![
+        let mut facts = vec![
             Fact::new(
                 "Speeds",
                 format!("{} at {} to {}", self.sweep.speeds.len(), rpm(from), rpm(to)),
@@ -167,6 +169,7 @@ impl JitterReport<'_> {
             Fact::new("Tones", self.sweep.contributors.len().to_string()),
             Fact::new("Modes of the structure", self.modes()),
         ];
+        facts.extend(self.controller.map(|name| Fact::new("Loop closed", name)));
         Summary { paragraphs, facts }
     }
 
