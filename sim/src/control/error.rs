@@ -3,7 +3,7 @@
 use std::fmt;
 
 use precess_control::ControlError;
-use precess_dynamics::SteeringError;
+use precess_dynamics::{SolveError, SteeringError};
 
 /// Why a controller has no command at a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,15 @@ pub enum ControllerError {
     Parameter(ControlError),
     /// Its torque cannot be divided among its joints.
     Steering(SteeringError),
+    /// The motion of a node of the structure cannot be computed.
+    Node(SolveError),
+    /// Between two samples of an integrating gyro the hub turns by half a turn or more.
+    HalfTurn {
+        /// Its angular velocity, rad/s.
+        rate: f64,
+        /// What it must be below, rad/s.
+        largest: f64,
+    },
     /// It answers torques of another number of motors than it commands.
     Count {
         /// How many joints it commands.
@@ -38,6 +47,11 @@ impl fmt::Display for ControllerError {
         match self {
             Self::Parameter(error) => error.fmt(f),
             Self::Steering(error) => error.fmt(f),
+            Self::Node(error) => error.fmt(f),
+            Self::HalfTurn { rate, largest } => write!(
+                f,
+                "the hub turns at {rate} rad/s, and an integrating gyro needs less than half a turn between samples, {largest} rad/s; sample faster"
+            ),
             Self::Count { expected, found } => {
                 write!(f, "{found} torques of motors for {expected} joints; answer one for each")
             }
@@ -54,6 +68,7 @@ impl std::error::Error for ControllerError {
         match self {
             Self::Parameter(source) => Some(source),
             Self::Steering(source) => Some(source),
+            Self::Node(source) => Some(source),
             _ => None,
         }
     }
@@ -62,5 +77,17 @@ impl std::error::Error for ControllerError {
 impl From<SteeringError> for ControllerError {
     fn from(error: SteeringError) -> Self {
         Self::Steering(error)
+    }
+}
+
+impl From<SolveError> for ControllerError {
+    fn from(error: SolveError) -> Self {
+        Self::Node(error)
+    }
+}
+
+impl From<ControlError> for ControllerError {
+    fn from(error: ControlError) -> Self {
+        Self::Parameter(error)
     }
 }

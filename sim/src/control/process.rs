@@ -8,7 +8,7 @@
 //! {"protocol":1,"name":"aocs","rate":10.0,"offset":0.0,"delay":0.0,
 //!  "joints":[{"name":"rw1.wheel","commanded":"acceleration"}],"inertia":[[..],[..],[..]]}
 //! at each sample:
-//! {"time":0.1,"attitude":[q0,q1,q2,q3],"omega":[..],"momentum":[..],"elapsed":0.1,"limited":false,
+//! {"time":0.1,"attitude":[q0,q1,q2,q3],"omega":[..],"momentum":[..],"external":[..],"elapsed":0.1,"limited":false,
 //!  "reference":{"attitude":[..],"omega":[..],"omega_dot":[..]},"joints":[[coordinate,rate],..]}
 //! from the program, for each sample:
 //! {"torque":[x,y,z]}    or    {"motors":[u,..]}    or    {"error":"why"}
@@ -271,10 +271,11 @@ fn line_of(sample: &ControllerSample<'_>) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         line,
-        ",\"omega\":{},\"momentum\":{},\"elapsed\":{:?},\"limited\":{},\
+        ",\"omega\":{},\"momentum\":{},\"external\":{},\"elapsed\":{:?},\"limited\":{},\
          \"reference\":{{\"attitude\":{},\"omega\":{},\"omega_dot\":{}}},\"joints\":[{}]}}",
         vector(&of.motion.omega),
         vector(&of.momentum),
+        vector(&of.external),
         of.elapsed,
         of.limited,
         attitude(&of.reference.attitude),

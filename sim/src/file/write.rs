@@ -7,6 +7,7 @@
 //! A program of a controller runs in the folder of the file that is read, which is not written.
 
 mod controller;
+mod controller_sensors;
 mod source;
 pub(super) mod structure;
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_control::{
-    ControlError, Guidance, Gyroscopic, Hold, Law, MrpFeedback, MrpGains, QuaternionFeedback,
-    RateDamping, Slew, TurnLimits, Turning,
+    AttitudeRow, AttitudeTable, ControlError, Guidance, Gyroscopic, Hold, Law, MrpFeedback,
+    MrpGains, QuaternionFeedback, RateDamping, Slew, TurnLimits, Turning,
 };
 use precess_dynamics::Quaternion;
 
@@ -59,7 +59,7 @@ pub enum ControlLaw {
 }
 
 /// What the hub is to follow.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum AttitudeReference {
     /// An attitude relative to N.
     Hold(Quaternion),
@@ -81,6 +81,8 @@ pub enum AttitudeReference {
         /// Its angular velocity, expressed in it, rad/s.
         omega: Vector3<f64>,
     },
+    /// Attitude and rate at some times, and a smooth motion through them.
+    Table(Vec<AttitudeRow>),
 }
 
 /// A law that a run keeps.
@@ -151,6 +153,7 @@ impl AttitudeReference {
                 Box::new(Slew::new(*start, *from, *to, limits)?)
             }
             Self::Turning { attitude, omega } => Box::new(Turning::new(0.0, *attitude, *omega)?),
+            Self::Table(rows) => Box::new(AttitudeTable::new(rows)?),
         })
     }
 
@@ -161,7 +164,7 @@ impl AttitudeReference {
             Self::Slew { start, from, to, limits } => {
                 Slew::new(*start, *from, *to, limits).ok().map(|slew| slew.end())
             }
-            Self::Hold(_) | Self::Turning { .. } => None,
+            Self::Hold(_) | Self::Turning { .. } | Self::Table(_) => None,
         }
     }
 }

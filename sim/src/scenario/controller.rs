@@ -6,6 +6,9 @@ use precess_dynamics::kind::JointInfo;
 
 use super::check::{SAMPLES_MAX, range};
 use super::control_law::{AttitudeReference, ControlLaw};
+use super::controller_sensors::{
+    ControllerSensors, DumpingSettings, EstimatorSettings, FilterSettings,
+};
 use super::mass::MassProperties;
 use super::{Action, Drive, Member, Scenario, ScenarioError, body_key, joint_key, members};
 use crate::units::Plain;
@@ -38,6 +41,14 @@ pub struct SampledController {
     pub allocation: TorqueAllocation,
     /// From commands to torques of motors.
     pub servo: ServoSettings,
+    /// What it reads of the truth.
+    pub sensors: ControllerSensors,
+    /// One after another, of the rate that it reads and of the torque that it commands.
+    pub filters: Vec<FilterSettings>,
+    /// From readings to attitude and rate; none where the law reads these as they are.
+    pub estimator: Option<EstimatorSettings>,
+    /// An external torque that takes momentum from the devices.
+    pub dumping: Option<DumpingSettings>,
 }
 
 /// A joint that is commanded.
@@ -50,7 +61,7 @@ pub struct CommandedJoint {
 }
 
 /// How a torque is divided among joints.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TorqueAllocation {
     /// The inverse of the steering matrix.
     pub inverse: AllocationInverse,
@@ -63,6 +74,21 @@ pub struct TorqueAllocation {
     /// The momentum that makes lambda and the measure dimensionless, N m s; none for the largest column of gimbals, without
     /// these of wheels, of the steering matrix at the first sample.
     pub reference: Option<f64>,
+    /// Motion that gives no torque.
+    pub null_motion: NullMotion,
+}
+
+/// Motion of joints that gives no torque, towards preferred angles of gimbals and out of speeds of wheels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NullMotion {
+    /// Of the commanded gimbals in their order, rad; empty where none is preferred.
+    pub preferred_angles: Vec<f64>,
+    /// Rate towards these per distance, 1/s.
+    pub angle_gain: f64,
+    /// Speeds that wheels leave, lower and upper end of each band, rad/s: of both directions of turning.
+    pub keep_out: Vec<[f64; 2]>,
+    /// Acceleration out of a band per distance to its end, 1/s.
+    pub keep_out_gain: f64,
 }
 
 /// The inverse of the steering matrix.
@@ -242,6 +268,9 @@ impl SampledController {
             );
             faults.push((key, message));
         }
+        if faults.is_empty() {
+            faults.extend(self.sensor_faults());
+        }
         faults.extend(self.allocation.faults(&self.joints));
         if !not_negative(self.servo.gain) {
             let gain = Plain(self.servo.gain);
@@ -292,6 +321,7 @@ impl TorqueAllocation {
                 }
             }
         }
+        self.null_motion.add_faults(joints, &mut faults);
         if let Some(reference) = self.reference
             && !(reference > 0.0 && reference.is_finite())
         {
@@ -299,5 +329,33 @@ impl TorqueAllocation {
             faults.push(("allocation.reference_momentum", message));
         }
         faults
+    }
+}
+
+impl NullMotion {
+    fn add_faults(&self, joints: &[CommandedJoint], faults: &mut Vec<(&'static str, String)>) {
+        let gimbals = joints.iter().filter(|of| of.steered == Steered::Rate).count();
+        let angles = self.preferred_angles.len();
+        if angles > 0 && angles != gimbals {
+            let message = format!("{angles} angles for {gimbals} gimbals; give one for each");
+            faults.push(("allocation.preferred_angles", message));
+        }
+        for (key, gain) in [
+            ("allocation.angle_gain", self.angle_gain),
+            ("allocation.keep_out_gain", self.keep_out_gain),
+        ] {
+            if !(gain >= 0.0 && gain.is_finite()) {
+                faults.push((key, format!("{} 1/s; it is not negative", Plain(gain))));
+            }
+        }
+        for [from, to] in &self.keep_out {
+            if !(*from >= 0.0 && to > from && to.is_finite()) {
+                let [from, to] = [*from, *to].map(Plain);
+                let message = format!(
+                    "{from} rad/s to {to} rad/s is no band; its upper end is above its lower one, which is not negative"
+                );
+                faults.push(("allocation.keep_out", message));
+            }
+        }
     }
 }

@@ -11,6 +11,7 @@ mod body_point;
 mod check;
 mod control_law;
 mod controller;
+mod controller_sensors;
 mod description;
 mod disturbances;
 mod friction;
@@ -38,9 +39,15 @@ pub use check::ScenarioError;
 pub(crate) use control_law::BuiltGuidance;
 pub use control_law::{AttitudeReference, ControlLaw};
 pub use controller::{
-    AllocationInverse, CommandedJoint, SampledController, ServoSettings, TorqueAllocation,
+    AllocationInverse, CommandedJoint, NullMotion, SampledController, ServoSettings,
+    TorqueAllocation,
 };
 pub(crate) use controller::{COMMANDED_MAX, steered};
+pub(crate) use controller_sensors::BuiltSensors;
+pub use controller_sensors::{
+    ControllerSensors, DumpingSettings, EstimatorSettings, FilterKind, FilterSettings,
+    FilteredSignal, GyroSettings, StarTrackerSettings,
+};
 pub use description::UndescribedError;
 pub use friction::{DryFriction, JointFriction};
 pub use mass::{MassMatrix, MassProperties};

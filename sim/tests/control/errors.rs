@@ -59,6 +59,50 @@ fn what_is_wrong_is_said_with_its_place() {
         (slew("-270 deg"), "-270 deg is more than 180 deg, and a slew goes", "\"-270 deg\""),
         (with("servo = { rate = \"1 Hz\" }"), "1 Hz is outside 4 Hz", "\"1 Hz\""),
         (
+            with("sensors = { gyro = { angle_random_walk = \"0.1 deg/sqrt(h)\" } }"),
+            "`controller.aocs.sensors.seed` is missing",
+            "",
+        ),
+        (
+            with("sensors = { gyro = { angle_random_walk = \"0.1 deg/h\" } }"),
+            "is no angle over the root of a time",
+            "\"0.1 deg/h\"",
+        ),
+        (
+            with("sensors = { gyro = { angle_random_walk = \"0.1 m/sqrt(h)\" } }"),
+            "is no angle over the root of a time",
+            "\"0.1 m/sqrt(h)\"",
+        ),
+        (
+            with("sensors = { gyro = { quantum = \"-1 deg/s\" } }"),
+            "quantum is -0.017453292519943295; it must be finite and not negative",
+            "",
+        ),
+        (with("sensors = { gyro = { node = \"tip\" } }"), "there is no structure", "\"tip\""),
+        (
+            with("sensors = { star_tracker = { rate = \"5 Hz\" } }"),
+            "5 Hz is not above 0 Hz and at most 4 Hz",
+            "\"5 Hz\"",
+        ),
+        (
+            with("sensors = { star_tracker = { latency = \"26 s\" } }"),
+            "26 s is outside 0 s to 25 s, 100 samples",
+            "\"26 s\"",
+        ),
+        (
+            with("filter = [{ kind = \"low_pass\", frequency = \"2 Hz\" }]"),
+            "is not below half of the sampling rate",
+            "",
+        ),
+        (
+            with(
+                "sensors.seed = 1\nestimator = { attitude_deviation = \"1 deg\", bias_deviation = \"1 deg/h\" }",
+            ),
+            "it estimates from a gyro and a star tracker",
+            "",
+        ),
+        (with("dumping = { gain = \"0 1/s\" }"), "gain of momentum dumping is 0", ""),
+        (
             format!(
                 "{BUS}[[at]]\ntime = \"0.5 s\"\njoint = \"rwx.wheel\"\ncontrolled = true\n{RUN}"
             ),

@@ -1,9 +1,11 @@
-//! Controllers in scenarios: a loop with delay against its exact solution, the order at one time, limits of motors, what replaces a controller, controllers of one's own, written scenarios, errors with their places.
+//! Controllers in scenarios: a loop with delay against its exact solution, the order at one time, sensors and estimator, limits of motors, what replaces a controller, controllers of one's own, written scenarios, errors with their places.
 
 mod errors;
+mod files;
 mod limits;
 mod own;
 mod sampling;
+mod sensors;
 mod steered;
 
 use std::ops::ControlFlow;

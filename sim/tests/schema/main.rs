@@ -75,7 +75,26 @@ const OTHERS: [&str; 50] = [
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
      reference = { kind = \"orbit\" }\n[gravity]\ncentral = \"4e14 m^3/s^2\"\n\
      [initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
+     reference = { kind = \"table\", times = \"0, 1 s\", scalar = \"last\", quaternions = [[0, 0, 0, 1], [0, 0, 1, 9]], \
+     angular_velocities = [\"0, 0, 0 deg/s\", \"0, 0, 1 deg/s\"] }\n\
+     allocation = { keep_out = [\"9, 10 rpm\"], keep_out_gain = \"1 1/s\" }",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\ndevices = \"g\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
+     allocation = { preferred_angles = [\"45 deg\"], angle_gain = \"1 1/s\" }\n\
+     [[device]]\nname = \"g\"\nkind = \"vscmg\"\ngimbal = { mass = \"1 kg\", inertia = \"1, 1, 1 g m^2\" }\n\
+     wheel = { mass = \"1 kg\", inertia = \"2, 1, 1 g m^2\" }",
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"program\", command = [\"none\"], time_limit = \"1 s\" }",
+    "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\
+     estimator = { attitude_deviation = \"1 deg\", bias_deviation = \"1 deg/h\" }\n\
+     dumping = { gain = \"0.01 1/s\", momentum = \"0, 0, 1 N m s\", torque_limit = \"1 mN m\" }\n\
+     [controller.sensors]\nseed = 1\nencoder_quantum = \"1 arcsec\"\ntachometer_quantum = \"0.1 rpm\"\n\
+     gyro = { output = \"integrating\", angle_random_walk = \"0.01 deg/sqrt(h)\", rate_random_walk = \"0.1 deg/h/sqrt(h)\", \
+     bias = \"1, 0, 0 deg/h\", quantum = \"1 mas\" }\n\
+     star_tracker = { mount = { axis = [0, 1, 0], angle = \"30 deg\" }, noise = \"1, 1, 5 arcsec\", rate = \"2 Hz\", latency = \"1 ms\" }\n\
+     [[controller.filter]]\nkind = \"low_pass\"\nfrequency = \"2 Hz\"\ndamping_ratio = 0.7\n\
+     [[controller.filter]]\nsignal = \"torque\"\nkind = \"notch\"\nfrequency = \"3 Hz\"\nzero_damping = 0.1\npole_damping = 0.5\n\
+     [[controller.filter]]\nkind = \"first_order_low_pass\"\nfrequency = \"2 Hz\"\n\
+     [[controller.filter]]\nkind = \"lead_lag\"\nzero = \"1 Hz\"\npole = \"2 Hz\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
      power_limit = \"30 W\"\nspeed_limit = \"1 m/s\"\n\

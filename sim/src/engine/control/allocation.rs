@@ -12,11 +12,13 @@
 use nalgebra::Vector3;
 use precess_craft::SteeringSums;
 use precess_dynamics::{
-    Allocation, Dither, Inverse, Steered, SteeringError, SteeringLaw, SteeringMatrix,
+    Allocation, Dither, Inverse, KeepOut, Steered, SteeringError, SteeringLaw, SteeringMatrix,
     steering_weights,
 };
 
-use crate::scenario::{AllocationInverse, COMMANDED_MAX, MotorLimits, SampledController};
+use crate::scenario::{
+    AllocationInverse, COMMANDED_MAX, MotorLimits, NullMotion, SampledController,
+};
 
 /// A bound that no command reaches.
 const UNBOUNDED: f64 = 1e30;
@@ -47,6 +49,8 @@ pub(super) struct Available {
     pub(super) joint: usize,
     pub(super) steered: Steered,
     pub(super) limits: MotorLimits,
+    /// Coordinate and rate as they are read.
+    pub(super) state: [f64; 2],
     /// Whether nothing has taken the place of its controller.
     pub(super) commanded: bool,
     /// Whether its motor is at its largest power or rate.
@@ -103,17 +107,24 @@ impl Allocator {
         let turning = omega.cross(&(sums.inertia * omega + sums.momentum));
         let demand = torque - turning;
         let matrix = only(&matrix, &steered, |of| weight(of) > 0.0);
-        let found = if settings.inverse == AllocationInverse::LeastLargest {
-            clipped(matrix.least_largest(&demand)?, &matrix, &bounds(joints, &matrix))
-        } else {
-            let weights = [settings.gimbal_weight, settings.wheel_weight];
-            let law = SteeringLaw {
-                inverse: inverse(settings.inverse, time),
-                weights: steering_weights(&steered, weights, settings.wheel_mu, measure),
-                reference,
-            };
-            law.allocate_within(&matrix, &demand, &bounds(joints, &matrix))?
+        let bounds = bounds(joints, &matrix);
+        let weights = [settings.gimbal_weight, settings.wheel_weight];
+        let law = SteeringLaw {
+            inverse: inverse(settings.inverse, time),
+            weights: steering_weights(&steered, weights, settings.wheel_mu, measure),
+            reference,
         };
+        let mut found = if settings.inverse == AllocationInverse::LeastLargest {
+            clipped(matrix.least_largest(&demand)?, &matrix, &bounds)
+        } else {
+            law.allocate_within(&matrix, &demand, &bounds)?
+        };
+        // Where the exact inverse does not exist, nor does motion without torque.
+        if let Some(preferred) = preferred(&settings.null_motion, &steered, joints)
+            && let Ok(motion) = law.null_motion(&matrix, &preferred)
+        {
+            add_within(&mut found.commands, &motion, &bounds);
+        }
         let commands = found.commands.into_iter().take(joints.len()).collect();
         let (torque_error, bounded) = (found.torque_error, found.bounded);
         Ok(Allocated { commands, torque_error, bounded, measure })
@@ -172,6 +183,51 @@ pub(super) fn largest(
     Some(sizes.into_iter().fold(0.0, f64::max)).filter(|largest| *largest > 0.0)
 }
 
+/// The motion that is preferred of each joint: rate towards an angle, acceleration out of a band of speeds; none where
+/// nothing is.
+fn preferred(
+    of: &NullMotion,
+    steered: &Padded<Steered>,
+    joints: &[Available],
+) -> Option<Padded<f64>> {
+    let mut wanted = [0.0; COMMANDED_MAX];
+    let mut angles = of.preferred_angles.iter();
+    for ((to, steered), joint) in wanted.iter_mut().zip(steered).zip(joints) {
+        // Angles are of all gimbals, also of those that are not available.
+        let angle = if joint.steered == Steered::Rate { angles.next() } else { None };
+        let [coordinate, rate] = joint.state;
+        *to = match (steered, angle) {
+            (Steered::Rate, Some(angle)) => {
+                let (sin, cos) = libm::sincos(angle - coordinate);
+                of.angle_gain * libm::atan2(sin, cos)
+            }
+            (Steered::Acceleration, _) => {
+                let out = |[lower, upper]: &[f64; 2]| {
+                    let band = KeepOut { lower: *lower, upper: *upper };
+                    band.acceleration(rate.abs(), of.keep_out_gain)
+                };
+                rate.signum() * of.keep_out.iter().map(out).sum::<f64>()
+            }
+            _ => 0.0,
+        };
+    }
+    wanted.iter().any(|of| *of != 0.0).then_some(wanted)
+}
+
+/// Adds as much of a motion without torque as keeps commands within their bounds.
+fn add_within(commands: &mut Padded<f64>, motion: &Padded<f64>, bounds: &Padded<[f64; 2]>) {
+    let mut share = 1.0_f64;
+    for ((command, motion), [lower, upper]) in commands.iter().zip(motion).zip(bounds) {
+        let room = if *motion > 0.0 { upper - command } else { lower - command };
+        if *motion != 0.0 {
+            share = share.min((room / motion).max(0.0));
+        }
+    }
+    for (command, motion) in commands.iter_mut().zip(motion) {
+        *command += share * motion;
+    }
+}
+
 /// Commands within bounds: what they no longer give is an error of the torque, `-q x`.
 fn clipped(
     mut of: Allocation<f64, COMMANDED_MAX>,
@@ -224,7 +280,46 @@ mod tests {
 
     fn available(steered: Steered) -> Available {
         let limits = MotorLimits::default();
-        Available { joint: 0, steered, limits, commanded: true, at_limit: false }
+        Available { joint: 0, steered, limits, state: [0.0; 2], commanded: true, at_limit: false }
+    }
+
+    #[test]
+    fn motion_without_torque_stays_within_bounds() {
+        let mut commands = [0.0; COMMANDED_MAX];
+        let mut motion = commands;
+        let mut bounds = [[-1.0, 1.0]; COMMANDED_MAX];
+        (commands[0], commands[1]) = (0.5, -0.5);
+        (motion[0], motion[1], motion[2]) = (1.0, 0.1, -0.2);
+        let mut added = commands;
+        add_within(&mut added, &motion, &bounds);
+        assert_eq!(added[..3], [1.0, -0.45, -0.1], "half of it");
+        // Beyond a bound already: nothing is added.
+        bounds[0] = [-0.1, 0.1];
+        let mut added = commands;
+        add_within(&mut added, &motion, &bounds);
+        assert_eq!(added, commands);
+    }
+
+    #[test]
+    fn what_is_preferred_is_the_nearer_way() {
+        let of = NullMotion {
+            preferred_angles: vec![3.0],
+            angle_gain: 0.5,
+            keep_out: vec![[100.0, 120.0]],
+            keep_out_gain: 0.25,
+        };
+        let mut steered = [Steered::Nothing; COMMANDED_MAX];
+        (steered[0], steered[1]) = (Steered::Rate, Steered::Acceleration);
+        let mut joints = [Steered::Rate, Steered::Acceleration].map(available);
+        (joints[0].state, joints[1].state) = ([-3.0, 0.0], [0.0, -118.0]);
+        let wanted = preferred(&of, &steered, &joints).expect("both");
+        let back = std::f64::consts::TAU - 6.0;
+        assert!((wanted[0] + 0.5 * back).abs() < 1e-15, "{}", wanted[0]);
+        // 2 rad/s to the upper end and a tenth of the width beyond it.
+        assert!((wanted[1] + 0.25 * 4.0).abs() < 1e-15, "{}", wanted[1]);
+        joints[1].state = [0.0, 90.0];
+        steered[0] = Steered::Nothing;
+        assert_eq!(preferred(&of, &steered, &joints), None);
     }
 
     /// Columns of wheels, kg m², are not compared with those of gimbals, N m s.

@@ -6,28 +6,34 @@
 
 mod allocation;
 mod clock;
+<<<<<<< HEAD
 pub(crate) mod linear;
+=======
+mod limits;
+mod own;
+mod sensing;
+>>>>>>> 8b5e95e1 (control: sensors, filters, estimator, dumping in the loop)
 mod servo;
 
 use std::collections::VecDeque;
 
 use nalgebra::Vector3;
-use precess_control::{Motion, Sample};
+use precess_control::Sample;
 use precess_craft::{SteeringDevices, SteeringSums};
-use precess_dynamics::{JointStates, Steered};
+use precess_dynamics::JointStates;
 
-use super::equations::motors::{MotorState, POWER};
+use super::equations::motors::MotorState;
 use super::equations::system::System;
 use super::integration::Moment;
-use crate::control::{
-    Command, Controller, ControllerError, ControllerSample, Greeting, LawController,
-    ProgramController,
-};
+use crate::control::{Command, Controller, ControllerError, ControllerSample};
 use crate::record::RunError;
-use crate::scenario::{BuiltGuidance, ControlLaw, SampledController, Scenario, body_key};
+use crate::scenario::{BuiltGuidance, SampledController, Scenario};
 use allocation::{Allocated, Allocator, Available, Pose};
 use clock::{Clock, reached};
-use servo::motor_torques;
+use limits::limited;
+use own::controller_of;
+use sensing::{Measured, Sensing};
+use servo::{ServoCommands, motor_torques};
 
 /// All controllers of a run.
 pub(crate) struct Controls<'a> {
@@ -45,11 +51,12 @@ struct Control<'a> {
     guidance: BuiltGuidance,
     controller: Box<dyn Controller>,
     allocator: Allocator,
+    sensing: Sensing,
     samples: Clock,
     /// When torques are computed from commands, beside the times at which these come to act.
     ticks: Option<Clock>,
     /// What is to act, and when.
-    pending: VecDeque<(f64, Pending)>,
+    pending: VecDeque<Pending>,
     /// Rates and accelerations in force, from which torques are computed at ticks.
     present: Option<Vec<f64>>,
     /// Whether there was a sample before.
@@ -61,7 +68,16 @@ struct Control<'a> {
 }
 
 /// What acts after a delay.
-enum Pending {
+struct Pending {
+    /// When, s.
+    at: f64,
+    /// External torque, B, N m; none of a controller without it.
+    external: Option<Vector3<f64>>,
+    joints: JointCommands,
+}
+
+/// What joints and motors are to do.
+enum JointCommands {
     /// Torques of motors.
     Torques(Vec<f64>),
     /// Rates and accelerations, for the servo.
@@ -88,6 +104,7 @@ impl<'a> Controls<'a> {
                 guidance: guidance.map_err(|error| failed(ControllerError::Parameter(error)))?,
                 controller,
                 allocator: Allocator::new(of),
+                sensing: Sensing::new(scenario, of).map_err(failed)?,
                 samples: Clock::new(of.offset, of.rate),
                 ticks: of.servo.rate.map(|rate| Clock::new(of.offset, rate)),
                 pending: VecDeque::new(),
@@ -114,7 +131,7 @@ impl<'a> Controls<'a> {
     /// none before the end of the run. What is due at this time has been done.
     pub(crate) fn next_after(&self, time: f64) -> f64 {
         let times = self.each.iter().flat_map(|control| {
-            let acting = control.pending.front().map(|(at, _)| *at);
+            let acting = control.pending.front().map(|of| of.at);
             let tick = control.ticks.as_ref().map(Clock::next);
             [Some(control.samples.next()), acting, tick]
         });
@@ -151,7 +168,7 @@ impl Control<'_> {
     }
 
     /// Its joints as they are at present.
-    fn joints(&self, system: &System<'_>) -> Vec<Available> {
+    fn joints(&self, system: &System<'_>, states: &[[f64; 2]]) -> Vec<Available> {
         let at_limit = |joint: usize| {
             system.acting.motors().get(joint).is_some_and(|motor| *motor != MotorState::Commanded)
         };
@@ -159,10 +176,22 @@ impl Control<'_> {
             joint: of.joint,
             steered: of.steered,
             limits: system.acting.drive(of.joint).limits(),
+            state: states.get(of.joint).copied().unwrap_or_default(),
             commanded: system.acting.held.torque(of.joint).is_some(),
             at_limit: at_limit(of.joint),
         };
         self.of.joints.iter().map(joint).collect()
+    }
+
+    /// Coordinates and rates of all joints; those of its own as they are read.
+    fn read_joints(&self, moment: &Moment) -> Vec<[f64; 2]> {
+        let mut all: Vec<_> = moment.state.devices.states().collect();
+        for of in &self.of.joints {
+            if let Some(joint) = all.get_mut(of.joint) {
+                *joint = self.sensing.joint(*joint);
+            }
+        }
+        all
     }
 
     /// Reads the state, computes, and puts the answer off by the delay.
@@ -172,22 +201,28 @@ impl Control<'_> {
         (system, time, moment): (&mut System<'_>, f64, &Moment),
         (steering, wheels): (&mut SteeringDevices, &[bool]),
     ) -> Result<(), RunError> {
-        let state = &moment.state;
-        let all: Vec<[f64; 2]> = state.devices.states().collect();
-        let sums = steering.terms(all.iter().copied(), &state.omega);
+        let measured = self.sensing.measure(system, time, &moment.state);
+        let Measured { motion, values } = measured.map_err(|error| self.error(time, error))?;
+        let all = self.read_joints(moment);
+        let sums = steering.terms(all.iter().copied(), &motion.omega);
         let mut sums = sums.map_err(|error| self.error(time, error.into()))?;
         // What the imbalance of a wheel requires turns with it: held, it would be a torque of its own.
         let turning = sums.by_rate.iter_mut().zip(&sums.by_acceleration).zip(wheels);
         for ((by_rate, n), _) in turning.filter(|(_, wheel)| **wheel) {
-            *by_rate = state.omega.cross(n);
+            *by_rate = motion.omega.cross(n);
         }
-        let joints = self.joints(system);
+        let external = self.sensing.external(&sums.momentum);
+        if let Some(written) = system.acting.held.values_mut(index) {
+            written.measured = values;
+            written.external = external.unwrap_or_default().into();
+        }
+        let joints = self.joints(system, &all);
         let elapsed = if self.sampled { 1.0 / self.of.rate } else { 0.0 };
         let of = Sample {
-            motion: Motion { attitude: state.attitude, omega: state.omega },
+            motion,
             reference: self.guidance.at(time),
             momentum: sums.momentum,
-            external: Vector3::zeros(),
+            external: external.unwrap_or_default(),
             elapsed,
             limited: self.limited || joints.iter().any(|of| of.commanded && of.at_limit),
         };
@@ -203,14 +238,16 @@ impl Control<'_> {
                 let at_limit = limited(&joints, &torques, &rates);
                 (self.bounded, self.limited) = (0, at_limit > 0);
                 write(index, system, None, at_limit);
-                Pending::Torques(torques)
+                JointCommands::Torques(torques)
             }
             Command::Torque(torque) => {
-                let pose = Pose { joints: &joints, rates: &rates, omega: &state.omega };
-                self.commanded(index, (system, time, moment), (&torque, pose), &sums)?
+                let torque = self.sensing.torque(&torque);
+                let pose = Pose { joints: &joints, rates: &rates, omega: &motion.omega };
+                let acting = of.external;
+                self.commanded(index, (system, time, moment), (&torque, &acting, pose), &sums)?
             }
         };
-        self.pending.push_back((time + self.of.delay, computed));
+        self.pending.push_back(Pending { at: time + self.of.delay, external, joints: computed });
         Ok(())
     }
 
@@ -219,20 +256,25 @@ impl Control<'_> {
         &mut self,
         index: usize,
         (system, time, moment): (&mut System<'_>, f64, &Moment),
-        (torque, pose): (&Vector3<f64>, Pose<'_>),
+        (torque, external, pose): (&Vector3<f64>, &Vector3<f64>, Pose<'_>),
         sums: &SteeringSums,
-    ) -> Result<Pending, RunError> {
+    ) -> Result<JointCommands, RunError> {
         let allocated = self.allocator.allocate(self.of, (time, torque), pose, sums);
         let allocated = allocated.map_err(|error| self.error(time, error.into()))?;
         let joints = pose.joints;
         let (pending, at_limit) = if self.ticks.is_some() {
-            (Pending::Commands(allocated.commands.clone()), 0)
+            (JointCommands::Commands(allocated.commands.clone()), 0)
         } else {
-            let gain = self.of.servo.gain;
-            let of = motor_torques(system, (time, moment), joints, &allocated.commands, gain);
-            let torques = of.map_err(|source| RunError::solve(system, time, source))?;
+            let commands = ServoCommands {
+                joints,
+                rates: pose.rates,
+                commands: &allocated.commands,
+                gain: self.of.servo.gain,
+            };
+            let torques = motor_torques(system, (time, moment), &commands, external);
+            let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
             let at_limit = limited(joints, &torques, pose.rates);
-            (Pending::Torques(torques), at_limit)
+            (JointCommands::Torques(torques), at_limit)
         };
         let at_limit = at_limit.max(allocated.bounded);
         (self.bounded, self.limited) = (allocated.bounded, at_limit > 0);
@@ -249,24 +291,31 @@ impl Control<'_> {
         moment: &Moment,
     ) -> Result<(), RunError> {
         let mut computes = self.ticks.as_mut().is_some_and(|ticks| ticks.due(time));
-        while self.pending.front().is_some_and(|(at, _)| reached(*at, time)) {
-            match self.pending.pop_front() {
-                Some((_, Pending::Torques(torques))) => {
+        while self.pending.front().is_some_and(|of| reached(of.at, time)) {
+            let Some(pending) = self.pending.pop_front() else { break };
+            if let Some(external) = pending.external {
+                system.acting.held.hold_external(index, external);
+            }
+            match pending.joints {
+                JointCommands::Torques(torques) => {
                     self.present = None;
                     hold(self.of, system, &torques);
                 }
-                Some((_, Pending::Commands(commands))) => {
+                JointCommands::Commands(commands) => {
                     self.present = Some(commands);
                     computes = true;
                 }
-                None => {}
             }
         }
         let Some(commands) = self.present.as_ref().filter(|_| computes) else { return Ok(()) };
-        let joints = self.joints(system);
-        let torques = motor_torques(system, (time, moment), &joints, commands, self.of.servo.gain);
+        let states = self.read_joints(moment);
+        let joints = self.joints(system, &states);
+        let rates: Vec<f64> = states.iter().map(|[_, rate]| *rate).collect();
+        let gain = self.of.servo.gain;
+        let commands = ServoCommands { joints: &joints, rates: &rates, commands, gain };
+        let external = system.acting.held.external().unwrap_or_default();
+        let torques = motor_torques(system, (time, moment), &commands, &external);
         let torques = torques.map_err(|source| RunError::solve(system, time, source))?;
-        let rates: Vec<f64> = moment.state.devices.states().map(|[_, rate]| rate).collect();
         let at_limit = limited(&joints, &torques, &rates).max(self.bounded);
         self.limited |= at_limit > 0;
         if let Some(values) = system.acting.held.values_mut(index) {
@@ -297,51 +346,11 @@ fn write(
     values.measure = allocated.measure;
 }
 
-/// The controller of a scenario.
-fn controller_of(
-    scenario: &Scenario,
-    of: &SampledController,
-) -> Result<Box<dyn Controller>, ControllerError> {
-    let law = of.law.built(|| scenario.inertia_at_start()).map_err(ControllerError::Parameter)?;
-    if let Some(law) = law {
-        return Ok(Box::new(LawController(law)));
-    }
-    let ControlLaw::Program { command, folder, time_limit } = &of.law else {
-        return Err(ControllerError::Program { reason: "it has no law".to_owned() });
-    };
-    let all: Vec<_> = scenario.joints().collect();
-    let named = |own: &crate::scenario::CommandedJoint| {
-        let (_, device, info) = all.get(own.joint)?;
-        let name = format!("{device}.{}", body_key(info));
-        Some((name, own.steered == Steered::Rate))
-    };
-    let joints: Vec<_> = of.joints.iter().filter_map(named).collect();
-    let greeting = Greeting {
-        name: &of.name,
-        times: [of.rate, of.offset, of.delay],
-        joints: &joints,
-        inertia: scenario.inertia_at_start(),
-    };
-    Ok(Box::new(ProgramController::start(command, folder, *time_limit, &greeting)?))
-}
-
 /// Holds torques of the joints of a controller.
 fn hold(of: &SampledController, system: &mut System<'_>, torques: &[f64]) {
     for (of, torque) in of.joints.iter().zip(torques) {
         system.acting.held.hold(of.joint, *torque);
     }
-}
-
-/// Of how many joints the motor is at a limit that depends on the rate, or the torque is beyond the largest one or the
-/// power.
-fn limited(joints: &[Available], torques: &[f64], rates: &[f64]) -> usize {
-    let beyond = |(of, torque): &(&Available, &f64)| {
-        let rate = rates.get(of.joint).copied().unwrap_or_default();
-        let power = of.limits.power.map_or(f64::INFINITY, |power| power * (1.0 + POWER));
-        let torque_max = of.limits.torque.map_or(f64::INFINITY, f64::abs);
-        of.commanded && (of.at_limit || torque.abs() > torque_max || **torque * rate > power)
-    };
-    joints.iter().zip(torques).filter(beyond).count()
 }
 
 /// An answer, where its numbers are finite and as many as there are joints.

@@ -1,6 +1,8 @@
 //! [`HeldCommands`]: what controllers command of joints and hold until they command anew, and what they computed at their
 //! last samples.
 
+use nalgebra::Vector3;
+
 use crate::scenario::{SampledController, Scenario};
 
 /// Commands in force.
@@ -8,6 +10,8 @@ use crate::scenario::{SampledController, Scenario};
 pub(crate) struct HeldCommands {
     /// Of each joint; none where no controller commands it.
     joints: Vec<Option<Held>>,
+    /// External torque of each controller that dumps momentum, B, N m.
+    externals: Vec<Option<Vector3<f64>>>,
     /// Of each controller.
     values: Vec<ControlValues>,
 }
@@ -34,6 +38,44 @@ pub(crate) struct ControlValues {
     pub(crate) measure: f64,
     /// How many commands or torques are at a limit.
     pub(crate) limited: f64,
+    /// External torque that is commanded, B, N m.
+    pub(crate) external: [f64; 3],
+    /// What was read.
+    pub(crate) measured: MeasuredValues,
+}
+
+/// What a controller read at its last sample; NaN of what it does not read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeasuredValues {
+    /// Reading of the gyro, rad/s.
+    pub(crate) gyro: [f64; 3],
+    /// Its bias, rad/s.
+    pub(crate) gyro_bias: [f64; 3],
+    /// Angular velocity that the law reads, B, rad/s.
+    pub(crate) omega: [f64; 3],
+    /// Attitude that the law reads, Euler parameters.
+    pub(crate) attitude: [f64; 4],
+    /// Rotation vector from that to the true attitude, B, rad.
+    pub(crate) error: [f64; 3],
+    /// Bias of the gyro that is estimated, rad/s.
+    pub(crate) estimated_bias: [f64; 3],
+    /// Standard deviations of the estimated attitude about the axes of B, rad.
+    pub(crate) deviation: [f64; 3],
+}
+
+impl Default for MeasuredValues {
+    fn default() -> Self {
+        let nothing = [f64::NAN; 3];
+        Self {
+            gyro: nothing,
+            gyro_bias: nothing,
+            omega: nothing,
+            attitude: [f64::NAN; 4],
+            error: nothing,
+            estimated_bias: nothing,
+            deviation: nothing,
+        }
+    }
 }
 
 impl ControlValues {
@@ -45,12 +87,15 @@ impl ControlValues {
             commands: vec![0.0; joints],
             measure: f64::NAN,
             limited: 0.0,
+            external: [0.0; 3],
+            measured: MeasuredValues::default(),
         }
     }
 
-    /// Leaves nothing of an earlier sample but how many are at a limit.
+    /// Leaves nothing of what an earlier sample computed for joints but how many are at a limit.
     pub(crate) fn clear(&mut self) {
-        *self = Self { limited: self.limited, ..Self::nothing(self.commands.len()) };
+        let Self { limited, external, measured, .. } = *self;
+        *self = Self { limited, external, measured, ..Self::nothing(self.commands.len()) };
     }
 }
 
@@ -64,7 +109,24 @@ impl HeldCommands {
             }
         }
         let nothing = |of: &SampledController| ControlValues::nothing(of.joints.len());
-        Self { joints, values: scenario.controllers.iter().map(nothing).collect() }
+        let external = |of: &SampledController| of.dumping.map(|_| Vector3::zeros());
+        Self {
+            joints,
+            externals: scenario.controllers.iter().map(external).collect(),
+            values: scenario.controllers.iter().map(nothing).collect(),
+        }
+    }
+
+    /// The external torque of all controllers, B, N m; none where none dumps momentum.
+    pub(crate) fn external(&self) -> Option<Vector3<f64>> {
+        self.externals.iter().flatten().copied().reduce(|sum, of| sum + of)
+    }
+
+    /// Holds the external torque of a controller, N m.
+    pub(crate) fn hold_external(&mut self, controller: usize, torque: Vector3<f64>) {
+        if let Some(Some(held)) = self.externals.get_mut(controller) {
+            *held = torque;
+        }
     }
 
     /// The torque of a joint's motor before clipping, N m; none where no controller commands it at present.

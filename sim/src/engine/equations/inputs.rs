@@ -183,9 +183,10 @@ impl<'a> SegmentInputs<'a> {
         &self.chains
     }
 
-    /// Whether a wrench or a disturbance acts from outside.
+    /// Whether a wrench, a disturbance or the torque of a controller acts from outside.
     pub(crate) fn has_wrenches(&self) -> bool {
-        !(self.wrenches.is_empty() && self.disturbances.is_empty())
+        let none = self.wrenches.is_empty() && self.disturbances.is_empty();
+        !none || self.held.external().is_some()
     }
 
     /// Whether one acts on the child body of a joint.
@@ -315,7 +316,8 @@ impl<'a> SegmentInputs<'a> {
             return;
         }
         let bn = state.attitude.dcm();
-        (inputs.force, inputs.torque_b) = (Vector3::zeros(), Vector3::zeros());
+        inputs.force = Vector3::zeros();
+        inputs.torque_b = self.held.external().unwrap_or_else(Vector3::zeros);
         if let Some(bodies) = &mut inputs.bodies {
             for wrench in bodies.values_mut() {
                 *wrench = Wrench::none();

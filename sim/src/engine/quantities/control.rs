@@ -47,6 +47,14 @@ impl ControlSample {
             ControlQuantity::Measure => Some(of_sample()?.measure),
             ControlQuantity::Limited => Some(of_sample()?.limited),
             ControlQuantity::Command(joint) => at(&of_sample()?.commands, joint),
+            ControlQuantity::Gyro(axis) => at(&of_sample()?.measured.gyro, axis),
+            ControlQuantity::GyroBias(axis) => at(&of_sample()?.measured.gyro_bias, axis),
+            ControlQuantity::MeasuredOmega(axis) => at(&of_sample()?.measured.omega, axis),
+            ControlQuantity::MeasuredQuaternion(k) => at(&of_sample()?.measured.attitude, k),
+            ControlQuantity::MeasurementError(axis) => at(&of_sample()?.measured.error, axis),
+            ControlQuantity::EstimatedBias(axis) => at(&of_sample()?.measured.estimated_bias, axis),
+            ControlQuantity::AttitudeDeviation(axis) => at(&of_sample()?.measured.deviation, axis),
+            ControlQuantity::External(axis) => at(&of_sample()?.external, axis),
         }
     }
 }

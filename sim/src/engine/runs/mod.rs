@@ -13,7 +13,7 @@ mod side_by_side;
 use precess_dynamics::{About, JointStates, ModalState, State};
 
 use friction::Changed;
-pub use recorded::run;
+pub use recorded::{run, run_with_controllers};
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
 use crate::control::Controller;

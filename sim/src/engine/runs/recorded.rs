@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::sampling::Sampling;
 use super::{Advance, Run};
+use crate::control::Controller;
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::record::{End, Outcome, Recorder, RunError};
 use crate::scenario::Scenario;
@@ -26,7 +27,16 @@ impl<'a, 'r> Recorded<'a, 'r> {
         quantities: RunQuantities,
         recorder: &'r mut dyn Recorder,
     ) -> Result<Self, RunError> {
-        let run = Run::with_quantities(scenario, quantities)?;
+        Self::begin_with(Run::with_quantities(scenario, quantities)?, recorder)
+    }
+
+    /// The same of a run that has made no step.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::Record`] of the recorder.
+    fn begin_with(run: Run<'a>, recorder: &'r mut dyn Recorder) -> Result<Self, RunError> {
+        let scenario = run.scenario;
         let sampling = Sampling::new(scenario, &run)?;
         recorder.begin(sampling.header())?;
         Ok(Self { run, sampling, recorder })
@@ -95,7 +105,23 @@ pub fn run(
     recorder: &mut dyn Recorder,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Outcome, RunError> {
-    let mut recorded = Recorded::begin(scenario, RunQuantities::All, recorder)?;
+    run_with_controllers(scenario, Vec::new(), recorder, progress)
+}
+
+/// As [`run`], with controllers in the place of the laws of the scenario's controllers of these names, as
+/// [`Run::with_controllers`] has them.
+///
+/// # Errors
+///
+/// As [`run`]; [`RunError::NoController`] of a name that no controller has.
+pub fn run_with_controllers(
+    scenario: &Scenario,
+    controllers: Vec<(String, Box<dyn Controller>)>,
+    recorder: &mut dyn Recorder,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Outcome, RunError> {
+    let run = Run::with_controllers(scenario, RunQuantities::All, controllers)?;
+    let mut recorded = Recorded::begin_with(run, recorder)?;
     loop {
         if let Some(end) = recorded.advance()? {
             return recorded.finish(end);

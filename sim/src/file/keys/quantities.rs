@@ -56,6 +56,29 @@ impl Keys<'_> {
         self.quantity(key, measure)
     }
 
+    /// A quantity over the root of a time, as of a random walk: `"0.1 deg/sqrt(h)"`.
+    pub(in crate::file) fn per_root_of_time(&self, key: &str, measure: Measure) -> Option<f64> {
+        let node = self.node(key)?;
+        let path = self.path_of(key);
+        let example = format!("write for example `{key} = \"0.1 {}/sqrt(h)\"`", measure.usual);
+        let Value::Text(text) = &node.value else { return self.other_type(key, node, &example) };
+        let parts = text.trim().strip_suffix(')').and_then(|text| text.rsplit_once("/sqrt("));
+        let one = |text: &str, measure: Measure| {
+            let quantity = parse_quantity(text).ok().filter(|of| of.is(measure))?;
+            <[f64; 1]>::try_from(quantity.values).ok()
+        };
+        let found = parts.and_then(|(of, unit)| {
+            let ([of], [time]) = (one(of, measure)?, one(&format!("1 {unit}"), Measure::TIME)?);
+            Some(of / libm::sqrt(time))
+        });
+        if found.is_none() {
+            let message =
+                format!("`{path}` is no {} over the root of a time", without_article(measure.name));
+            self.error(key, message, &example);
+        }
+        found
+    }
+
     /// Some quantities of one measure: `"1, 2, 3 cm"`, or `["1 cm", "2 cm", "3 cm"]`.
     pub(in crate::file) fn quantities<const N: usize>(
         &self,
@@ -218,4 +241,9 @@ fn example(key: &str, measure: Measure) -> String {
         "" => format!("{key} = 1"),
         unit => format!("{key} = \"1 {unit}\""),
     }
+}
+
+/// A name without its article.
+fn without_article(name: &str) -> &str {
+    name.strip_prefix("an ").or_else(|| name.strip_prefix("a ")).unwrap_or(name)
 }

@@ -193,7 +193,12 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         folder,
     };
     let disturbances = sources::sources(&keys, &known);
-    let controllers = controllers::controllers(&keys, &devices, (reference, &initial), folder);
+    let controllers = controllers::controllers(
+        &keys,
+        (&devices, structure.as_ref()),
+        (reference, &initial),
+        folder,
+    );
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = output::requirement::requirements(&keys, settings.as_ref());

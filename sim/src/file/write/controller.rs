@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 
 use nalgebra::Matrix3;
-use precess_control::{Gyroscopic, MrpGains};
+use precess_control::{AttitudeRow, Gyroscopic, MrpGains};
 use precess_dynamics::Quaternion;
 
-use super::{Written, inertia, quoted, vector};
+use super::{Written, controller_sensors, inertia, quoted, vector};
 use crate::scenario::{
-    AllocationInverse, AttitudeReference, ControlLaw, SampledController, Scenario, TorqueAllocation,
+    AllocationInverse, AttitudeReference, ControlLaw, NullMotion, SampledController, Scenario,
+    TorqueAllocation,
 };
 
 /// The table of a controller.
@@ -29,10 +30,10 @@ pub(super) fn write(out: &mut String, s: &Scenario, of: &SampledController) -> W
     reference(out, &of.reference)?;
     allocation(out, &of.allocation)?;
     writeln!(out, "\n[controller.servo]\ngain = \"{:?} 1/s\"", of.servo.gain)?;
-    match of.servo.rate {
-        Some(rate) => writeln!(out, "rate = \"{rate:?} Hz\""),
-        None => Ok(()),
+    if let Some(rate) = of.servo.rate {
+        writeln!(out, "rate = \"{rate:?} Hz\"")?;
     }
+    controller_sensors::write(out, s, of)
 }
 
 fn law(out: &mut String, law: &ControlLaw) -> Written {
@@ -107,6 +108,18 @@ fn reference(out: &mut String, reference: &AttitudeReference) -> Written {
             writeln!(out, "kind = \"turning\"\nattitude = {}", quaternion(attitude))?;
             writeln!(out, "angular_velocity = {}", vector(omega, "rad/s"))
         }
+        AttitudeReference::Table(rows) => {
+            let each = |of: &dyn Fn(&AttitudeRow) -> String| {
+                rows.iter().map(of).collect::<Vec<_>>().join(", ")
+            };
+            let times = each(&|row| format!("{:?}", row.time));
+            writeln!(out, "kind = \"table\"\ntimes = \"{times} s\"\nscalar = \"first\"")?;
+            let attitudes =
+                each(&|AttitudeRow { attitude: q, .. }| format!("{:?}", [q.q0, q.q1, q.q2, q.q3]));
+            writeln!(out, "quaternions = [{attitudes}]")?;
+            let rates = each(&|row| vector(&row.omega, "rad/s"));
+            writeln!(out, "angular_velocities = [{rates}]")
+        }
     }
 }
 
@@ -134,8 +147,26 @@ fn allocation(out: &mut String, of: &TorqueAllocation) -> Written {
         writeln!(out, "dither_amplitude = {amplitude:?}")?;
         writeln!(out, "dither_frequency = \"{frequency:?} rad/s\"")?;
     }
-    match of.reference {
-        Some(reference) => writeln!(out, "reference_momentum = \"{reference:?} N m s\""),
-        None => Ok(()),
+    if let Some(reference) = of.reference {
+        writeln!(out, "reference_momentum = \"{reference:?} N m s\"")?;
     }
+    let NullMotion { preferred_angles, angle_gain, keep_out, keep_out_gain } = &of.null_motion;
+    if !preferred_angles.is_empty() {
+        let angles: Vec<_> = preferred_angles.iter().map(|of| format!("\"{of:?} rad\"")).collect();
+        writeln!(
+            out,
+            "preferred_angles = [{}]\nangle_gain = \"{angle_gain:?} 1/s\"",
+            angles.join(", ")
+        )?;
+    }
+    if !keep_out.is_empty() {
+        let bands: Vec<_> =
+            keep_out.iter().map(|[from, to]| format!("\"{from:?}, {to:?} rad/s\"")).collect();
+        writeln!(
+            out,
+            "keep_out = [{}]\nkeep_out_gain = \"{keep_out_gain:?} 1/s\"",
+            bands.join(", ")
+        )?;
+    }
+    Ok(())
 }

@@ -29,11 +29,28 @@ pub(crate) enum ControlQuantity {
     Limited,
     /// Command of a joint, by its number among those of the controller.
     Command(usize),
+    /// Reading of the gyro.
+    Gyro(usize),
+    /// Its bias.
+    GyroBias(usize),
+    /// Angular velocity that the law reads.
+    MeasuredOmega(usize),
+    /// Attitude that the law reads.
+    MeasuredQuaternion(usize),
+    /// Rotation vector from that to the true one.
+    MeasurementError(usize),
+    /// Estimated bias of the gyro.
+    EstimatedBias(usize),
+    /// Standard deviation of the estimated attitude.
+    AttitudeDeviation(usize),
+    /// External torque.
+    External(usize),
 }
 
 /// Of every controller.
 pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
-    for (index, SampledController { name, .. }) in scenario.controllers.iter().enumerate() {
+    for (index, of_controller) in scenario.controllers.iter().enumerate() {
+        let SampledController { name, .. } = of_controller;
         let of = |quantity| Quantity::Control(index, quantity);
         let angle = format!("angle of B from the reference of {name}");
         scalar(
@@ -108,7 +125,48 @@ pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
             &meaning,
             of(ControlQuantity::Limited),
         );
+        readings(columns, of_controller, index);
         commands(columns, scenario, index);
+    }
+}
+
+/// What is read and estimated, of a controller that has sensors or filters; and its external torque.
+fn readings(columns: &mut Vec<Column>, of: &SampledController, index: usize) {
+    let name = &of.name;
+    let quantity = |quantity| Quantity::Control(index, quantity);
+    let mut three = |what: &str, unit, meaning: &str, each: fn(usize) -> ControlQuantity| {
+        let meaning = format!("{meaning} of {name}");
+        let base = format!("{name}.{what}");
+        vector(columns, &base, name, unit, "B", &meaning, |axis| quantity(each(axis)));
+    };
+    let measures = of.sensors.gyro.is_some() || of.sensors.star_tracker.is_some();
+    if of.sensors.gyro.is_some() {
+        three("gyro", "rad/s", "reading of the gyro", ControlQuantity::Gyro);
+        three("gyro_bias", "rad/s", "true bias of the gyro", ControlQuantity::GyroBias);
+    }
+    if measures || !of.filters.is_empty() {
+        let meaning = "angular velocity that is read by the law";
+        three("measured_omega", "rad/s", meaning, ControlQuantity::MeasuredOmega);
+    }
+    if measures {
+        let meaning = "rotation vector from the attitude that is read to the true one";
+        three("measurement_error", "rad", meaning, ControlQuantity::MeasurementError);
+    }
+    if of.estimator.is_some() {
+        let meaning = "estimated bias of the gyro";
+        three("estimated_bias", "rad/s", meaning, ControlQuantity::EstimatedBias);
+        let meaning = "standard deviation of the estimated attitude";
+        three("attitude_deviation", "rad", meaning, ControlQuantity::AttitudeDeviation);
+    }
+    if of.dumping.is_some() {
+        let meaning = "external torque that is commanded";
+        three("external_torque", "N m", meaning, ControlQuantity::External);
+    }
+    for k in (0..4).filter(|_| measures) {
+        let meaning = format!("attitude that the law of {name} reads: Euler parameter {k}");
+        let base = format!("{name}.measured_q{k}");
+        let quantity = quantity(ControlQuantity::MeasuredQuaternion(k));
+        scalar(columns, &base, name, "1", &meaning, quantity);
     }
 }
 

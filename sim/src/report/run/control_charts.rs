@@ -51,6 +51,35 @@ pub(super) fn chart(
             (7, "commands at a limit", "Count", unit::NUMBER, "limited".to_owned())
         }
         ControlQuantity::Command(_) => return command(controller, column, (joints, bodies)),
+        ControlQuantity::Gyro(k) => {
+            (30, "reading of the gyro", "Angular velocity", unit::ANGULAR_RATE, of_axis("ω", k))
+        }
+        ControlQuantity::MeasuredOmega(k) => {
+            let what = "angular velocity that the law reads";
+            (31, what, "Angular velocity", unit::ANGULAR_RATE, of_axis("ω", k))
+        }
+        ControlQuantity::MeasuredQuaternion(k) => {
+            let what = "attitude that the law reads, Euler parameters";
+            (32, what, "Attitude q", unit::NUMBER, format!("q_{k}"))
+        }
+        ControlQuantity::MeasurementError(k) => {
+            let what = "error of the attitude that the law reads";
+            (33, what, "Angle", unit::SMALL_ANGLE, of_axis("θ", k))
+        }
+        ControlQuantity::AttitudeDeviation(k) => {
+            let what = "standard deviation of the estimated attitude";
+            (34, what, "Angle", unit::SMALL_ANGLE, of_axis("σ", k))
+        }
+        ControlQuantity::GyroBias(k) => {
+            (35, "bias of the gyro", "Angular velocity", unit::ANGULAR_RATE, of_axis("b", k))
+        }
+        ControlQuantity::EstimatedBias(k) => {
+            let label = format!("{}, estimated", of_axis("b", k));
+            (35, "bias of the gyro", "Angular velocity", unit::ANGULAR_RATE, label)
+        }
+        ControlQuantity::External(k) => {
+            (36, "external torque", "Torque", unit::MOMENT, of_axis("L", k))
+        }
     };
     let name = &column.group;
     Some(ChartColumn {

@@ -43,10 +43,31 @@ fn sentence(of: &SampledController, scenario: &Scenario) -> String {
         AttitudeReference::Turning { omega, .. } => {
             format!("a frame that turns at {} deg/s", number::short(omega.norm().to_degrees(), 5))
         }
+        AttitudeReference::Table(rows) => format!("a table of {} attitudes", rows.len()),
     };
     format!(
-        "The controller {} samples at {rate} Hz, {delay}: {law} commands {}. It follows {reference}.",
+        "The controller {} samples at {rate} Hz, {delay}: {law} commands {}. It follows {reference}{}.",
         of.name,
-        devices.join(", ")
+        devices.join(", "),
+        reads(of)
     )
+}
+
+/// What it reads, where that is not the truth.
+fn reads(of: &SampledController) -> String {
+    let sensors = &of.sensors;
+    let read: Vec<_> = [
+        (sensors.gyro.is_some(), "a gyro"),
+        (sensors.star_tracker.is_some(), "a star tracker"),
+        (sensors.encoder_quantum > 0.0, "encoders"),
+        (sensors.tachometer_quantum > 0.0, "tachometers"),
+    ]
+    .into_iter()
+    .filter_map(|(has, what)| has.then_some(what))
+    .collect();
+    if read.is_empty() {
+        return String::new();
+    }
+    let by = if of.estimator.is_some() { " by a Kalman filter" } else { "" };
+    format!(", and reads {}{by}", read.join(", "))
 }

@@ -1,6 +1,9 @@
-//! `[[controller]]`: when it samples, what it commands, `law`, `reference`, `allocation` and `servo`.
+//! `[[controller]]`: when it samples, what it commands, `law`, `reference`, `allocation`, `servo`; what it reads is in
+//! `sensors`.
 
+mod allocation;
 mod reference;
+mod sensors;
 
 use std::path::Path;
 
@@ -12,11 +15,12 @@ use super::devices::device::Device;
 use super::devices::inertia::{INERTIA_KEYS, inertia};
 use crate::file::document::Value;
 use crate::file::keys::Keys;
+use crate::file::read::structure::Structure;
 use crate::scenario::{
-    AllocationInverse, CommandedJoint, ControlLaw, SampledController, ServoSettings, Set,
-    TorqueAllocation, body_key, steered,
+    CommandedJoint, ControlLaw, SampledController, ServoSettings, Set, body_key, steered,
 };
 use crate::units::Measure;
+use allocation::allocation;
 use reference::reference;
 
 /// Rate feedback of the servo without a key, in samples.
@@ -27,6 +31,7 @@ const TIME_LIMIT: f64 = 10.0;
 /// What the tables of controllers refer to.
 struct ControllerContext<'a> {
     devices: &'a [Device],
+    structure: Option<&'a Structure>,
     /// The attitude at the start.
     attitude: Quaternion,
     /// Position and velocity at the start, N, m and m/s.
@@ -39,12 +44,12 @@ struct ControllerContext<'a> {
 /// All of a file: of these devices, with this attitude and this state at the start.
 pub(super) fn controllers(
     keys: &Keys<'_>,
-    devices: &[Device],
+    (devices, structure): (&[Device], Option<&Structure>),
     (attitude, initial): (Quaternion, &State<Set>),
     folder: &Path,
 ) -> Vec<SampledController> {
     let (position, velocity) = (initial.r_b_n, initial.r_b_n_dot);
-    let known = ControllerContext { devices, attitude, position, velocity, folder };
+    let known = ControllerContext { devices, structure, attitude, position, velocity, folder };
     keys.tables("controller").iter().filter_map(|keys| controller(keys, &known)).collect()
 }
 
@@ -70,8 +75,10 @@ fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledC
         keys.finish();
         (gain, own)
     });
+    let reads = sensors::sensing(keys, known.structure);
     keys.finish();
     let ((gain, servo_rate), rate) = (servo?, rate?);
+    let (sensors, filters, estimator, dumping) = reads?;
     let servo = ServoSettings {
         gain: gain.unwrap_or(SERVO_GAIN * servo_rate.unwrap_or(rate)),
         rate: servo_rate,
@@ -86,6 +93,10 @@ fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledC
         reference: reference?,
         allocation: allocation?,
         servo,
+        sensors,
+        filters,
+        estimator,
+        dumping,
     })
 }
 
@@ -260,57 +271,4 @@ fn diagonal(keys: &Keys<'_>, key: &str, measure: Measure) -> Option<Matrix3<f64>
         return keys.quantity(key, measure).map(Matrix3::from_diagonal_element);
     }
     keys.quantities::<3>(key, measure).map(|three| Matrix3::from_diagonal(&Vector3::from(three)))
-}
-
-/// What an inverse needs.
-#[derive(Clone, Copy, PartialEq)]
-enum InverseKind {
-    Exact,
-    LeastLargest,
-    SingularityRobust,
-    Generalised,
-}
-
-fn allocation(keys: &Keys<'_>, has_gimbals: bool) -> Option<TorqueAllocation> {
-    let words = [
-        ("exact", InverseKind::Exact),
-        ("least_largest", InverseKind::LeastLargest),
-        ("singularity_robust", InverseKind::SingularityRobust),
-        ("generalised", InverseKind::Generalised),
-    ];
-    let kind = keys.choice("inverse", &words);
-    let number = |key: &str, default: f64| keys.number(key).unwrap_or(default);
-    let gimbal_weight = number("gimbal_weight", 1.0);
-    let wheel_weight = number("wheel_weight", if has_gimbals { 0.0 } else { 1.0 });
-    let wheel_mu = number("wheel_mu", 0.0);
-    // Nakamura and Hanafusa's, with the exponent of Wie (2001).
-    let robustness = [number("lambda", 0.01), number("mu", 10.0)];
-    let dither = [
-        number("dither_amplitude", 0.1),
-        keys.quantity("dither_frequency", Measure::ANGULAR_RATE).unwrap_or(1.0),
-    ];
-    let reference = keys.quantity("reference_momentum", Measure::ANGULAR_MOMENTUM);
-    keys.finish();
-    if keys.has("inverse") {
-        kind?;
-    }
-    let kind = kind.unwrap_or(InverseKind::Exact);
-    let robust = matches!(kind, InverseKind::SingularityRobust | InverseKind::Generalised);
-    for key in ["lambda", "mu"].into_iter().filter(|key| !robust && keys.has(key)) {
-        let message = format!("`{key}` is of a singularity-robust inverse");
-        keys.error(key, message, "take `inverse = \"singularity_robust\"`, or remove it");
-    }
-    for key in ["dither_amplitude", "dither_frequency"] {
-        if kind != InverseKind::Generalised && keys.has(key) {
-            let message = format!("`{key}` is of the generalised inverse");
-            keys.error(key, message, "take `inverse = \"generalised\"`, or remove it");
-        }
-    }
-    let inverse = match kind {
-        InverseKind::Exact => AllocationInverse::Exact,
-        InverseKind::LeastLargest => AllocationInverse::LeastLargest,
-        InverseKind::SingularityRobust => AllocationInverse::SingularityRobust(robustness),
-        InverseKind::Generalised => AllocationInverse::Generalised(robustness, dither),
-    };
-    Some(TorqueAllocation { inverse, gimbal_weight, wheel_weight, wheel_mu, reference })
 }

@@ -2,10 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use precess_control::{TurnLimits, rotation};
+use nalgebra::Vector3;
+use precess_control::{AttitudeRow, TurnLimits, rotation};
 use precess_dynamics::{Attitude as _, Quaternion};
 
 use super::{ControllerContext, Wrong};
+use crate::file::document::{Node, Value};
 use crate::file::keys::Keys;
 use crate::file::read::devices::initial::{attitude_of, of_axes};
 use crate::scenario::{AttitudeReference, OrbitalFrame};
@@ -18,6 +20,7 @@ enum ReferenceKind {
     Slew,
     Turning,
     Orbit,
+    Table,
 }
 
 pub(super) fn reference(
@@ -29,6 +32,7 @@ pub(super) fn reference(
         ("slew", ReferenceKind::Slew),
         ("turning", ReferenceKind::Turning),
         ("orbit", ReferenceKind::Orbit),
+        ("table", ReferenceKind::Table),
     ];
     let chosen = keys.choice("kind", &words);
     if keys.has("kind") {
@@ -50,6 +54,7 @@ pub(super) fn reference(
             start.zip(omega).map(|(attitude, omega)| AttitudeReference::Turning { attitude, omega })
         }
         ReferenceKind::Orbit => orbit(keys, known),
+        ReferenceKind::Table => table(keys),
     };
     keys.finish();
     found
@@ -112,6 +117,82 @@ fn slew(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<AttitudeRefere
         }
     };
     Some(AttitudeReference::Slew { start, from, to, limits })
+}
+
+/// Attitudes and rates at times: as many of each.
+fn table(keys: &Keys<'_>) -> Option<AttitudeReference> {
+    let times = all(keys, "times", "times = \"0, 10 s\"", |keys, node, path| {
+        keys.values_of(node, path, Measure::TIME)
+    });
+    if !keys.has("scalar") {
+        keys.missing("scalar", "scalar = \"first\"");
+    }
+    let first = keys.choice("scalar", &[("first", true), ("last", false)]);
+    let quaternions = all(
+        keys,
+        "quaternions",
+        "quaternions = [[1, 0, 0, 0], [0, 0, 0, 1]]",
+        |keys, node, path| {
+            let of = quaternion(node, first == Some(true));
+            if of.is_none() {
+                keys.error("quaternions", format!("`{path}` is no list of lists of 4 numbers"), "");
+            }
+            of.map(|of| vec![of])
+        },
+    );
+    let example = "angular_velocities = [\"0, 0, 0 deg/s\", \"0, 0, 1 deg/s\"]";
+    let rates = all(keys, "angular_velocities", example, |keys, node, path| {
+        let of = keys.values_of(node, path, Measure::ANGULAR_RATE)?;
+        let found = <[f64; 3]>::try_from(of).ok();
+        if found.is_none() {
+            keys.error("angular_velocities", format!("`{path}` needs 3 numbers in each text"), "");
+        }
+        found.map(|of| vec![Vector3::from(of)])
+    });
+    let (times, quaternions, rates, _) = (times?, quaternions?, rates?, first?);
+    if times.len() != quaternions.len() || times.len() != rates.len() {
+        let [times, quaternions, rates] = [times.len(), quaternions.len(), rates.len()];
+        let message =
+            format!("{times} times, {quaternions} quaternions and {rates} angular velocities");
+        keys.error("times", message, "a row has one of each");
+        return None;
+    }
+    let rows = times.into_iter().zip(quaternions).zip(rates);
+    let rows = rows.map(|((time, attitude), omega)| AttitudeRow { time, attitude, omega });
+    Some(AttitudeReference::Table(rows.collect()))
+}
+
+/// What each node of a list says, or the value by itself, of a key that must be there.
+fn all<'a, T>(
+    keys: &Keys<'a>,
+    key: &str,
+    example: &str,
+    read: impl Fn(&Keys<'a>, &Node, &str) -> Option<Vec<T>>,
+) -> Option<Vec<T>> {
+    let Some(node) = keys.node(key) else {
+        keys.missing(key, example);
+        return None;
+    };
+    let path = format!("{}.{key}", keys.path());
+    match &node.value {
+        Value::List(list) => {
+            let each = list.iter().map(|node| read(keys, node, &path));
+            Some(each.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+        }
+        _ => read(keys, node, &path),
+    }
+}
+
+/// A list of four numbers.
+fn quaternion(node: &Node, first: bool) -> Option<Quaternion> {
+    let Value::List(list) = &node.value else { return None };
+    let numbers = list.iter().map(|node| match node.value {
+        Value::Number(value, _) => Some(value),
+        _ => None,
+    });
+    let four = <[f64; 4]>::try_from(numbers.collect::<Option<Vec<_>>>()?).ok()?;
+    let [q0, q1, q2, q3] = if first { four } else { [four[3], four[0], four[1], four[2]] };
+    Some(Quaternion { q0, q1, q2, q3 })
 }
 
 /// The orbital frame of the start, which turns at its rate there.
