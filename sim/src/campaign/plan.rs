@@ -3,8 +3,9 @@
 use sha2::{Digest as _, Sha256};
 
 use super::{Axis, CampaignError, NUMBERS_MAX, SAMPLES_MAX, Selection};
+use crate::control::program_digests;
 use crate::file::Override;
-use crate::scenario::Scenario;
+use crate::scenario::{ControlLaw, Scenario};
 
 /// The samples of a campaign.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +62,7 @@ impl Plan {
     }
 
     /// The digest of what the rows depend on: version of the program, text of the scenario with every default, what is
-    /// recorded, what the samples follow from.
+    /// recorded, what the samples follow from, and the files of programs that are controllers.
     #[must_use]
     pub fn digest(&self, scenario: &Scenario, selection: &Selection) -> [u8; 32] {
         let mut hash = Sha256::new();
@@ -75,6 +76,11 @@ impl Plan {
         part(&scenario.source.filled);
         part(&format!("{selection:?}"));
         part(&self.identity);
+        for of in &scenario.controllers {
+            if let ControlLaw::Program { command, folder, .. } = &of.law {
+                part(&format!("{command:?} {:?}", program_digests(command, folder)));
+            }
+        }
         hash.finalize().into()
     }
 

@@ -6,12 +6,14 @@
 //! of their motors.
 
 mod error;
+mod identity;
 mod process;
 
 use nalgebra::Vector3;
 use precess_control::{Law, Sample};
 
 pub use error::ControllerError;
+pub(crate) use identity::program_digests;
 pub use process::{Greeting, ProgramController};
 
 /// What a controller reads at a sample.
