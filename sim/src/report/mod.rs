@@ -38,6 +38,7 @@ use run::chart::{Chart, ScaledChart, drawn};
 use run::extremes::{Extremes, Magnitude};
 use run::limits::{limits, stated_unit};
 use run::replay::Collector;
+use run::settling::Settling;
 use run::{grouping, summary};
 
 use crate::pointing::RequirementState;
@@ -74,6 +75,8 @@ struct Collected {
     extremes: Vec<Extremes>,
     /// Of the hub's angular velocity.
     omega: Option<Magnitude>,
+    /// Of each controller.
+    settling: Vec<Settling>,
     replay: Option<Collector>,
 }
 
@@ -211,6 +214,7 @@ impl Collected {
             first: Vec::new(),
             extremes: vec![Extremes::default(); header.columns.len()],
             omega: omega.map(Magnitude::new),
+            settling: Settling::all(header, scenario),
             replay: Collector::new(header, scenario),
             header: header.clone(),
         }
@@ -235,6 +239,7 @@ impl Collected {
         if let Some(omega) = &mut self.omega {
             omega.add(time, row);
         }
+        self.settling.iter_mut().for_each(|of| of.add(time, row));
         if let Some(replay) = &mut self.replay {
             replay.add(row);
         }

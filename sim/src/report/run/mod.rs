@@ -11,6 +11,7 @@ pub(super) mod load_tables;
 pub(super) mod mass;
 pub(super) mod replay;
 pub(super) mod requirements;
+pub(super) mod settling;
 mod slow_motion;
 mod stage;
 pub(super) mod summary;

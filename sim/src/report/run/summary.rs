@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use super::requirements;
+use super::settling::Settling;
 use crate::pointing::RequirementState;
 use crate::record;
 use crate::record::{End, Event, Outcome};
@@ -171,6 +172,8 @@ fn facts(report: &Report, outcome: &Outcome) -> Vec<Fact> {
         let whole = peak.replace(' ', "\u{a0}").replace("\u{a0}at", " at");
         facts.push(Fact::new("Largest angular velocity", whole));
     }
+    let controllers = report.collected.iter().flat_map(|collected| &collected.settling);
+    facts.extend(controllers.flat_map(Settling::facts));
     if outcome.energy_lost != 0.0 {
         let lost = number::with_unit(outcome.energy_lost, 4, "J");
         facts.push(Fact::new("Lost in brakes and end stops", lost));
