@@ -1,5 +1,7 @@
 //! `new`: a commented example of a scenario file, or of a budget, with typical values.
 
+mod controlled;
+
 use std::fmt::Write as _;
 
 use clap::Args;
@@ -11,6 +13,7 @@ use super::exit::Exit;
 use super::terminal::print;
 use crate::file::read::{has_inertia, has_mass};
 use crate::scenario::body_key;
+use controlled::{CONTROLLED, controlled};
 
 /// The options of `new`.
 #[derive(Debug, Args)]
@@ -19,11 +22,26 @@ pub(super) struct New {
     /// reaction wheels, `orbit` for a wheel in an orbit, `platform` for a wheel on an isolator; `budget` for a jitter budget of `wheels`.
     #[arg(default_value = "reaction_wheel")]
     what: String,
+
+    /// With a controller that turns the spacecraft by 30 degrees and holds it: of `pyramid`, `gyros` and `wheels`.
+    #[arg(long)]
+    controller: bool,
 }
 
 impl New {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
-        let Some(text) = example(&self.what) else {
+        if self.controller && !CONTROLLED.contains(&self.what.as_str()) {
+            let message = format!(
+                "there is no example of `{}` with a controller; there are {}",
+                self.what,
+                CONTROLLED.join(", ")
+            );
+            return Err(CommandError::Other(message));
+        }
+        let text = example(&self.what);
+        let text =
+            if self.controller { text.and_then(|text| controlled(text, &self.what)) } else { text };
+        let Some(text) = text else {
             let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
             let message = format!(
                 "there is no example of `{}`; there are budget, gyros, orbit, platform, pyramid, wheels, {}",
@@ -253,15 +271,7 @@ const IMBALANCE: &str = r#"# As the wheel's data sheet states it. The phase is t
 imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
 "#;
 
-const PYRAMID: &str = r#"
-# Four DGVSCMGs named cmg1 to cmg4. Their outer gimbal axes lean outwards from the hub's z axis by the
-# half-angle; their spin axes at zero angles are along the tangent.
-[[device]]
-name = "cmg"
-kind = "dgvscmg"
-layout.pyramid = { count = 4, half_angle = "54.74 deg", first_azimuth = "0 deg", radius = "30 cm", axis = "z" }
-imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
-"#;
+const PYRAMID: &str = include_str!("new/pyramid.toml");
 
 /// The head of the initial state, with the field of the Earth.
 const ORBIT: &str = r#"# The field of the Earth as that of a point: a circular orbit at 500 km.
