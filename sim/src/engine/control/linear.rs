@@ -40,6 +40,7 @@ pub(crate) fn linear_allocation(
         joint: own.joint,
         steered: own.steered,
         limits: MotorLimits::default(),
+        state: states.get(own.joint).copied().unwrap_or_default(),
         commanded: true,
         at_limit: false,
     };

@@ -6,13 +6,10 @@
 
 mod allocation;
 mod clock;
-<<<<<<< HEAD
-pub(crate) mod linear;
-=======
 mod limits;
+pub(crate) mod linear;
 mod own;
 mod sensing;
->>>>>>> 8b5e95e1 (control: sensors, filters, estimator, dumping in the loop)
 mod servo;
 
 use std::collections::VecDeque;
