@@ -76,7 +76,7 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    /// What the samples of the plan would be warned of as runs of their own.
+    /// What the samples of the plan that was run first would be warned of as runs of their own.
     fn advised(&self, plan: &Plan) -> &[String] {
         self.advised.get_or_init(|| advised(self, plan))
     }
@@ -155,8 +155,11 @@ impl CampaignOptions {
     ) -> Result<Option<Finished>, CommandError> {
         let other = |error: CampaignError| CommandError::Other(error.to_string());
         readable(prepared, plan, places)?;
-        for warning in prepared.advised(plan) {
-            note(&format!("warning: {warning}"));
+        // Of the campaign's own plan: that of derivatives is about one sample.
+        if prepared.advised.get().is_none() {
+            for warning in prepared.advised(plan) {
+                note(&format!("warning: {warning}"));
+            }
         }
         let path = self.out.join(format!("{stem}.journal"));
         let digest = plan.digest(&prepared.scenario, &prepared.selection);
