@@ -91,6 +91,8 @@ pub use derivatives::error::DerivativeError;
 pub use derivatives::linearization::{Linearization, Output};
 pub use derivatives::parameters::columns::{Component, ParameterVariable};
 #[cfg(feature = "alloc")]
+pub use derivatives::parameters::direction::ParameterDirection;
+#[cfg(feature = "alloc")]
 pub use derivatives::step::linearization::StepLinearization;
 pub use derivatives::structure::Structure;
 pub use derivatives::variable::{Axis, Variable, VariableName};

@@ -15,11 +15,12 @@ use crate::derivatives::loads::side_by_side::{Load, Six};
 use crate::derivatives::parameters::change::{add_change, add_hub_change, unit};
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::parameters::device_motion::{DeviceMotion, GivenJoint, LoadChange};
+use crate::derivatives::parameters::direction::{ParameterDirection, rotation};
 use crate::derivatives::parameters::rigid_body::{Motion, RigidBody};
 use crate::equations::gravity::Gravity;
 use crate::equations::load_sums::HubAccelerations;
 use crate::model::joint_array::MAX_JOINTS;
-use crate::model::kind::{ImbalanceModel, Kind, no_body, no_inertia};
+use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, no_body, no_inertia};
 use crate::model::mode::HubMode;
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
@@ -27,6 +28,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Columns, columns, components, rotate_transposed, sub, vector, zeros};
+use crate::sets::device_parameters::DeviceParameters;
 use crate::sets::devices::{DeviceSet, Devices};
 use crate::sets::per_device as data;
 use crate::sets::with_numbers::{Change, WithNumbers};
@@ -119,9 +121,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         variable: ParameterVariable<'_>,
     ) -> Result<&Column<D>, DerivativeError<D::Scalar>> {
         let load = self.load(variable)?;
-        let ([a, b, c], [d, e, f]) = (load.force, load.moment);
-        let (hub, joints) = ([a, b, c, d, e, f], load.joints);
-        let found = self.accelerated(variable.device(), &Load { hub, joints });
+        let found = self.accelerated(variable.device(), &load.into());
         if !found.iter().chain(&self.accelerations).all(|number| number.is_finite()) {
             return Err(DerivativeError::NotFinite { variable: 0 });
         }
@@ -133,6 +133,35 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
             *to = *from;
         }
         Ok(&self.column)
+    }
+
+    /// Adds what the accelerations change by with the parameters along a direction, in the order of the rows of `c`.
+    pub(crate) fn add_along(
+        &mut self,
+        direction: &ParameterDirection<D::Scalar>,
+        to: &mut [D::Scalar],
+    ) -> Result<(), DerivativeError<D::Scalar>> {
+        if let Some(change) = direction.of_hub() {
+            let load = LoadChange::of_hub(self.hub.wrench_by_body(&self.motion, &change));
+            self.add_accelerated(None, load, to);
+        }
+        for (device, change) in direction.of_devices() {
+            let load = self.load_of_device(device, By::Direction(change))?;
+            self.add_accelerated(Some(device), load, to);
+        }
+        Ok(())
+    }
+
+    /// Adds the accelerations where the loads of a device, or of the hub alone, change.
+    fn add_accelerated(
+        &mut self,
+        device: Option<usize>,
+        load: LoadChange<D::Scalar>,
+        to: &mut [D::Scalar],
+    ) {
+        let hub = self.accelerated(device, &load.into());
+        let found = hub.iter().chain(&self.accelerations);
+        to.iter_mut().zip(found).for_each(|(to, from)| *to = *to + *from);
     }
 
     /// The accelerations where the loads of a device, or of the hub alone, change: of the hub, those of the joints into
@@ -163,17 +192,14 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
             let change = RigidBody::of_hub(&change);
             return Ok(LoadChange::of_hub(self.hub.wrench_by_body(&self.motion, &change)));
         };
+        self.load_of_device(device, By::Variable(variable))
+    }
+
+    /// What the loads of a device change by.
+    fn load_of_device(&mut self, device: usize, by: By<'_, D::Scalar>) -> Changed<D::Scalar> {
         let Self { motion: hub, devices, joints, device: motion, .. } = self;
-        let mut visit = OfDevice {
-            next: 0,
-            first_joint: 0,
-            device,
-            variable,
-            hub,
-            joints,
-            motion,
-            found: None,
-        };
+        let mut visit =
+            OfDevice { next: 0, first_joint: 0, device, by, hub, joints, motion, found: None };
         devices.change(&mut visit);
         let OfDevice { next: devices, found, .. } = visit;
         found.unwrap_or(Err(DerivativeError::NoSuchDevice { device, devices }))
@@ -183,13 +209,28 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
 /// A change of loads, or why there is none.
 type Changed<T> = Result<LoadChange<T>, DerivativeError<T>>;
 
-/// What the loads of one device change by with a parameter of it.
+/// What changes of a device.
+#[derive(Clone, Copy)]
+enum By<'a, T> {
+    Variable(ParameterVariable<'a>),
+    /// All parameters, so.
+    Direction(&'a DeviceParameters<T>),
+}
+
+impl<T: Scalar> From<LoadChange<T>> for Load<T> {
+    fn from(LoadChange { force, moment, joints }: LoadChange<T>) -> Self {
+        let ([a, b, c], [d, e, f]) = (force, moment);
+        Self { hub: [a, b, c, d, e, f], joints }
+    }
+}
+
+/// What the loads of one device change by with parameters of it.
 struct OfDevice<'a, 'b, D: Devices> {
     /// The number of the device that comes next, and of its first joint.
     next: usize,
     first_joint: usize,
     device: usize,
-    variable: ParameterVariable<'a>,
+    by: By<'a, D::Scalar>,
     hub: &'a Motion<D::Scalar>,
     joints: &'a Joints<'b, D>,
     motion: &'a mut (DeviceMotion<D::Scalar>, Option<usize>),
@@ -208,34 +249,52 @@ impl<D: Devices> Change<D::Scalar> for OfDevice<'_, '_, D> {
 
 impl<D: Devices> OfDevice<'_, '_, D> {
     fn load<K: Kind<Scalar = D::Scalar>>(&mut self, device: &K) -> Changed<D::Scalar> {
-        let states = self.joints.states.states().skip(self.first_joint);
         if self.motion.1 != Some(self.device) {
             self.set_motion(device);
         }
-        let (motion, mut load) = (&self.motion.0, LoadChange::none());
-        if let ParameterVariable::MountRotation { about, .. } = self.variable {
-            return Ok(motion.by_mount(unit(about)));
-        }
+        let motion = &self.motion.0;
+        let variable = match self.by {
+            By::Variable(ParameterVariable::MountRotation { about, .. }) => {
+                return Ok(motion.by_mount(unit(about)));
+            }
+            By::Variable(variable) => variable,
+            By::Direction(DeviceParameters { mount, bodies, passive, .. }) => {
+                let turned = rotation(device.mount(), mount);
+                let mut load = if turned.iter().all(|angle| angle.vanishes()) {
+                    LoadChange::none()
+                } else {
+                    motion.by_mount(turned)
+                };
+                let count = K::JOINTS.len();
+                add_by_bodies(motion, bodies.iter().take(count).copied(), &mut load);
+                self.add_by_passive(device, passive.iter().copied(), &mut load);
+                return Ok(load);
+            }
+        };
+        let mut load = LoadChange::none();
         let none = K::all(no_body());
         let free = K::all(Passive::none());
         let mut change = K::of_bodies(&no_inertia(), &none, &free, ImbalanceModel::Coupled);
-        let which = (self.device, self.variable);
+        let which = (self.device, variable);
         add_change(&mut change, (device, |of| of), which, |to, by| *to = *to + by)?;
-        for (joint, body) in change.bodies().values().enumerate() {
-            let rigid = RigidBody::of(&body);
-            if !rigid.vanishes() {
-                motion.add_by_body(joint, &rigid, &mut load);
-            }
-            if body.origin.iter().any(|number| !number.vanishes()) {
-                motion.add_by_origin(joint, body.origin, &mut load);
-            }
-        }
-        let (own, change) = (device.passive(), change.passive());
-        let passive = own.values().zip(change.values()).zip(states);
+        add_by_bodies(motion, change.bodies().values(), &mut load);
+        self.add_by_passive(device, change.passive().values(), &mut load);
+        Ok(load)
+    }
+
+    /// Adds what springs and friction change by.
+    fn add_by_passive<K: Kind<Scalar = D::Scalar>>(
+        &self,
+        device: &K,
+        changes: impl Iterator<Item = Passive<D::Scalar>>,
+        load: &mut LoadChange<D::Scalar>,
+    ) {
+        let states = self.joints.states.states().skip(self.first_joint);
+        let own = device.passive();
+        let passive = own.values().zip(changes).zip(states);
         for (to, ((own, change), state)) in load.joints.iter_mut().zip(passive) {
             *to = *to - own.torque_by(state, &change);
         }
-        Ok(load)
     }
 
     fn set_motion<K: Kind<Scalar = D::Scalar>>(&mut self, device: &K) {
@@ -256,5 +315,22 @@ impl<D: Devices> OfDevice<'_, '_, D> {
         );
         self.motion.0.set(self.hub, &columns(device.mount()), joints);
         self.motion.1 = Some(self.device);
+    }
+}
+
+/// Adds what bodies, and the origins of their joints, change by.
+fn add_by_bodies<T: Scalar>(
+    motion: &DeviceMotion<T>,
+    changes: impl Iterator<Item = BodyParameters<T>>,
+    load: &mut LoadChange<T>,
+) {
+    for (joint, body) in changes.enumerate() {
+        let rigid = RigidBody::of(&body);
+        if !rigid.vanishes() {
+            motion.add_by_body(joint, &rigid, load);
+        }
+        if body.origin.iter().any(|number| !number.vanishes()) {
+            motion.add_by_origin(joint, body.origin, load);
+        }
     }
 }

@@ -5,6 +5,8 @@ pub(crate) mod columns;
 #[cfg(feature = "alloc")]
 pub(crate) mod device_motion;
 #[cfg(feature = "alloc")]
+pub(crate) mod direction;
+#[cfg(feature = "alloc")]
 pub(crate) mod loads;
 #[cfg(feature = "alloc")]
 pub(crate) mod rigid_body;

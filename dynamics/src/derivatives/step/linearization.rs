@@ -86,16 +86,16 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
             self.output_columns((stage, inputs), found, &none, lists, into)
         };
         let into = [&mut a, &mut b];
-        let state = self.chained((state, inputs), dt, into, &mut derivatives)?;
+        let state = self.chained((state, inputs), (dt, None), into, &mut derivatives)?;
         Ok(StepLinearization { state, states, inputs: by_inputs, a, b })
     }
 
     /// The state after a step; its derivatives by the state before it, where those have columns, and by what is
-    /// held are written.
-    fn chained(
+    /// held are written. Where the state before the step changes with what is held, so: of its changes, by columns.
+    pub(crate) fn chained(
         &self,
         (state, inputs): (&State<D, Quaternion, S>, &Inputs<D, S>),
-        dt: f64,
+        (dt, changes): (f64, Option<&DMatrix<f64>>),
         [a, b]: [&mut DMatrix<f64>; 2],
         derivatives: ByHeld<'_, D, S>,
     ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
@@ -112,7 +112,10 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let first =
             stages.first().map_or_else(Quaternion::identity, |(_, stage, _)| stage.attitude);
         let mut last = numbers(first);
-        let mut chain = StageChain::new([b.nrows(), a.ncols(), b.ncols()], first, hub);
+        let mut chain = match changes {
+            Some(changes) => StageChain::of_changes(changes, first, hub),
+            None => StageChain::new([b.nrows(), a.ncols(), b.ncols()], first, hub),
+        };
         // The last stage leads to no other.
         let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
         for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
@@ -171,7 +174,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
                     to.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
                 })
             };
-        craft.chained((state, inputs), dt, [&mut a, &mut b], &mut derivatives)?;
+        craft.chained((state, inputs), (dt, None), [&mut a, &mut b], &mut derivatives)?;
         Ok(b)
     }
 }

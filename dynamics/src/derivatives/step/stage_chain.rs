@@ -40,7 +40,7 @@ pub(crate) struct StageChain {
     product: Product,
     /// Of the accelerations.
     accelerations: Vec<f64>,
-    /// Whether the changes are those before the step.
+    /// Whether the changes are those before the step, each of one state.
     first: bool,
 }
 
@@ -68,13 +68,26 @@ impl StageChain {
         for (number, line) in states.chunks_mut(width.max(1)).take(by_states).enumerate() {
             line.iter_mut().skip(number).take(1).for_each(|to| *to = 1.0);
         }
+        Self { by_states, ..Self::started(states, width, attitude, hub) }
+    }
+
+    /// Of columns that all change the state before the step, so, and what is held, where the attitude is this one.
+    pub(crate) fn of_changes(changes: &DMatrix<f64>, attitude: Quaternion, hub: bool) -> Self {
+        let width = changes.ncols().next_multiple_of(COLUMNS);
+        let mut states = vec![0.0; width.saturating_mul(changes.nrows())];
+        add_elements(changes, 0, (&mut states, width));
+        Self { first: false, ..Self::started(states, width, attitude, hub) }
+    }
+
+    /// Of these rows before the step.
+    fn started(states: Vec<f64>, width: usize, attitude: Quaternion, hub: bool) -> Self {
         let mut turns = vec![0.0; width.saturating_mul(4)];
         if hub && let Some(rotation) = lines(&states, width, 3, 3) {
             let by_rotation = UNITS.map(|unit| rate(numbers(attitude), unit));
             combine(&by_rotation, (rotation, width), &mut turns);
         }
         Self {
-            by_states,
+            by_states: 0,
             width,
             states: Rows::new(states),
             turns: Rows::new(turns),

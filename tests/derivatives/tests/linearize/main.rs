@@ -1,6 +1,7 @@
 //! Derivatives: against differences in double-double, against what is known, and what is rejected.
 
 mod accuracy;
+mod along;
 mod by_loads;
 mod columns;
 mod draw;

@@ -9,16 +9,16 @@ use precess_dynamics::{
 };
 use precess_tests::differences::index;
 
-type Set = (SloshMass, ReactionWheel);
+pub(crate) type Set = (SloshMass, ReactionWheel);
 /// With derivatives by six variables.
 pub(crate) type Number = Dual<f64, 6>;
 type Dualed = (SloshMass<Number>, ReactionWheel<Number>);
 
-const DT: f64 = 0.05;
+pub(crate) const DT: f64 = 0.05;
 /// Of the largest element of a column: both are exact to rounding.
 const ROUNDING: f64 = 1e-13;
 
-fn spacecraft() -> (Hub, Set) {
+pub(crate) fn spacecraft() -> (Hub, Set) {
     let hub =
         Hub { m_b: 80.0, r_bc_b: Vector3::new(0.1, 0.0, -0.2), i_b_bc: Matrix3::identity() * 9.0 };
     let mut slosh = SloshMass::bare_slosh_mass(7.0);
@@ -30,10 +30,10 @@ fn spacecraft() -> (Hub, Set) {
 }
 
 /// By emitted derivatives of a tree, and of devices on the hub.
-const FIELDS: [Gravity; 3] =
+pub(crate) const FIELDS: [Gravity; 3] =
     [Gravity::Central { mu: 40.0 }, Gravity::Uniform(Vector3::new(3.0, -8.0, 2.0)), Gravity::None];
 
-fn start(gravity: Gravity) -> (State<Set>, Inputs<Set>) {
+pub(crate) fn start(gravity: Gravity) -> (State<Set>, Inputs<Set>) {
     let mut state: State<Set> = State::at_rest();
     state.r_b_n = Vector3::new(3.0, 4.0, -12.0);
     state.r_b_n_dot = Vector3::new(0.3, -0.1, 0.2);
