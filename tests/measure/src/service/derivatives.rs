@@ -286,7 +286,8 @@ impl<const N: usize> Service for Derivatives<N> {
 
     fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
-            self.state.omega += self.call()? * NUDGE;
+            let found = self.call()?;
+            self.state.omega += found * NUDGE;
         }
         Ok(())
     }
