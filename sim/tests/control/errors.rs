@@ -59,6 +59,35 @@ fn what_is_wrong_is_said_with_its_place() {
         (slew("-270 deg"), "-270 deg is more than 180 deg, and a slew goes", "\"-270 deg\""),
         (with("servo = { rate = \"1 Hz\" }"), "1 Hz is outside 4 Hz", "\"1 Hz\""),
         (
+            format!(
+                "{BUS}[[at]]\ntime = \"0.5 s\"\njoint = \"rwx.wheel\"\ncontrolled = true\n{RUN}"
+            ),
+            "no controller commands `rwx.wheel`",
+            "",
+        ),
+    ] {
+        is_said(&text, message, place);
+    }
+}
+
+/// That a text has an error with a message, at a place.
+fn is_said(text: &str, message: &str, place: &str) {
+    let found = from_toml("test.toml", text, Path::new(""));
+    let errors = found.err().unwrap_or_else(|| panic!("{message}: no error\n{text}"));
+    let shown = errors.to_string();
+    let error = errors.all.iter().find(|error| error.message.contains(message));
+    let error = error.unwrap_or_else(|| panic!("{message} in\n{shown}"));
+    if !place.is_empty() {
+        let span = error.span.clone().unwrap_or_else(|| panic!("{message}: no place\n{shown}"));
+        assert_eq!(text.get(span.range), Some(place), "{message}\n{shown}");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_sensors_is_said_with_its_place() {
+    let with = |keys: &str| format!("{BUS}{}{RUN}", controller(keys, ""));
+    for (text, message, place) in [
+        (
             with("sensors = { gyro = { angle_random_walk = \"0.1 deg/sqrt(h)\" } }"),
             "`controller.aocs.sensors.seed` is missing",
             "",
@@ -102,23 +131,8 @@ fn what_is_wrong_is_said_with_its_place() {
             "",
         ),
         (with("dumping = { gain = \"0 1/s\" }"), "gain of momentum dumping is 0", ""),
-        (
-            format!(
-                "{BUS}[[at]]\ntime = \"0.5 s\"\njoint = \"rwx.wheel\"\ncontrolled = true\n{RUN}"
-            ),
-            "no controller commands `rwx.wheel`",
-            "",
-        ),
     ] {
-        let found = from_toml("test.toml", &text, Path::new(""));
-        let errors = found.err().unwrap_or_else(|| panic!("{message}: no error\n{text}"));
-        let shown = errors.to_string();
-        let error = errors.all.iter().find(|error| error.message.contains(message));
-        let error = error.unwrap_or_else(|| panic!("{message} in\n{shown}"));
-        if !place.is_empty() {
-            let span = error.span.clone().unwrap_or_else(|| panic!("{message}: no place\n{shown}"));
-            assert_eq!(text.get(span.range), Some(place), "{message}\n{shown}");
-        }
+        is_said(&text, message, place);
     }
 }
 

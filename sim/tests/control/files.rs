@@ -6,7 +6,7 @@ use std::path::Path;
 use precess::engine::run;
 use precess::file::from_file;
 use precess::record::{RecorderGroup, Samples, Statistics};
-use precess::scenario::Scenario;
+use precess::scenario::{NullMotion, Scenario};
 
 use super::column;
 
@@ -70,7 +70,7 @@ fn wheels_leave_the_band_without_a_torque() {
     }
     // Without it they stay.
     let mut without = scenario;
-    without.controllers[0].allocation.null_motion = Default::default();
+    without.controllers[0].allocation.null_motion = NullMotion::default();
     let (samples, _) = ran(&without);
     let spin = column(&samples, "rw1.spin");
     let last = spin[spin.len() - 1].abs();

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_control::GyroOutput;
 
+use super::Wrong;
 use crate::file::document::Value;
 use crate::file::keys::Keys;
 use crate::file::read::structure::Structure;
@@ -31,26 +32,26 @@ pub(super) fn sensing(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<
     let filters: Vec<_> = keys.tables("filter").iter().map(filter).collect();
     let dumping = optional(keys, "dumping", dumping);
     Some((
-        sensors?.unwrap_or_default(),
+        sensors.ok()?.unwrap_or_default(),
         filters.into_iter().collect::<Option<_>>()?,
-        estimator?,
-        dumping?,
+        estimator.ok()?,
+        dumping.ok()?,
     ))
 }
 
-/// What a table says, where it is there; none where something in it is wrong.
+/// What a table says, where it is there.
 fn optional<'a, T>(
     keys: &Keys<'a>,
     key: &str,
     read: impl FnOnce(&Keys<'a>) -> Option<T>,
-) -> Option<Option<T>> {
+) -> Result<Option<T>, Wrong> {
     if !keys.has(key) {
-        return Some(None);
+        return Ok(None);
     }
-    let table = keys.table(key)?;
+    let table = keys.table(key).ok_or(Wrong)?;
     let found = read(&table);
     table.finish();
-    found.map(Some)
+    found.map(Some).ok_or(Wrong)
 }
 
 fn sensors(
@@ -60,7 +61,7 @@ fn sensors(
 ) -> Option<ControllerSensors> {
     let gyro = optional(keys, "gyro", |keys| gyro(keys, structure));
     let star_tracker = optional(keys, "star_tracker", |keys| star_tracker(keys, structure));
-    let (gyro, star_tracker) = (gyro?, star_tracker?);
+    let (gyro, star_tracker) = (gyro.ok()?, star_tracker.ok()?);
     let noise = gyro.is_some_and(|of| of.angle_random_walk != 0.0 || of.rate_random_walk != 0.0)
         || star_tracker.is_some_and(|of| of.noise != Vector3::zeros());
     if (noise || draws) && !keys.has("seed") {
@@ -93,7 +94,7 @@ fn gyro(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<GyroSettings> 
     };
     let quantum = keys.quantity("quantum", measure);
     Some(GyroSettings {
-        node: node?,
+        node: node.ok()?,
         output,
         angle_random_walk: angle?,
         rate_random_walk: rate?,
@@ -109,22 +110,22 @@ fn star_tracker(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<StarTr
     let rate = keys.quantity("rate", Measure::FREQUENCY);
     let latency = keys.quantity("latency", Measure::TIME).unwrap_or(0.0);
     Some(StarTrackerSettings {
-        node: node?,
-        mount: mount?.unwrap_or_else(Matrix3::identity),
+        node: node.ok()?,
+        mount: mount.ok()?.unwrap_or_else(Matrix3::identity),
         noise: noise.unwrap_or_else(Vector3::zeros),
         rate,
         latency,
     })
 }
 
-/// The node of the structure on which a sensor stands; none within for the hub.
-fn node(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<Option<usize>> {
-    let Some(name) = keys.text("node") else { return Some(None) };
+/// The node of the structure on which a sensor stands; none for the hub.
+fn node(keys: &Keys<'_>, structure: Option<&Structure>) -> Result<Option<usize>, Wrong> {
+    let Some(name) = keys.text("node") else { return Ok(None) };
     let Some(structure) = structure else {
         keys.error("node", "there is no structure", "remove `node`, or describe a `[structure]`");
-        return None;
+        return Err(Wrong);
     };
-    structure.node(keys, "node", name).map(Some)
+    structure.node(keys, "node", name).map(Some).ok_or(Wrong)
 }
 
 fn filter(keys: &Keys<'_>) -> Option<FilterSettings> {
