@@ -14,6 +14,7 @@ from . import errors
 from ._native import version as _version
 from .batch import Batch, BatchLinearization, BatchRun
 from .columns import Column
+from .control import ControllerFunction, ControllerReference, ControllerSample
 from .errors import (
     DerivativeError,
     Error,
@@ -49,6 +50,9 @@ __all__ = [
     "BatchLinearization",
     "BatchRun",
     "Column",
+    "ControllerFunction",
+    "ControllerReference",
+    "ControllerSample",
     "DerivativeError",
     "Drift",
     "Error",

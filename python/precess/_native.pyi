@@ -98,6 +98,8 @@ class NativeScenario:
     @property
     def members(self) -> list[tuple[str, str]]: ...
     @property
+    def controllers(self) -> list[str]: ...
+    @property
     def all_columns(self) -> list[_Column]: ...
     @property
     def columns(self) -> list[_Column]: ...
@@ -268,6 +270,7 @@ def run(
     scenario: NativeScenario,
     progress: Callable[[float], bool | None] | None,
     files: Sequence[tuple[str, _Path]],
+    controllers: Sequence[tuple[str, Callable[..., object]]],
 ) -> tuple[NativeResult, list[_Array]]: ...
 
 @final

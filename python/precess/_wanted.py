@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
 __all__ = [
+    "called",
     "finite",
     "function",
     "instance",
@@ -114,4 +115,11 @@ def function(name: str, value: F | None) -> F | None:
     """A function, or None."""
     if value is not None and not callable(value):
         raise _wrong(name, value, "a function, or None")
+    return value
+
+
+def called(name: str, value: F) -> F:
+    """A function that is called."""
+    if not callable(value):
+        raise _wrong(name, value, "a function")
     return value

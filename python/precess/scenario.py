@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native, _wanted
 from ._tables import Overrides, overrides_of, toml_of
 from .columns import Column
+from .control import ControllerFunction, _of_fields
 from .errors import RunError
 from .result import Result
 
@@ -178,8 +179,9 @@ class Scenario:
         progress: Callable[[float], bool | None] | None = None,
         formats: Sequence[str] = (),
         out: StrPath | None = None,
+        controllers: Mapping[str, ControllerFunction] | None = None,
     ) -> Result:
-        """Runs the scenario, without the interpreter's lock.
+        """Runs the scenario, without the interpreter's lock but while a function of yours is called.
 
         Parameters
         ----------
@@ -191,9 +193,17 @@ class Scenario:
             get their name when they are complete.
         out : path, optional
             The folder of the files; the present one by default. It is made where it is missing.
+        controllers : mapping of functions, optional
+            By the name of a ``[[controller]]``: a function that is called with each
+            :class:`precess.ControllerSample`, in order of time, in the place of the law of the scenario. It
+            returns the torque on the spacecraft about its centre of mass, three numbers in B in N m, which is
+            divided among the joints that the controller commands; or ``{"motors": [..]}``, the torque of each of
+            their motors. What it raises is raised. Give each run a function of its own if it keeps a state.
 
         Raises
         ------
+        KeyError
+            Where no controller has a name of ``controllers``.
         RunError
             Where an error ends the run; ``error.result`` has what was recorded up to there.
         ScenarioError, ParameterError, RecordError
@@ -205,7 +215,8 @@ class Scenario:
         if formats:
             os.makedirs(folder, exist_ok=True)
         files = [(format, os.path.join(folder, f"{self.name}.{format}")) for format in formats]
-        native, arrays = _native.run(self._native, progress, files)
+        own = _controllers(controllers, self._native.controllers)
+        native, arrays = _native.run(self._native, progress, files, own)
         result = Result._of(self, native, arrays)
         try:
             native.raise_error()
@@ -230,6 +241,20 @@ class Scenario:
     def __reduce__(self) -> tuple[Callable[..., Scenario], tuple[Any, ...]]:
         """The text with every default: no file is needed where it is read again."""
         return _unpickled, (self.to_toml(), *self._native.source, self._origin)
+
+
+def _controllers(
+    of: Mapping[str, ControllerFunction] | None, known: Sequence[str]
+) -> list[tuple[str, Callable[..., object]]]:
+    if of is None:
+        return []
+    found = []
+    for name, function in _wanted.table("controllers", of).items():
+        if name not in known:
+            names = ", ".join(known) or "none"
+            raise KeyError(f"no controller is named {name!r}; there are: {names}")
+        found.append((name, _of_fields(_wanted.called(f"controllers[{name!r}]", function))))
+    return found
 
 
 def _native_of(origin: tuple[Any, ...]) -> NativeScenario:

@@ -7,6 +7,7 @@
 
 mod batch;
 mod campaign;
+mod controller;
 mod errors;
 mod evaluator;
 mod fit;

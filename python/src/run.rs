@@ -2,12 +2,16 @@
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::PoisonError;
 use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray as _, PyArray1};
+use precess::control::Controller;
+use precess::engine::run_with_controllers;
 use precess::record::{Histories, Recorder, RecorderGroup, Statistics};
 use pyo3::prelude::*;
 
+use crate::controller::{PythonController, Raised};
 use crate::errors;
 use crate::outcome::{NativeResult, recorder};
 use crate::scenario::NativeScenario;
@@ -18,7 +22,8 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// Runs a scenario; files of these formats are written on the way.
 ///
 /// `progress` is called with the simulated time, s; the run is cancelled where it returns False. Ctrl-C
-/// raises `KeyboardInterrupt`, with the files complete up to there.
+/// raises `KeyboardInterrupt`, with the files complete up to there. `controllers` are functions that are called with each
+/// sample, in the place of the laws of the scenario's controllers of these names; what one raises is raised.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
 pub(crate) fn run<'py>(
@@ -26,6 +31,7 @@ pub(crate) fn run<'py>(
     scenario: &NativeScenario,
     progress: Option<Py<PyAny>>,
     files: Vec<(String, PathBuf)>,
+    controllers: Vec<(String, Py<PyAny>)>,
 ) -> PyResult<(NativeResult, Vec<Bound<'py, PyArray1<f64>>>)> {
     let scenario = scenario.scenario.clone();
     let mut histories = Histories::default();
@@ -35,6 +41,14 @@ pub(crate) fn run<'py>(
     let mut files = files?;
     let mut raised = None;
     let mut last = Instant::now();
+    let raised_by_controller = Raised::default();
+    let controllers = controllers
+        .into_iter()
+        .map(|(name, function)| -> (String, Box<dyn Controller>) {
+            let own = PythonController::new(name.clone(), function, &raised_by_controller);
+            (name, Box::new(own))
+        })
+        .collect();
     let ran = py.detach(|| {
         let mut hear = |time: f64| {
             if last.elapsed() < PERIOD {
@@ -52,9 +66,10 @@ pub(crate) fn run<'py>(
         };
         let mut all: Vec<&mut dyn Recorder> = vec![&mut histories, &mut statistics];
         all.extend(files.iter_mut().map(|file| &mut **file as &mut dyn Recorder));
-        precess::engine::run(&scenario, &mut RecorderGroup::new(all), &mut hear)
+        run_with_controllers(&scenario, controllers, &mut RecorderGroup::new(all), &mut hear)
     });
-    if let Some(error) = raised {
+    let of_controller = raised_by_controller.lock().unwrap_or_else(PoisonError::into_inner).take();
+    if let Some(error) = raised.or(of_controller) {
         return Err(error);
     }
     let outcome = ran.map_err(|error| errors::run(&error))?;

@@ -99,6 +99,12 @@ impl NativeScenario {
         self.scenario.members().map(|(name, member)| (name.to_owned(), kind(member))).collect()
     }
 
+    /// Names of the controllers.
+    #[getter]
+    fn controllers(&self) -> Vec<&str> {
+        self.scenario.controllers.iter().map(|of| of.name.as_str()).collect()
+    }
+
     /// Every column that the scenario has, recorded or not.
     #[getter]
     fn all_columns(&self) -> Vec<ColumnFacts> {

@@ -139,7 +139,10 @@ def calls(text: str) -> Calls:
             {"text": text, "folder": None, "set": {}, "name": "one"},
         ),
         "Scenario.from_toml": (precess.Scenario.from_toml, {"path": "one.toml", "set": {}}),
-        "Scenario.run": (scenario.run, {"progress": None, "formats": [], "out": None}),
+        "Scenario.run": (
+            scenario.run,
+            {"progress": None, "formats": [], "out": None, "controllers": None},
+        ),
         "Scenario.to_toml": (scenario.to_toml, {}),
         "Scenario.with_values": (scenario.with_values, {"values": {"hub.mass": 301.0}}),
         "Sensitivities.ranked": (slopes.ranked, {"name": "n"}),

@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 NEEDS = {
     "README.md": [],
     "docs/clusters.md": ["pyarrow", "pandas"],
+    "docs/control.md": [],
     "docs/python.md": [],
     "docs/structure.md": [],
 }
