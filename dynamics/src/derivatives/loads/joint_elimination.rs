@@ -2,7 +2,7 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
+use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER, add_product};
 use crate::model::joint_array::MAX_JOINTS;
 use crate::numbers::real::{Scalar, one, zero};
 
@@ -172,12 +172,4 @@ fn unit_solved<T: Scalar, const N: usize>(factors: &[[T; N]; N], unit: usize) ->
         }
     }
     v
-}
-
-/// Adds a multiple of numbers, side by side.
-#[inline(always)]
-fn add_product<T: Scalar>(to: &mut [T; TOGETHER], by: T, of: &[T; TOGETHER]) {
-    for (to, from) in to.iter_mut().zip(of) {
-        *to = *to + by * *from;
-    }
 }

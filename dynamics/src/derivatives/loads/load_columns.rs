@@ -210,9 +210,9 @@ impl<T: Scalar> LoadColumns<T> {
         let eliminated = JointElimination::new(&mass, &coupling, free);
         eliminated.reduce(&mut self.matrix);
         let (first, group, line) = (self.places.len(), self.groups.len(), self.lines.len());
-        for joint in 0..N {
-            self.gains.push(&eliminated.gains[joint]);
-            self.places.push(Place { first, count: N, group, line, free: free[joint] });
+        for (gains, free) in eliminated.gains.iter().zip(free) {
+            self.gains.push(gains);
+            self.places.push(Place { first, count: N, group, line, free: *free });
         }
         for number in 0..(3 * N).div_ceil(TOGETHER) {
             let (mut hub, mut lines) = match loads.states().get(number) {

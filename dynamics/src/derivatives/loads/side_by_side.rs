@@ -57,8 +57,8 @@ pub(crate) fn turned<T: Scalar>(of: &HubGroup<T>, mount: &Columns<T>) -> HubGrou
     let vectors = found.as_chunks_mut::<3>().0.iter_mut().zip(of.as_chunks::<3>().0);
     for (to, [a, b, c]) in vectors {
         for (axis, to) in to.iter_mut().enumerate() {
-            for k in 0..TOGETHER {
-                to[k] = x[axis] * a[k] + y[axis] * b[k] + z[axis] * c[k];
+            for (k, to) in to.iter_mut().enumerate() {
+                *to = x[axis] * a[k] + y[axis] * b[k] + z[axis] * c[k];
             }
         }
     }
@@ -81,4 +81,12 @@ pub(crate) fn by_b<T: Scalar, const N: usize>(
         }
     }
     found
+}
+
+/// Adds a multiple of numbers, side by side.
+#[inline(always)]
+pub(crate) fn add_product<T: Scalar>(to: &mut [T; TOGETHER], by: T, of: &[T; TOGETHER]) {
+    for (to, from) in to.iter_mut().zip(of) {
+        *to = *to + by * *from;
+    }
 }
