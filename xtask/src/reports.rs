@@ -108,6 +108,7 @@ const PAGES: [(&[&str], &str); 8] = [
         "imaging-satellite-jitter.html",
     ),
     (&["jitter", "scenarios/budgets/wheel-data-sheet-jitter.toml"], "wheel-data-sheet-jitter.html"),
+    (&["margins", "scenarios/aliased-wheel.toml"], "aliased-wheel-margins.html"),
     (
         &[
             "sweep",

@@ -1,6 +1,6 @@
 //! [`ClosedLine`]: a tone of a rotor through the loop: what the samples make of it, and what the hub and the outputs do.
 //!
-//! A tone of the frequency f appears in samples at the rate f_s at `f - k f_s`, the alias; the loop answers there, and holds its
+//! A tone of the frequency f appears in samples at the rate `f_s` at `f - k f_s`, the alias; the loop answers there, and holds its
 //! torque between samples, which has components at all `alias + k f_s`, f among them.
 
 use std::f64::consts::TAU;

@@ -204,7 +204,7 @@ impl ControlledPlant {
         let mut right = DVector::zeros(self.a.nrows());
         let accelerations = complex(&self.inverse) * self.without_translation(load);
         right.rows_mut(self.kept.len(), self.size).copy_from(&accelerations);
-        self.resolved(frequency, right)
+        self.resolved(frequency, &right)
     }
 
     /// The motion under torques of the motors at an angular frequency, rad/s, as states.
@@ -216,19 +216,19 @@ impl ControlledPlant {
         frequency: f64,
         torques: &DVector<Complex<f64>>,
     ) -> Result<DVector<Complex<f64>>, Fault> {
-        self.resolved(frequency, complex(&self.b) * torques)
+        self.resolved(frequency, &(complex(&self.b) * torques))
     }
 
     fn resolved(
         &self,
         frequency: f64,
-        right: DVector<Complex<f64>>,
+        right: &DVector<Complex<f64>>,
     ) -> Result<DVector<Complex<f64>>, Fault> {
         let mut system = -complex(&self.a);
         for k in 0..system.nrows() {
             system[(k, k)] += Complex::new(0.0, frequency);
         }
-        let found = system.lu().solve(&right).ok_or(Fault::Unbounded { frequency })?;
+        let found = system.lu().solve(right).ok_or(Fault::Unbounded { frequency })?;
         if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
             Ok(found)
         } else {

@@ -127,7 +127,13 @@ impl JitterReport<'_> {
         };
         let modes = self.scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
         let structure = if modes == 0 { mass.to_owned() } else { format!("{modes} modes; {mass}") };
-        let rows = vec![
+        let closed = |name: &str| {
+            let is = format!(
+                "that of {name} is closed: lines at their own frequency, and at that at which its samples show them; noise is without it"
+            );
+            row("Loop", is)
+        };
+        let mut rows = vec![
             row("Structure", structure),
             row("Devices", "coupled, linearised about steady spin, averaged over a turn; gyroscopic terms exact".to_owned()),
             row("Imbalance", "of the devices' own equations".to_owned()),
@@ -146,6 +152,7 @@ impl JitterReport<'_> {
             row("Other joints", gimbals.to_owned()),
             row("Gravity and disturbances from outside", "none".to_owned()),
         ];
+        rows.extend(self.controller.map(closed));
         table("What the numbers rest on", &[("Subject", ""), ("Assumption", "")], 0..0, rows)
     }
 }

@@ -22,6 +22,9 @@ const NICHOLS: [[f64; 2]; 2] = [[-360.0, 0.0], [-40.0, 40.0]];
 /// Values of |S| that a Nichols and a Nyquist plot show: on them the distance from -1 is their reciprocal.
 const CIRCLE: f64 = 2.0;
 
+/// What a curve shows of a point.
+type PointValue<'a> = &'a dyn Fn(&LoopPoint) -> Complex<f64>;
+
 impl MarginsReport<'_> {
     /// Points of the curves, so many at most.
     fn points(&self, most: usize) -> Vec<&LoopPoint> {
@@ -38,12 +41,7 @@ impl MarginsReport<'_> {
         all.chunks(step).filter_map(|group| group.get(outstanding(group)?)).collect()
     }
 
-    fn bode_of(
-        &self,
-        title: &str,
-        curves: &[(&str, &dyn Fn(&LoopPoint) -> Complex<f64>)],
-        has_phases: bool,
-    ) -> Bode {
+    fn bode_of(&self, title: &str, curves: &[(&str, PointValue<'_>)], has_phases: bool) -> Bode {
         let points = self.points(POINTS_MAX);
         Bode {
             description: format!("{title} over the frequency in Hz, in decibels."),
