@@ -152,7 +152,7 @@ impl fmt::Display for NoData {
             Self::Short { needed, length } => write!(
                 f,
                 "the statistic needs {} s, its window has {} s; run longer or choose shorter ones",
-                Plain(needed),
+                rounded(needed),
                 Plain(length)
             ),
             Self::FewSamples { least, length } => write!(
@@ -162,12 +162,11 @@ impl fmt::Display for NoData {
                 Plain(length)
             ),
             Self::NoBin { band: [from, to], resolution } => {
-                let shown: f64 = format!("{resolution:.5e}").parse().unwrap_or(resolution);
                 write!(
                     f,
                     "no frequency of the spectrum, multiples of {} Hz above 0, is within {} Hz to {} Hz; \
                      run longer or choose a wider band",
-                    Plain(shown),
+                    rounded(resolution),
                     Plain(from),
                     Plain(to)
                 )
@@ -187,6 +186,11 @@ impl fmt::Display for NoData {
             Self::NotANumber => f.write_str("its value is not a number"),
         }
     }
+}
+
+/// A sum or a quotient in six digits, without those of its rounding.
+fn rounded(value: f64) -> Plain {
+    Plain(format!("{value:.5e}").parse().unwrap_or(value))
 }
 
 #[cfg(test)]

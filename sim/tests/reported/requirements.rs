@@ -33,7 +33,7 @@ const WITHOUT_DATA: [(&str, &str); 9] = [
     ("statistic = \"smear\"\nexposure = \"0.2 s\"", "needs 0.2 s"),
     ("statistic = \"jitter\"\nexposure = \"0.2 s\"", "needs 0.2 s"),
     ("statistic = \"rpe\"\nwindow = \"0.2 s\"", "needs 0.2 s"),
-    ("statistic = \"pde\"\nwindow = \"50 ms\"\nstability = \"100 ms\"", "needs 1.5"),
+    ("statistic = \"pde\"\nwindow = \"50 ms\"\nstability = \"100 ms\"", "needs 0.15 s"),
     (
         "statistic = \"peak\"\nfrom = \"10.2 ms\"\nto = \"10.8 ms\"",
         "no sample in 0.0102 s to 0.0108 s",
