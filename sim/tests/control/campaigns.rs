@@ -39,7 +39,7 @@ const CASES: [&str; 11] = [
     "controller.aocs.rate = \"3 Hz\"",
     "controller.aocs.delay = \"0 s\"",
     "controller.aocs.law.attitude_gain = \"6 N m\"",
-    "controller.aocs.dumping.gain = \"0.02 1/s\"",
+    "controller.aocs.dumping.gain = \"0.002 1/s\"",
     "controller.aocs.sensors.tachometer_quantum = \"2 rad/s\"",
     "device.rwz.wheel.rate = \"70 rad/s\"",
 ];

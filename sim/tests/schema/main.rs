@@ -90,7 +90,7 @@ const OTHERS: [&str; 53] = [
      [controller.sensors]\nseed = 1\nencoder_quantum = \"1 arcsec\"\ntachometer_quantum = \"0.1 rpm\"\n\
      gyro = { output = \"integrating\", angle_random_walk = \"0.01 deg/sqrt(h)\", rate_random_walk = \"0.1 deg/h/sqrt(h)\", \
      bias = \"1, 0, 0 deg/h\", quantum = \"1 mas\" }\n\
-     star_tracker = { mount = { axis = [0, 1, 0], angle = \"30 deg\" }, noise = \"1, 1, 5 arcsec\", rate = \"2 Hz\", latency = \"1 ms\" }\n\
+     star_tracker = { mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }, noise = \"1, 1, 5 arcsec\", rate = \"2 Hz\", latency = \"1 ms\" }\n\
      [[controller.filter]]\nkind = \"low_pass\"\nfrequency = \"2 Hz\"\ndamping_ratio = 0.7\n\
      [[controller.filter]]\nsignal = \"torque\"\nkind = \"notch\"\nfrequency = \"3 Hz\"\nzero_damping = 0.1\npole_damping = 0.5\n\
      [[controller.filter]]\nkind = \"first_order_low_pass\"\nfrequency = \"2 Hz\"\n\
