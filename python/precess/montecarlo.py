@@ -163,7 +163,7 @@ def sensitivities(
     columns: Sequence[str] = ("omega",),
     start: float = 0.0,
 ) -> Sensitivities:
-    """Derivatives of requirements, and of RMS and peak of columns, by a run over dual numbers: exact to rounding.
+    """Derivatives of requirements, and of RMS and peak of columns, by a run of fixed steps with its derivatives: exact to rounding.
 
     Parameters
     ----------

@@ -2,8 +2,8 @@
 //! is one without modes: lists of modes and mounts are empty, results have the bits of a rigid hub.
 
 use precess_dynamics::{
-    About, Accelerations, EnergyAndMomentum, Flexible, Inputs, Ledger, ListedModes, LoadAxes,
-    Loads, ModalState, Momentum, Power, Quaternion, SolveError, Spacecraft, State,
+    About, Accelerations, EnergyAndMomentum, Flexible, Inputs, Ledger, Linearization, ListedModes,
+    LoadAxes, Loads, ModalState, Momentum, Power, Quaternion, SolveError, Spacecraft, State,
 };
 
 use crate::{BodyWrenches, Set};
@@ -19,6 +19,9 @@ pub type CraftInputs = Inputs<Set, Structure>;
 
 /// Second derivatives of the state.
 pub type CraftAccelerations = Accelerations<Set, Structure>;
+
+/// A system linearised about a state.
+pub type CraftLinearization = Linearization<Set, Structure>;
 
 /// A flexible structure with the devices of a scenario.
 pub type FlexibleCraft = Spacecraft<Set, Structure>;

@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 use precess_dynamics::{
-    Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs, ParameterVariable,
-    Spacecraft, State, StepLinearization, Variable,
+    Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs,
+    ParameterDirection, ParameterVariable, Spacecraft, State, StepLinearization, Variable,
 };
 
 use crate::{Craft, CraftAccelerations, CraftInputs, CraftState, Set, Structure, rigid_state};
@@ -99,4 +99,80 @@ pub fn step_parameter_derivatives(
     variables: &[ParameterVariable<'_>],
 ) -> Result<DMatrix<f64>, DerivativeError> {
     Spacecraft::step_parameter_derivatives(hub, devices, at, length, variables)
+}
+
+/// Second derivatives of the state, and what they change by along directions of parameters; none in a central field, on
+/// carriers and with lumped imbalance.
+///
+/// # Errors
+///
+/// As [`Spacecraft::accelerations_along`].
+pub fn accelerations_along(
+    craft: &Spacecraft<Set>,
+    of: (&Hub, &Set),
+    at: (&State<Set>, &Inputs<Set>),
+    changes: &DMatrix<f64>,
+    directions: &[ParameterDirection],
+) -> Result<Option<(Accelerations<Set>, DMatrix<f64>)>, DerivativeError> {
+    craft.accelerations_along(of, at, changes, directions)
+}
+
+/// The state after a step, and what it changes by along directions of parameters; none where accelerations are none.
+///
+/// # Errors
+///
+/// As [`Spacecraft::step_along`].
+pub fn step_along(
+    craft: &Spacecraft<Set>,
+    of: (&Hub, &Set),
+    at: (&State<Set>, &Inputs<Set>),
+    length: f64,
+    changes: &DMatrix<f64>,
+    directions: &[ParameterDirection],
+) -> Result<Option<(State<Set>, DMatrix<f64>)>, DerivativeError> {
+    craft.step_along(of, at, length, changes, directions)
+}
+
+/// The linearised system into matrices that are kept.
+///
+/// # Errors
+///
+/// As [`Spacecraft::linearize_into`].
+pub fn linearize_into(
+    craft: &Craft,
+    state: &CraftState,
+    inputs: &CraftInputs,
+    outputs: &Outputs,
+    into: &mut Linearization<Set, Structure>,
+) -> Result<(), DerivativeError> {
+    craft.0.linearize_into(state, inputs, outputs, into)
+}
+
+/// The accelerations, and their derivative along a direction of states and of inputs.
+///
+/// # Errors
+///
+/// As [`Spacecraft::jvp`].
+pub fn jvp(
+    craft: &Craft,
+    state: &CraftState,
+    inputs: &CraftInputs,
+    direction: (&[f64], &[f64]),
+) -> Result<(CraftAccelerations, CraftAccelerations), DerivativeError> {
+    craft.0.jvp(state, inputs, direction)
+}
+
+/// The accelerations, and the gradient of a weighted sum of them by states and by inputs.
+///
+/// # Errors
+///
+/// As [`Spacecraft::vjp`].
+pub fn vjp(
+    craft: &Craft,
+    state: &CraftState,
+    inputs: &CraftInputs,
+    weights: &CraftAccelerations,
+    gradient: (&mut [f64], &mut [f64]),
+) -> Result<CraftAccelerations, DerivativeError> {
+    craft.0.vjp(state, inputs, weights, gradient)
 }

@@ -22,11 +22,12 @@ use precess_dynamics::{
 };
 
 pub use craft::{
-    Craft, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft, Structure, rigid_state,
+    Craft, CraftAccelerations, CraftInputs, CraftLinearization, CraftState, FlexibleCraft,
+    Structure, rigid_state,
 };
 pub use derivatives::{
-    derivatives, linearize, linearize_rigid, linearize_step, parameter_derivatives,
-    step_parameter_derivatives,
+    accelerations_along, derivatives, jvp, linearize, linearize_into, linearize_rigid,
+    linearize_step, parameter_derivatives, step_along, step_parameter_derivatives, vjp,
 };
 pub use steering::{SteeringDevices, SteeringSums};
 

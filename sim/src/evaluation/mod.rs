@@ -31,6 +31,7 @@ mod linearization;
 mod mass_matrix;
 mod names;
 mod parameters;
+mod products;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -48,7 +49,9 @@ use crate::engine::{Chain, Craft, Layout, MemberLoads, SegmentInputs, craft_of, 
 use crate::record::{Column, Columns, RunError};
 use crate::scenario::Scenario;
 
-pub use precess_craft::{BodyWrenches, CraftAccelerations, CraftInputs, CraftState, FlexibleCraft};
+pub use precess_craft::{
+    BodyWrenches, CraftAccelerations, CraftInputs, CraftLinearization, CraftState, FlexibleCraft,
+};
 
 /// A scenario's spacecraft, prepared for evaluation.
 #[derive(Clone, Debug)]

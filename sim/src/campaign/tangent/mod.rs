@@ -1,4 +1,5 @@
-//! Exact derivatives of the numbers of a row by the keys of a plan: the run itself over dual numbers.
+//! Exact derivatives of the numbers of a row by the keys of a plan: those of each step of the run, or the run itself over
+//! dual numbers.
 //!
 //! ```text
 //! key -> parameters p -> state x(t; p) -> samples -> number F        dF/dkey = F'[x] (dx/dp) (dp/dkey)
@@ -7,7 +8,7 @@
 //! | step | how | error |
 //! |---|---|---|
 //! | `dp/dkey` | the reader of files has no dual numbers: differences of its closed formulas, seven points (`parameters`) | 1e-11 of the parameter's own size over a standard deviation |
-//! | `dx/dp` | the equations and the integrator of fixed steps over [`Dual`](precess_dynamics::Dual) numbers: six keys in a run (`run`) | rounding: the derivative of the discrete run |
+//! | `dx/dp` | the exact derivatives of each step by the chain rule, all keys in one run (`chain`); in a central field, with lumped imbalance, and of keys that change gravity or move a fixed hub, equations and integrator over [`Dual`](precess_dynamics::Dual) numbers, six keys in a run (`dual`) | rounding: the derivative of the discrete run |
 //! | `F'[x]` | of RMS values, also in bands and exposures, by polarisation of the quadratic form; of peaks at the sample that is largest (`statistic`) | rounding |
 //!
 //! So no step has to be chosen against the tolerance of a run. What this does not have, and says so: flexible structures,
@@ -17,16 +18,19 @@
 //! A scenario with DOP853 is run by RK4 here, in steps of a hundredth of the fastest rotation; a number that this run and the
 //! scenario's own give differently is not differentiated.
 
+mod chain;
+mod dual;
 mod parameters;
 mod run;
 mod statistic;
+#[cfg(test)]
+mod tests;
 
 use std::ops::ControlFlow;
 
 use super::axis::set;
 use super::{Reducer, Selection};
 use crate::variation::Variation;
-use precess_craft::tangent::WIDTH;
 
 use crate::engine::run as engine_run;
 use crate::file::{Override, Template};
@@ -35,7 +39,7 @@ use crate::scenario::Scenario;
 
 /// Steps between the seven points of a key, of a standard deviation.
 const STEP: f64 = 0.05;
-/// A number of the run over dual numbers differs by this share of that of the scenario's own, at most.
+/// A number of the run with derivatives differs by this share of that of the scenario's own, at most.
 const AGREEMENT: f64 = 1e-3;
 
 /// Derivatives of the requirements, then of RMS and peak of each column, by the keys that have a derivative.
@@ -79,19 +83,18 @@ pub fn tangents(
     let (outcome, own) = reduced(&middle, selection)?;
     let kinds = statistic::kinds(&middle, selection, &header)?;
     let mut found = Tangents { slopes: vec![Some(Vec::new()); kinds.len()], difference: 0.0 };
-    for (first, keys) in scaled.chunks(WIDTH).enumerate() {
-        let mut slopes = Vec::new();
-        for (index, (_, [middle, deviation])) in keys.iter().enumerate() {
-            let at = |steps: i32| {
-                let value = middle + f64::from(steps) * STEP * deviation;
-                read(Some((WIDTH * first + index, value)))
-            };
-            slopes.push(parameters::slopes(&at, STEP * deviation)?);
-        }
-        let samples = run::samples(&middle, &header, &slopes)?;
+    let mut slopes = Vec::new();
+    for (index, (_, [middle, deviation])) in scaled.iter().enumerate() {
+        let at = |steps: i32| {
+            let value = middle + f64::from(steps) * STEP * deviation;
+            read(Some((index, value)))
+        };
+        slopes.push(parameters::slopes(&at, STEP * deviation)?);
+    }
+    run::samples(&middle, &header, &slopes, &mut |samples, keys| {
         for ((kind, slopes), own) in kinds.iter().zip(&mut found.slopes).zip(&own) {
             let Some(list) = slopes.as_mut() else { continue };
-            let derived = kind.derivatives(&samples, &header, &outcome, keys.len());
+            let derived = kind.derivatives(samples, &header, &outcome, keys);
             match derived {
                 Some((value, by)) if (value - own).abs() <= AGREEMENT * own.abs() => {
                     found.difference = found.difference.max((value / own - 1.0).abs());
@@ -100,7 +103,8 @@ pub fn tangents(
                 _ => *slopes = None,
             }
         }
-    }
+        Ok(())
+    })?;
     Ok(found)
 }
 

@@ -2,9 +2,10 @@
 //! derivatives by a key.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::BodyParameters;
+use precess_dynamics::kind::{BodyParameters, Each as _};
 use precess_dynamics::{
-    BuiltIn, DeviceParameters, Gravity, Hub, HubMode, JointStates, Mode, Quaternion, Scalar,
+    BuiltInKind, DeviceParameters, Devices, Gravity, Hub, HubMode, Inputs, JointStates, Mode,
+    Quaternion, Scalar, Spacecraft, State,
 };
 
 use crate::scenario::{Drive, Profile, Scenario};
@@ -12,7 +13,7 @@ use crate::scenario::{Drive, Profile, Scenario};
 /// Everything that a run depends on.
 pub(super) struct Parts<T> {
     pub(super) hub: Hub<T>,
-    pub(super) devices: Vec<BuiltIn<T>>,
+    pub(super) devices: Vec<(BuiltInKind, DeviceParameters<T>)>,
     pub(super) motors: Vec<T>,
     pub(super) modes: Vec<Mode<T>>,
     pub(super) gravity: Gravity<T>,
@@ -55,10 +56,7 @@ pub(super) fn supported(scenario: &Scenario) -> Result<(), String> {
 }
 
 /// The parts of a scenario, each number through a function, always in the same order.
-pub(super) fn parts<T: Scalar>(
-    scenario: &Scenario,
-    number: &mut dyn FnMut(f64) -> T,
-) -> Result<Parts<T>, String> {
+pub(super) fn parts<T: Scalar>(scenario: &Scenario, number: &mut dyn FnMut(f64) -> T) -> Parts<T> {
     let hub = &scenario.hub;
     let hub = Hub {
         m_b: number(hub.m_b),
@@ -79,8 +77,7 @@ pub(super) fn parts<T: Scalar>(
             passive: of.passive.map(|passive| passive.map(&mut *number)),
             model: of.model,
         };
-        let made = BuiltIn::new(device.kind(), &parameters);
-        devices.push(made.map_err(|error| error.to_string())?);
+        devices.push((device.kind(), parameters));
     }
     let (mut motors, mut modes) = (Vec::new(), Vec::new());
     for drive in &scenario.drives {
@@ -105,7 +102,7 @@ pub(super) fn parts<T: Scalar>(
     };
     let initial = &scenario.initial;
     let Quaternion { q0, q1, q2, q3 } = initial.attitude;
-    Ok(Parts {
+    Parts {
         hub,
         devices,
         motors,
@@ -116,7 +113,34 @@ pub(super) fn parts<T: Scalar>(
         attitude: Quaternion { q0: number(q0), q1: number(q1), q2: number(q2), q3: number(q3) },
         omega: vector(&initial.omega, number),
         joints: initial.devices.states().map(|state| state.map(&mut *number)).collect(),
-    })
+    }
+}
+
+impl<T: Scalar> Parts<T> {
+    /// Initial state and inputs of a spacecraft of these parts.
+    pub(super) fn start<D: Devices<Scalar = T>>(
+        &self,
+        scenario: &Scenario,
+        craft: &Spacecraft<D>,
+    ) -> (State<D>, Inputs<D>) {
+        let mut state: State<D> = State::at_rest_for(craft);
+        (state.r_b_n, state.r_b_n_dot) = (self.position, self.velocity);
+        (state.attitude, state.omega) = (self.attitude, self.omega);
+        for (to, from) in state.devices.states_mut().zip(&self.joints) {
+            (*to[0], *to[1]) = (from[0], from[1]);
+        }
+        let mut inputs = Inputs::none_for(craft);
+        let driven: Vec<bool> = craft.joints().map(|(_, info)| info.driven).collect();
+        let motors = inputs.motors.values_mut().zip(&self.motors).zip(&driven);
+        motors.filter(|(_, driven)| **driven).for_each(|((to, from), _)| *to = *from);
+        let modes = inputs.modes.values_mut().zip(&self.modes).zip(&driven);
+        modes.filter(|(_, driven)| **driven).for_each(|((to, from), _)| *to = *from);
+        inputs.gravity = self.gravity;
+        if matches!(scenario.hub_mode, HubMode::Fixed) {
+            inputs.hub = HubMode::Fixed;
+        }
+        (state, inputs)
+    }
 }
 
 fn vector<T: Scalar>(of: &Vector3<f64>, number: &mut dyn FnMut(f64) -> T) -> Vector3<T> {
@@ -128,13 +152,13 @@ fn matrix<T: Scalar>(of: &Matrix3<f64>, number: &mut dyn FnMut(f64) -> T) -> Mat
 }
 
 /// The numbers of a scenario.
-fn numbers(scenario: &Scenario) -> Result<Vec<f64>, String> {
+fn numbers(scenario: &Scenario) -> Vec<f64> {
     let mut numbers = Vec::new();
     parts(scenario, &mut |value| {
         numbers.push(value);
         value
-    })?;
-    Ok(numbers)
+    });
+    numbers
 }
 
 /// Derivatives of the numbers by a key: `at` reads the scenario at so many steps from the middle. Of sixth order, so exact but
@@ -151,7 +175,7 @@ pub(super) fn slopes(
         let kinds = |of: &Scenario| -> Vec<_> {
             of.devices.0.iter().map(|device| (device.kind(), device.parameters().model)).collect()
         };
-        let (low, high) = (numbers(&below)?, numbers(&above)?);
+        let (low, high) = (numbers(&below), numbers(&above));
         if kinds(&below) != kinds(&above) || low.len() != high.len() {
             return Err("a key changes which devices there are".to_owned());
         }

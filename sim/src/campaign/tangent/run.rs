@@ -1,18 +1,17 @@
-//! A run over dual numbers: samples of the state and its accelerations with their derivatives.
+//! Runs of fixed steps with derivatives: samples of the state and its accelerations.
 
-use precess_dynamics::kind::Each;
-use precess_dynamics::{Attitude as _, HubMode, Inputs, JointStates, Spacecraft, State};
+use precess_dynamics::JointStates as _;
 
-use precess_craft::tangent::{self, Number, Set, WIDTH};
+use precess_craft::tangent::{Number, WIDTH};
 
-use super::parameters::{Parts, parts};
+use super::chain::ChainCraft;
+use super::dual::DualCraft;
 use crate::record::Header;
-use crate::record::columns::Quantity;
 use crate::scenario::{IntegratorChoice, Scenario};
 
 /// Steps of a turn of the fastest joint, where the scenario has no fixed step.
 const PER_TURN: f64 = 100.0;
-/// Numbers that are kept, with their derivatives: 560 MB.
+/// Numbers that are kept, with their derivatives by six keys: 560 MB.
 const NUMBERS_MAX: usize = 10_000_000;
 /// Steps of a run, at most.
 const STEPS_MAX: f64 = 1e8;
@@ -22,40 +21,109 @@ const NEAR: f64 = 1e-9;
 /// Samples: of each its time and a number for each column; NaN of a quantity that is not of the state.
 pub(super) type Samples = Vec<(f64, Vec<Number>)>;
 
-/// Runs a scenario with the derivatives of its numbers by up to six keys.
+/// A state with its derivatives.
+pub(super) trait Motion: Sized {
+    /// After a step, s.
+    fn after(&self, length: f64) -> Result<Self, String>;
+
+    /// A number for each column, once for each six keys.
+    fn rows(&self, header: &Header, time: f64) -> Result<Vec<Vec<Number>>, String>;
+}
+
+/// Whose derivatives a run has.
+enum Method {
+    /// Of the equations, by any number of keys, carried through the stages of each step.
+    Chain(Box<ChainCraft>),
+    /// Of dual numbers, by six keys at a time.
+    Dual,
+}
+
+/// Runs a scenario with the derivatives of its numbers by keys: samples for each six keys, in order, through `each`.
 pub(super) fn samples(
     scenario: &Scenario,
     header: &Header,
     slopes: &[Vec<f64>],
-) -> Result<Samples, String> {
-    let mut next = 0;
-    let of = parts(scenario, &mut |value| {
-        let mut number = Number::constant(value);
-        for (key, slopes) in slopes.iter().enumerate().take(WIDTH) {
-            number.add_derivative(key, slopes.get(next).copied().unwrap_or(0.0));
-        }
-        next += 1;
-        number
-    })?;
-    let (craft, mut state, inputs) = start(scenario, of)?;
-    let (duration, rate) = (scenario.settings.duration, scenario.output.rate);
-    let step = match scenario.settings.integrator {
-        IntegratorChoice::Rk4 { step } => step,
-        IntegratorChoice::Dop853 { .. } => {
-            let rates = scenario.initial.devices.states().map(|[_, rate]| rate.abs());
-            let fastest = rates.fold(scenario.initial.omega.norm(), f64::max);
-            let longest = std::f64::consts::TAU / fastest / PER_TURN;
-            let parts = (1.0 / (rate * longest)).ceil().max(1.0);
-            1.0 / (rate * parts)
-        }
-    };
-    let count = duration * rate;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-    if duration / step > STEPS_MAX || count as usize * header.columns.len() > NUMBERS_MAX {
+    each: &mut dyn FnMut(&Samples, usize) -> Result<(), String>,
+) -> Result<(), String> {
+    let times = Times::new(scenario)?;
+    // Where an output step ends, too.
+    let numbers = times.samples.saturating_mul(header.columns.len()).max(1);
+    if numbers > NUMBERS_MAX {
         return Err("the run is too long to be kept with its derivatives; shorten it".to_owned());
     }
-    let of = (&craft, &inputs);
-    let mut kept = Samples::new();
+    let at_once = WIDTH * (NUMBERS_MAX / numbers);
+    for slopes in slopes.chunks(at_once) {
+        match method(scenario, slopes)? {
+            Method::Chain(craft) => {
+                let found = run(craft.start(), &times, header)?;
+                for (samples, keys) in found.iter().zip(slopes.chunks(WIDTH)) {
+                    each(samples, keys.len())?;
+                }
+            }
+            Method::Dual => {
+                for keys in slopes.chunks(WIDTH) {
+                    let craft = DualCraft::new(scenario, keys)?;
+                    for samples in run(craft.start(), &times, header)? {
+                        each(&samples, keys.len())?;
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn method(scenario: &Scenario, slopes: &[Vec<f64>]) -> Result<Method, String> {
+    let chain = ChainCraft::new(scenario, slopes)?;
+    Ok(chain.map_or(Method::Dual, |craft| Method::Chain(Box::new(craft))))
+}
+
+/// When a run has steps and samples.
+pub(super) struct Times {
+    duration: f64,
+    rate: f64,
+    step: f64,
+    samples: usize,
+}
+
+impl Times {
+    pub(super) fn new(scenario: &Scenario) -> Result<Self, String> {
+        let (duration, rate) = (scenario.settings.duration, scenario.output.rate);
+        let step = match scenario.settings.integrator {
+            IntegratorChoice::Rk4 { step } => step,
+            IntegratorChoice::Dop853 { .. } => {
+                let rates = scenario.initial.devices.states().map(|[_, rate]| rate.abs());
+                let fastest = rates.fold(scenario.initial.omega.norm(), f64::max);
+                let longest = std::f64::consts::TAU / fastest / PER_TURN;
+                let parts = (1.0 / (rate * longest)).ceil().max(1.0);
+                1.0 / (rate * parts)
+            }
+        };
+        if duration / step > STEPS_MAX {
+            return Err(
+                "the run is too long to be kept with its derivatives; shorten it".to_owned()
+            );
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let samples = (duration * rate) as usize;
+        Ok(Self { duration, rate, step, samples })
+    }
+}
+
+/// Samples for each six keys.
+pub(super) fn run<M: Motion>(
+    mut motion: M,
+    times: &Times,
+    header: &Header,
+) -> Result<Vec<Samples>, String> {
+    let Times { duration, rate, step, .. } = *times;
+    let mut kept: Vec<Samples> = Vec::new();
+    let mut keep = |motion: &M, at: f64| -> Result<(), String> {
+        let rows = motion.rows(header, at)?;
+        kept.resize_with(rows.len(), Samples::new);
+        kept.iter_mut().zip(rows).for_each(|(kept, row)| kept.push((at, row)));
+        Ok(())
+    };
     let mut sample = 0_u32;
     let mut steps = 0_u32;
     loop {
@@ -67,87 +135,17 @@ pub(super) fn samples(
                 break;
             }
             if (at - time).abs() <= NEAR * step {
-                kept.push((at, row(header, of, &state, at)?));
+                keep(&motion, at)?;
             } else {
-                let within = tangent::step(&craft, &state, &inputs, Number::constant(at - time));
-                let within = within.map_err(|error| error.to_string())?;
-                kept.push((at, row(header, of, &within, at)?));
+                keep(&motion.after(at - time)?, at)?;
             }
             sample += 1;
         }
-        let length = Number::constant(after - time);
-        state =
-            tangent::step(&craft, &state, &inputs, length).map_err(|error| error.to_string())?;
+        motion = motion.after(after - time)?;
         steps += 1;
         if after >= duration - NEAR * step {
-            kept.push((duration, row(header, of, &state, duration)?));
+            keep(&motion, duration)?;
             return Ok(kept);
         }
     }
-}
-
-/// Spacecraft, initial state and inputs.
-#[expect(clippy::type_complexity, reason = "three things of one set")]
-fn start(
-    scenario: &Scenario,
-    of: Parts<Number>,
-) -> Result<(Spacecraft<Set>, State<Set>, Inputs<Set>), String> {
-    let set: Set = of.devices;
-    let craft = tangent::spacecraft(&of.hub, &set).map_err(|error| error.to_string())?;
-    let mut state: State<Set> = State::at_rest_for(&craft);
-    (state.r_b_n, state.r_b_n_dot) = (of.position, of.velocity);
-    (state.attitude, state.omega) = (of.attitude, of.omega);
-    for (to, from) in state.devices.states_mut().zip(&of.joints) {
-        (*to[0], *to[1]) = (from[0], from[1]);
-    }
-    let mut inputs = Inputs::none_for(&craft);
-    let driven: Vec<bool> = craft.joints().map(|(_, info)| info.driven).collect();
-    let motors = inputs.motors.values_mut().zip(&of.motors).zip(&driven);
-    motors.filter(|(_, driven)| **driven).for_each(|((to, from), _)| *to = *from);
-    let modes = inputs.modes.values_mut().zip(&of.modes).zip(&driven);
-    modes.filter(|(_, driven)| **driven).for_each(|((to, from), _)| *to = *from);
-    inputs.gravity = of.gravity;
-    if matches!(scenario.hub_mode, HubMode::Fixed) {
-        inputs.hub = HubMode::Fixed;
-    }
-    Ok((craft, state, inputs))
-}
-
-/// A number for each column.
-fn row(
-    header: &Header,
-    (craft, inputs): (&Spacecraft<Set>, &Inputs<Set>),
-    state: &State<Set>,
-    time: f64,
-) -> Result<Vec<Number>, String> {
-    let accelerates = header.columns.iter().any(|column| column.quantity.is_acceleration());
-    let found = if accelerates {
-        Some(tangent::accelerations(craft, state, inputs).map_err(|error| error.to_string())?)
-    } else {
-        None
-    };
-    // The solver's is expressed in B, the column in N.
-    let of_hub = found.as_ref().map(|of| {
-        let bn = state.attitude.dcm();
-        let along =
-            |axis: usize| (0..3).map(|k| bn[(k, axis)] * of.r_b_n_ddot[k]).reduce(|a, b| a + b);
-        [along(0), along(1), along(2)]
-    });
-    let joint = |joint: usize| state.devices.states().nth(joint);
-    let of = |quantity: Quantity| match quantity {
-        Quantity::Time => Some(Number::constant(time)),
-        Quantity::Position(axis) => state.r_b_n.get(axis).copied(),
-        Quantity::Velocity(axis) => state.r_b_n_dot.get(axis).copied(),
-        Quantity::Omega(axis) => state.omega.get(axis).copied(),
-        Quantity::Coordinate(index) => joint(index).map(|[coordinate, _]| coordinate),
-        Quantity::Rate(index) => joint(index).map(|[_, rate]| rate),
-        Quantity::HubAcceleration(axis) => of_hub.as_ref()?.get(axis).copied()?,
-        Quantity::OmegaDot(axis) => found.as_ref()?.omega_dot.get(axis).copied(),
-        Quantity::JointAcceleration(index) => found.as_ref()?.devices.values().nth(index),
-        _ => None,
-    };
-    let number = |column: &crate::record::Column| {
-        of(column.quantity).unwrap_or_else(|| Number::constant(f64::NAN))
-    };
-    Ok(header.columns.iter().map(number).collect())
 }

@@ -65,7 +65,7 @@ pub(in crate::command) struct MonteCarlo {
     /// One sample in each of N equally probable parts of every key.
     #[arg(long)]
     latin_hypercube: bool,
-    /// Derivatives of every number by every key about the middle of each distribution: exact ones by a run over dual numbers,
+    /// Derivatives of every number by every key about the middle of each distribution: exact ones of one run of fixed steps,
     /// where the scenario can be run so, else central differences.
     #[arg(long)]
     sensitivities: bool,
