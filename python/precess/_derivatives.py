@@ -37,6 +37,8 @@ class Derivatives:
         self.inputs = (spacecraft.inputs() if inputs is None else inputs).copy()
         self._batch = Batch(spacecraft)
         self._lock = threading.Lock()
+        # Of the linearised system, which the inputs determine.
+        self._places: _Places | None = None
         self.calls = {"values": 0, "derivatives": 0}
         """How often the library was called from Python, by what it computed: once for a batch."""
 
@@ -88,18 +90,9 @@ class Derivatives:
         shape, states, rows = self._rows(y, u)
         found = self._batch._native.linearize(states, self.inputs._native, rows)
         outputs, by_state, by_input, c, d, _ = found
-        count = len(states)
-        of_y = np.zeros((count, self.acceleration_size, self.state_size))
-        of_u = np.zeros((count, self.acceleration_size, self.input_size))
-        places = self.output_places(outputs)
-        for column, place in self.state_places(by_state):
-            of_y[:, places, place] = c[:, :, column]
-        if attitude := self.attitude_columns(by_state):
-            turn = _rotation_of(states[:, _QUATERNION])
-            by_quaternion = np.einsum("nak,nkq->naq", c[:, :, attitude], turn)
-            of_y[:, np.array(places)[:, None], np.arange(6, 10)] = by_quaternion
-        for column, place in self.input_places(by_input):
-            of_u[:, places, place] = d[:, :, column]
+        if self._places is None:
+            self._places = _Places(self, outputs, by_state, by_input)
+        of_y, of_u = self._places.spread(states, c, d)
         # A state that has no derivatives has none by anything.
         failed = np.isnan(c).any(axis=(1, 2))
         of_y[failed], of_u[failed] = np.nan, np.nan
@@ -126,6 +119,32 @@ class Derivatives:
         for place, joint in enumerate(self.spacecraft.joints):
             columns[joint.motor] = columns[joint.acceleration] = 6 + place
         return [(column, columns[name]) for column, name in enumerate(inputs) if name in columns]
+
+
+class _Places:
+    """Where rows and columns of the linearised system are among accelerations, flat states and rows of inputs."""
+
+    def __init__(
+        self, of: Derivatives, outputs: Sequence[str], states: Sequence[str], inputs: Sequence[str]
+    ) -> None:
+        self._shape_y = of.acceleration_size, of.state_size
+        self._shape_u = of.acceleration_size, of.input_size
+        self._rows = np.array(of.output_places(outputs), dtype=int)[:, None]
+        self._states = np.array(of.state_places(states), dtype=int).reshape(-1, 2).T
+        self._inputs = np.array(of.input_places(inputs), dtype=int).reshape(-1, 2).T
+        self._attitude = of.attitude_columns(states)
+
+    def spread(self, y: Array, c: Array, d: Array) -> tuple[Array, Array]:
+        """Derivatives by flat states and by rows of inputs, zero where the system has no row or column."""
+        of_y, of_u = np.zeros((len(y), *self._shape_y)), np.zeros((len(y), *self._shape_u))
+        columns, places = self._states
+        of_y[:, self._rows, places] = c[:, :, columns]
+        if self._attitude:
+            by_quaternion = np.einsum("nak,nkq->naq", c[:, :, self._attitude], _rotation_of(y[:, _QUATERNION]))
+            of_y[:, self._rows, np.arange(6, 10)] = by_quaternion
+        columns, places = self._inputs
+        of_u[:, self._rows, places] = d[:, :, columns]
+        return of_y, of_u
 
 
 def rotation_rows(q: Any) -> list[list[Any]]:

@@ -222,8 +222,25 @@ class NativeBatch:
         progress: Callable[[float], object] | None = None,
     ) -> tuple[_Array, _Array | None, list[_Array], _Failures]: ...
     def linearize(
-        self, y: _Array, inputs: NativeInputs, u: _Array | None = None, threads: int = 0
+        self,
+        y: _Array,
+        inputs: NativeInputs,
+        u: _Array | None = None,
+        threads: int = 0,
+        out: tuple[_Array, _Array] | None = None,
     ) -> tuple[list[str], list[str], list[str], _Array, _Array, _Failures]: ...
+    def jvp(
+        self,
+        y: _Array,
+        inputs: NativeInputs,
+        dx: _Array | None,
+        du: _Array | None,
+        u: _Array | None = None,
+        threads: int = 0,
+    ) -> tuple[_Array, _Failures]: ...
+    def vjp(
+        self, y: _Array, inputs: NativeInputs, weights: _Array, u: _Array | None = None, threads: int = 0
+    ) -> tuple[_Array, _Array, _Failures]: ...
 
 @final
 class NativeFunction:

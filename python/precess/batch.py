@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._tables import path_of
-from ._wanted import finite, function, instance, names, number, table, text, whole
+from ._batch_arguments import is_of_key, lists, table_of, threads_of, written
+from ._wanted import finite, function, instance, names, number, whole
 from .errors import ParameterError, ScenarioError
 from .inputs import Inputs
 from .scenario import ScenarioWarning
@@ -21,7 +21,6 @@ from .state import State
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from .errors import Diagnostic
     from .scenario import Scenario
 
     Array = npt.NDArray[np.float64]
@@ -119,19 +118,19 @@ class Batch:
         self._spacecraft = instance("spacecraft", spacecraft, Spacecraft, wanted)
         self._rejected: Errors = {}
         self.errors: Errors = {}
-        lists = {} if parameters is None else _lists(parameters)
-        counts = {name: len(values) for name, values in lists.items()}
+        given = {} if parameters is None else lists(parameters)
+        counts = {name: len(values) for name, values in given.items()}
         if len(set(counts.values())) > 1:
             raise ValueError(f"parameters of different lengths: {counts}")
         self._count = next(iter(counts.values()), None)
         known = self._spacecraft.parameters
-        keys = {name: values for name, values in lists.items() if name not in known}
+        keys = {name: values for name, values in given.items() if name not in known}
         for key, values in keys.items():
             self._check_key(key, values)
         rows = None
-        if len(keys) < len(lists):
-            columns = [self._column(name, lists[name]) for name in lists if name in known]
-            rows = ([name for name in lists if name in known], np.column_stack(columns))
+        if len(keys) < len(given):
+            columns = [self._column(name, given[name]) for name in given if name in known]
+            rows = ([name for name in given if name in known], np.column_stack(columns))
         scenarios = self._scenarios(keys) if keys else None
         self._native = _native.NativeBatch(self._spacecraft._native, rows, scenarios, bool(in_lanes))
         # Of keys also before a call: no state is needed to know that they are wrong.
@@ -144,7 +143,7 @@ class Batch:
                 warnings.simplefilter("ignore", ScenarioWarning)
                 self._spacecraft.scenario.with_values({key: values[0] if len(values) else 0.0})
         except ScenarioError as error:
-            unknown = [of for of in error.diagnostics if _is_of_key(of, key)]
+            unknown = [of for of in error.diagnostics if is_of_key(of, key)]
             if not unknown:
                 return
             import difflib
@@ -221,7 +220,7 @@ class Batch:
             Called with the share that is done, 0 to 1.
         """
         y, base, u = self._given(states, inputs)
-        of_threads, progress = _threads(threads), function("progress", progress)
+        of_threads, progress = threads_of(threads), function("progress", progress)
         found, failures = self._native.accelerations(y, base, u, of_threads, progress)
         self._note(failures, [found])
         return found
@@ -231,21 +230,82 @@ class Batch:
         states: npt.ArrayLike | Sequence[State],
         inputs: Inputs | npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: tuple[Array, Array] | None = None,
     ) -> BatchLinearization:
         """Derivatives of all accelerations of each state, exact to rounding, as :meth:`Spacecraft.linearize`.
 
-        Raises
-        ------
-        UnsupportedError
-            Spacecraft that differ.
+        Parameters
+        ----------
+        states, inputs, threads
+            As of :meth:`accelerations`.
+        out : tuple of two arrays, optional
+            What is written, and returned as ``C`` and ``D``: those of an earlier result, so that nothing is allocated.
+
+        Spacecraft that differ are each linearised with their own parameters, not in lanes.
         """
         y, base, u = self._given(states, inputs)
-        found = self._native.linearize(y, base, u, _threads(threads))
+        given = None if out is None else written(out)
+        found = self._native.linearize(y, base, u, threads_of(threads), given)
         outputs, of_states, of_inputs, by_state, by_input, failures = found
         self._note(failures, [by_state, by_input])
         return BatchLinearization(
             tuple(outputs), tuple(of_states), tuple(of_inputs), by_state, by_input
         )
+
+    def jvp(
+        self,
+        states: npt.ArrayLike | Sequence[State],
+        dx: npt.ArrayLike | None = None,
+        du: npt.ArrayLike | None = None,
+        inputs: Inputs | npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        """What the accelerations of each state change by along a direction, ``C dx + D du``, shape ``(n, outputs)``.
+
+        Parameters
+        ----------
+        dx : array, shape (n, states), optional
+            The direction of the states as :meth:`linearize` names them, the attitude as a small rotation; zero by default.
+        du : array, shape (n, inputs), optional
+            That of the inputs; zero by default.
+        states, inputs, threads
+            As of :meth:`accelerations`.
+
+        Exact to rounding, at the cost of some evaluations and without a matrix: for one direction of a state. Of several
+        directions, matrices cost less.
+        """
+        y, base, u = self._given(states, inputs)
+        along = (None if of is None else table_of(name, of) for name, of in (("dx", dx), ("du", du)))
+        found, failures = self._native.jvp(y, base, *along, u, threads_of(threads))
+        self._note(failures, [found])
+        return found
+
+    def vjp(
+        self,
+        states: npt.ArrayLike | Sequence[State],
+        weights: npt.ArrayLike,
+        inputs: Inputs | npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> tuple[Array, Array]:
+        """The gradient of the weighted sum of the accelerations of each state, ``C' w`` and ``D' w``.
+
+        Parameters
+        ----------
+        weights : array, shape (n, outputs)
+            In the order of the outputs of :meth:`linearize`.
+        states, inputs, threads
+            As of :meth:`accelerations`.
+
+        Returns
+        -------
+        arrays, shapes (n, states) and (n, inputs)
+            By the states and inputs as :meth:`linearize` names them.
+        """
+        y, base, u = self._given(states, inputs)
+        weights = table_of("weights", weights)
+        by_state, by_input, failures = self._native.vjp(y, base, weights, u, threads_of(threads))
+        self._note(failures, [by_state, by_input])
+        return by_state, by_input
 
     def run(
         self,
@@ -275,7 +335,7 @@ class Batch:
         y, base, u = self._given(states, inputs)
         dt, steps, reduce = finite("dt", dt), whole("steps", steps), names("reduce", reduce)
         every = None if every is None else whole("every", every, 1)
-        of_threads, progress = _threads(threads), function("progress", progress)
+        of_threads, progress = threads_of(threads), function("progress", progress)
         keep = (every is not None and not reduce) if history is None else bool(history)
         stride = every or (1 if reduce or keep else max(steps, 1))
         if keep:
@@ -331,32 +391,3 @@ class Batch:
         count = "any number of states" if self._count is None else f"{self._count} spacecraft"
         how = "in lanes" if self.in_lanes else "one by one"
         return f"<precess.Batch of {self._spacecraft.scenario.name!r}: {count}, {how}>"
-
-
-def _threads(threads: int | None) -> int:
-    """How many, where zero is all cores."""
-    return 0 if threads is None else whole("threads", threads)
-
-
-def _lists(parameters: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
-    """One value for each element, by name."""
-    found: dict[str, Sequence[Any]] = {}
-    for name, values in table("parameters", parameters).items():
-        if isinstance(values, str | bytes) or not hasattr(values, "__len__"):
-            raise TypeError(
-                f"`{name}` is {values!r}; it needs a list or an array, one value for each element"
-            )
-        if isinstance(values, Mapping | set | frozenset) or np.ndim(values) == 0:
-            raise TypeError(f"`{name}` is a {type(values).__name__}; it needs a list or an array")
-        found[text("the name of a parameter", name)] = list(values)
-    return found
-
-
-def _is_of_key(diagnostic: Diagnostic, key: str) -> bool:
-    """Whether an error of an override is about its key, and not about its value."""
-    if diagnostic.severity != "error":
-        return False
-    if diagnostic.file.startswith("--set "):
-        return diagnostic.column <= len(path_of(key))
-    # Of a pattern, or of a component of a vector.
-    return diagnostic.message.startswith("--set ")

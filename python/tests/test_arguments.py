@@ -79,6 +79,7 @@ def calls(text: str) -> Calls:
     batch = precess.Batch(craft)
     several = np.tile(state.to_array(), (3, 1))
     found = craft.accelerations(state)
+    weights = np.ones((3, len(found._names)))
     swept = sweep.run(scenario, {"hub.mass": "300, 400 kg"})
     drawn = montecarlo.run(scenario, VARY, 2)
     limited = montecarlo.run(scenario.with_values(LIMIT), VARY, 2)
@@ -103,9 +104,20 @@ def calls(text: str) -> Calls:
             batch.accelerations,
             {"states": several, "inputs": inputs, "threads": 1, "progress": None},
         ),
-        "Batch.linearize": (batch.linearize, {"states": several, "inputs": inputs, "threads": 1}),
+        "Batch.jvp": (
+            batch.jvp,
+            {"states": several, "dx": None, "du": None, "inputs": inputs, "threads": 1},
+        ),
+        "Batch.linearize": (
+            batch.linearize,
+            {"states": several, "inputs": inputs, "threads": 1, "out": None},
+        ),
         "Batch.run": (batch.run, {**run, "reduce": ["max"], "threads": 1, "progress": None}),
         "Batch.states": (batch.states, {"n": 2}),
+        "Batch.vjp": (
+            batch.vjp,
+            {"states": several, "weights": weights, "inputs": inputs, "threads": 1},
+        ),
         "Inputs.__init__": (precess.Inputs, {"spacecraft": craft}),
         "Inputs.copy": (inputs.copy, {}),
         "Inputs.to_array": (inputs.to_array, {}),

@@ -3,12 +3,14 @@
 //!
 //! States are evaluated in parts of a fixed size, so no number depends on how many threads share them.
 
+mod arrays;
+mod derivatives;
 mod engine;
 mod reduce;
 mod rows;
 mod work;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use numpy::{
     IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2,
@@ -25,10 +27,12 @@ use crate::evaluator::NativeEvaluator;
 use crate::inputs::NativeInputs;
 use crate::scenario::NativeScenario;
 
+use arrays::{contiguous, direction, writable};
+pub(crate) use derivatives::{Linearized, Sizes};
 use engine::{Engine, Failure};
 use reduce::{BatchHistory, Reduction};
 use rows::failed_rows;
-pub(crate) use rows::{BatchRows, InputRows, Linearized, Sizes};
+pub(crate) use rows::{BatchRows, InputRows};
 use work::{Progress, share, watched};
 
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
@@ -109,7 +113,10 @@ impl NativeBatch {
         let engine = py.detach(|| {
             if each { Engine::each(&elements, lanes) } else { Engine::same(&evaluator, lanes) }
         });
-        Ok(Self { rows: Arc::new(BatchRows { evaluator, engine, count }) })
+        let scenarios = if each { elements } else { Vec::new() };
+        let (each, names) = (OnceLock::new(), Mutex::new(None));
+        let rows = BatchRows { evaluator, engine, count, scenarios, each, names };
+        Ok(Self { rows: Arc::new(rows) })
     }
 
     /// Whether it is evaluated in lanes.
@@ -190,8 +197,9 @@ impl NativeBatch {
         Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
     }
 
-    /// Derivatives of the accelerations of each state by states and inputs, with the names of rows and columns.
-    #[pyo3(signature = (y, inputs, u=None, threads=0))]
+    /// Derivatives of the accelerations of each state by states and inputs, with the names of rows and columns; into the
+    /// arrays of `out`, where they are given.
+    #[pyo3(signature = (y, inputs, u=None, threads=0, out=None))]
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn linearize<'py>(
         &self,
@@ -200,23 +208,86 @@ impl NativeBatch {
         inputs: &NativeInputs,
         u: Option<PyReadonlyArray2<'py, f64>>,
         threads: usize,
+        out: Option<[Bound<'py, PyArray3<f64>>; 2]>,
     ) -> PyResult<LinearizedFacts<'py>> {
-        self.of_one()?;
         let BatchArguments { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
         let shape = self.rows.linearized(&acting.base);
         let shape = shape.map_err(|error| errors::evaluation(&error))?;
         let Sizes { rows, states, inputs } = shape.sizes();
-        let mut c = vec![f64::NAN; count * rows * states];
-        let mut d = vec![f64::NAN; count * rows * inputs];
+        let dims = [[count, rows, states], [count, rows, inputs]];
+        let [c, d] = match out {
+            Some(given) => given,
+            None => dims.map(|of| PyArray3::zeros(py, of, false)),
+        };
+        let (mut of_c, mut of_d) =
+            (writable("out[0]", &c, dims[0])?, writable("out[1]", &d, dims[1])?);
+        let into = (contiguous("out[0]", &mut of_c)?, contiguous("out[1]", &mut of_d)?);
         let given = (y.as_slice(), &acting);
         let failures = watched(py, Progress::new(None), |look| {
-            self.rows.linearize(given, shape.sizes(), (&mut c, &mut d), threads, look)
+            self.rows.linearize(given, shape.sizes(), into, threads, look)
         })?;
         let failures = exceptions(py, failures)?;
-        let c = c.into_pyarray(py).reshape([count, rows, states])?;
-        let d = d.into_pyarray(py).reshape([count, rows, inputs])?;
-        let Linearized { outputs, states, inputs } = shape;
-        Ok((outputs, states, inputs, c, d, failures))
+        drop((of_c, of_d));
+        let Linearized { outputs, states, inputs } = &*shape;
+        Ok((outputs.clone(), states.clone(), inputs.clone(), c, d, failures))
+    }
+
+    /// What the accelerations of each state change by along a direction of states and of inputs, in the order of the
+    /// names that `linearize` returns; failures.
+    #[pyo3(signature = (y, inputs, dx, du, u=None, threads=0))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn jvp<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray2<'py, f64>,
+        inputs: &NativeInputs,
+        dx: Option<PyReadonlyArray2<'py, f64>>,
+        du: Option<PyReadonlyArray2<'py, f64>>,
+        u: Option<PyReadonlyArray2<'py, f64>>,
+        threads: usize,
+    ) -> PyResult<(Rows<'py>, Failures)> {
+        let BatchArguments { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let shape = self.rows.linearized(&acting.base);
+        let sizes = shape.map_err(|error| errors::evaluation(&error))?.sizes();
+        let dx = direction("dx", dx.as_ref(), [count, sizes.states])?;
+        let du = direction("du", du.as_ref(), [count, sizes.inputs])?;
+        let mut out = vec![f64::NAN; count * sizes.rows];
+        let (given, along) = ((y.as_slice(), &acting), (dx.as_slice(), du.as_slice()));
+        let failures = watched(py, Progress::new(None), |look| {
+            self.rows.jvp(given, sizes, along, &mut out, threads, look)
+        })?;
+        let failures = exceptions(py, failures)?;
+        Ok((out.into_pyarray(py).reshape([count, sizes.rows])?, failures))
+    }
+
+    /// The gradient of the sum of the accelerations of each state times weights, by states and by inputs, in the order of
+    /// the names that `linearize` returns; failures.
+    #[pyo3(signature = (y, inputs, weights, u=None, threads=0))]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn vjp<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray2<'py, f64>,
+        inputs: &NativeInputs,
+        weights: PyReadonlyArray2<'py, f64>,
+        u: Option<PyReadonlyArray2<'py, f64>>,
+        threads: usize,
+    ) -> PyResult<(Rows<'py>, Rows<'py>, Failures)> {
+        let BatchArguments { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let shape = self.rows.linearized(&acting.base);
+        let sizes = shape.map_err(|error| errors::evaluation(&error))?.sizes();
+        let weights = direction("weights", Some(&weights), [count, sizes.rows])?;
+        let mut by_states = vec![f64::NAN; count * sizes.states];
+        let mut by_inputs = vec![f64::NAN; count * sizes.inputs];
+        let given = (y.as_slice(), &acting);
+        let failures = watched(py, Progress::new(None), |look| {
+            let into = (by_states.as_mut_slice(), by_inputs.as_mut_slice());
+            self.rows.vjp(given, sizes, &weights, into, threads, look)
+        })?;
+        let failures = exceptions(py, failures)?;
+        let by_states = by_states.into_pyarray(py).reshape([count, sizes.states])?;
+        Ok((by_states, by_inputs.into_pyarray(py).reshape([count, sizes.inputs])?, failures))
     }
 }
 
@@ -235,8 +306,8 @@ impl NativeBatch {
     /// The rows of one spacecraft.
     pub(crate) fn of_one(&self) -> PyResult<&Arc<BatchRows>> {
         if self.rows.count.is_some() {
-            let message =
-                "spacecraft that differ are linearised one by one, by Spacecraft.linearize";
+            let message = "a function of JAX is of one spacecraft; Batch.linearize, jvp and vjp have those \
+                           that differ";
             return Err(errors::class::UnsupportedError::new_err(message));
         }
         Ok(&self.rows)

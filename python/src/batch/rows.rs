@@ -1,12 +1,14 @@
-//! [`BatchRows`]: accelerations of flat states, and their derivatives, row by row: a batch without the
-//! interpreter, which Python and XLA both call.
+//! [`BatchRows`]: accelerations of flat states, row by row: a batch without the interpreter, which Python and XLA
+//! both call. Their derivatives are in `derivatives`.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 
-use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
-use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
+use precess::evaluation::{CraftInputs, Evaluator};
+use precess::scenario::Scenario;
+use precess_dynamics::{Each as _, Mode, Variable};
 use precess_lanes::PART;
 
+use super::derivatives::Linearized;
 use super::engine::{Engine, Failure};
 use super::work::{ProgressCheck, share};
 
@@ -19,37 +21,13 @@ pub(crate) struct BatchRows {
     pub(super) engine: Engine,
     /// Elements; none of one spacecraft for any number.
     pub(super) count: Option<usize>,
+    /// Of each element, where they differ.
+    pub(super) scenarios: Vec<Arc<Scenario>>,
+    /// What differentiates each, made where it is first wanted: lanes have no derivatives.
+    pub(super) each: OnceLock<Vec<Result<Arc<Evaluator>, Failure>>>,
+    /// The names of the last linearised system, by what it is of.
+    pub(super) names: Mutex<Option<([Vec<Variable>; 2], Arc<Linearized>)>>,
 }
-
-/// The names of a linearised system.
-pub(crate) struct Linearized {
-    /// Accelerations, the rows of both matrices.
-    pub(crate) outputs: Vec<String>,
-    /// The columns of C.
-    pub(crate) states: Vec<String>,
-    /// The columns of D.
-    pub(crate) inputs: Vec<String>,
-}
-
-/// How many of each.
-#[derive(Clone, Copy)]
-pub(crate) struct Sizes {
-    pub(crate) rows: usize,
-    pub(crate) states: usize,
-    pub(crate) inputs: usize,
-}
-
-impl Linearized {
-    pub(crate) fn sizes(&self) -> Sizes {
-        let Self { outputs, states, inputs } = self;
-        Sizes { rows: outputs.len(), states: states.len(), inputs: inputs.len() }
-    }
-}
-
-/// Number of a part, its derivatives by states and by inputs, its states.
-type LinearizedPart<'a> = (usize, ((&'a mut [f64], &'a mut [f64]), &'a [f64]));
-
-const NONE: Outputs = Outputs { momentum: None, loads: None };
 
 impl BatchRows {
     /// Numbers of a flat state.
@@ -64,6 +42,24 @@ impl BatchRows {
 
     pub(crate) fn acceleration_size(&self) -> usize {
         self.evaluator.acceleration_names().len()
+    }
+
+    /// The spacecraft of an element.
+    pub(super) fn craft(&self, element: usize) -> Result<&Evaluator, Failure> {
+        if self.count.is_none() {
+            return Ok(&self.evaluator);
+        }
+        let made = |of: &Arc<Scenario>| {
+            let made = Evaluator::new(of).map(Arc::new);
+            made.map_err(|error| Failure::Scenario(Arc::new(error)))
+        };
+        let all = self.each.get_or_init(|| self.scenarios.iter().map(made).collect());
+        match all.get(element) {
+            Some(Ok(craft)) => Ok(craft),
+            Some(Err(failure)) => Err(failure.clone()),
+            // As many states as spacecraft were checked.
+            None => Ok(&self.evaluator),
+        }
     }
 
     /// Accelerations of the states, one row each.
@@ -81,59 +77,6 @@ impl BatchRows {
             let inputs = acting.of_part(part, y.len() / size);
             let ends = self.engine.accelerations(part, (y, y.len() / size), &inputs, out);
             failed_rows(part, &ends, out, width)
-        })
-    }
-
-    /// The names of the linearised system, which depend on modes.
-    ///
-    /// # Errors
-    ///
-    /// Where there is none: an initial pose that has no accelerations.
-    pub(crate) fn linearized(&self, inputs: &CraftInputs) -> Result<Linearized, EvaluationError> {
-        let none: &[&str] = &[];
-        // A locked joint does not move.
-        let mut pose = self.evaluator.initial();
-        pose.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
-        let found = self.evaluator.linearize(&pose, inputs, &NONE, none)?;
-        Ok(Linearized { outputs: found.outputs, states: found.states, inputs: found.inputs })
-    }
-
-    /// Derivatives of the accelerations of each state by states, C, and by inputs, D, rows first.
-    pub(crate) fn linearize(
-        &self,
-        (y, acting): (&[f64], &InputRows),
-        Sizes { rows, states, inputs }: Sizes,
-        (c, d): (&mut [f64], &mut [f64]),
-        threads: usize,
-        look: ProgressCheck<'_>,
-    ) -> Failed {
-        let (size, none): (usize, &[&str]) = (self.state_size(), &[]);
-        let (of_c, of_d) = ((rows * states).max(1), (rows * inputs).max(1));
-        let parts = c.chunks_mut(PART * of_c).zip(d.chunks_mut(PART * of_d));
-        let jobs = parts.zip(y.chunks(PART * size)).enumerate().collect();
-        share(threads, look, jobs, |(part, ((c, d), y)): LinearizedPart<'_>, go| {
-            let inputs = acting.of_part(part, y.len() / size);
-            let mut failures = Vec::new();
-            let places = c.chunks_mut(of_c).zip(d.chunks_mut(of_d));
-            for (index, (y, (c, d))) in y.chunks(size).zip(places).enumerate() {
-                let Some(inputs) = inputs.get(index).or(inputs.first()) else { continue };
-                let found = self.evaluator.unpack(y).map_err(EvaluationError::from);
-                let found = found.and_then(|y| self.evaluator.linearize(&y, inputs, &NONE, none));
-                match found {
-                    // Rows first.
-                    Ok(of) => {
-                        c.copy_from_slice(of.c.transpose().as_slice());
-                        d.copy_from_slice(of.d.transpose().as_slice());
-                    }
-                    Err(error) => {
-                        failures.push((part * PART + index, Failure::Evaluation(Arc::new(error))));
-                    }
-                }
-                if !go() {
-                    break;
-                }
-            }
-            failures
         })
     }
 }

@@ -28,8 +28,8 @@ const NAMES: [&str; 2] = ["precess_accelerations", "precess_linearize"];
 struct Function {
     batch: Arc<BatchRows>,
     base: CraftInputs,
-    /// None where the initial pose has no accelerations.
-    linearized: Result<Linearized, EvaluationError>,
+    /// None where there is friction that sticks.
+    linearized: Result<Arc<Linearized>, EvaluationError>,
     /// Calls of each of [`NAMES`].
     calls: [AtomicU64; 2],
 }
@@ -70,7 +70,7 @@ impl NativeFunction {
     #[getter]
     fn linearized(&self) -> PyResult<(Vec<String>, Vec<String>, Vec<String>)> {
         let found = self.function.linearized.as_ref().map_err(errors::evaluation)?;
-        let Linearized { outputs, states, inputs } = found;
+        let Linearized { outputs, states, inputs } = &**found;
         Ok((outputs.clone(), states.clone(), inputs.clone()))
     }
 
