@@ -101,7 +101,7 @@ fn check_run(folder: &Path) -> Result<usize, String> {
 }
 
 /// Commands that write figures, and one of the files of each.
-const PAGES: [(&[&str], &str); 8] = [
+const PAGES: [(&[&str], &str); 9] = [
     (&["plot", "scenarios/every-kind.toml"], "every-kind-angular-velocity.svg"),
     (
         &["jitter", "scenarios/budgets/imaging-satellite-jitter.toml"],
