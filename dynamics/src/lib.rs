@@ -93,6 +93,8 @@ pub use derivatives::parameters::columns::{Component, ParameterVariable};
 #[cfg(feature = "alloc")]
 pub use derivatives::parameters::direction::ParameterDirection;
 #[cfg(feature = "alloc")]
+pub use derivatives::step::along::WithChanges;
+#[cfg(feature = "alloc")]
 pub use derivatives::step::linearization::StepLinearization;
 pub use derivatives::structure::Structure;
 pub use derivatives::variable::{Axis, Variable, VariableName};

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 use precess_dynamics::{
     Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs,
     ParameterDirection, ParameterVariable, Spacecraft, State, StepLinearization, Variable,
+    WithChanges,
 };
 
 use crate::{Craft, CraftAccelerations, CraftInputs, CraftState, Set, Structure, rigid_state};
@@ -113,7 +114,7 @@ pub fn accelerations_along(
     at: (&State<Set>, &Inputs<Set>),
     changes: &DMatrix<f64>,
     directions: &[ParameterDirection],
-) -> Result<Option<(Accelerations<Set>, DMatrix<f64>)>, DerivativeError> {
+) -> Result<Option<WithChanges<Accelerations<Set>>>, DerivativeError> {
     craft.accelerations_along(of, at, changes, directions)
 }
 
@@ -129,7 +130,7 @@ pub fn step_along(
     length: f64,
     changes: &DMatrix<f64>,
     directions: &[ParameterDirection],
-) -> Result<Option<(State<Set>, DMatrix<f64>)>, DerivativeError> {
+) -> Result<Option<WithChanges<State<Set>>>, DerivativeError> {
     craft.step_along(of, at, length, changes, directions)
 }
 

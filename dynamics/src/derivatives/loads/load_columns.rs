@@ -207,7 +207,7 @@ impl<T: Scalar> LoadColumns<T> {
     fn add_joints<const N: usize>(&mut self, given: &GivenJoints<'_, T>, loads: &KernelLoads<T>) {
         let GivenJoints { mount, free, accelerated, .. } = given;
         let (mass, coupling) = loads.by_accelerations::<N>(mount);
-        let eliminated = JointElimination::new(&mass, &coupling, free);
+        let eliminated = JointElimination::new(&mass, &coupling, *free);
         eliminated.reduce(&mut self.matrix);
         let (first, group, line) = (self.places.len(), self.groups.len(), self.lines.len());
         for (gains, free) in eliminated.gains.iter().zip(free) {

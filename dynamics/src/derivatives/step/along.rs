@@ -21,6 +21,9 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
+/// Numbers, and what they change by: a column for each direction.
+pub type WithChanges<T> = (T, DMatrix<f64>);
+
 /// A state and inputs.
 type At<'a, D> = (&'a State<D, Quaternion>, &'a Inputs<D>);
 
@@ -43,7 +46,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         (state, inputs): At<'_, D>,
         changes: &DMatrix<f64>,
         directions: &[ParameterDirection],
-    ) -> Result<Option<(Accelerations<D>, DMatrix<f64>)>, DerivativeError<f64>> {
+    ) -> Result<Option<WithChanges<Accelerations<D>>>, DerivativeError<f64>> {
         let found = self.accelerations(state, inputs)?;
         let along = Along::new(self, (hub, devices), inputs, changes, directions)?;
         let rows = self.joints().count().saturating_add(6);
@@ -77,7 +80,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         dt: f64,
         changes: &DMatrix<f64>,
         directions: &[ParameterDirection],
-    ) -> Result<Option<(State<D>, DMatrix<f64>)>, DerivativeError<f64>> {
+    ) -> Result<Option<WithChanges<State<D>>>, DerivativeError<f64>> {
         let along = Along::new(self, (hub, devices), inputs, changes, directions)?;
         let mut after = DMatrix::zeros(changes.nrows(), changes.ncols());
         let mut none = DMatrix::zeros(changes.nrows(), 0);

@@ -48,7 +48,7 @@ pub(super) fn advised(prepared: &Prepared, plan: &Plan) -> Vec<String> {
 /// Every how many samples one is looked at: a number without a factor of theirs, so that of two keys each value is met.
 fn stride(count: usize) -> usize {
     let least = count.div_ceil(LOOKED_AT_MAX).max(1);
-    (least..).find(|stride| has_no_common_factor(*stride, count)).unwrap_or(least)
+    (least..=count.max(least)).find(|stride| has_no_common_factor(*stride, count)).unwrap_or(least)
 }
 
 /// By Euclid's algorithm.

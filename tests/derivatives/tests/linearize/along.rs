@@ -32,7 +32,7 @@ const MULTIPLES: [[f64; 7]; 3] = [
     [0.0, 0.0, 0.5, 0.1, 0.7, 0.02, -0.3],
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
 ];
-/// Of the force along b_x and of the motor.
+/// Of the force along `b_x` and of the motor.
 const HELD: [[f64; 2]; 3] = [[0.0, 0.0], [1.5, 0.0], [-0.5, 0.2]];
 
 fn unchanged() -> DeviceParameters {
@@ -69,7 +69,8 @@ fn directions((_, wheel): &Set) -> Vec<ParameterDirection> {
 
 /// Some changes of the state before the step.
 fn changes(rows: usize) -> DMatrix<f64> {
-    DMatrix::from_fn(rows, 3, |row, column| (1.0 + row as f64 * 0.7 + column as f64 * 2.3).sin())
+    let float = |index: usize| f64::from(u16::try_from(index).expect("a small matrix"));
+    DMatrix::from_fn(rows, 3, |row, column| (1.0 + float(row) * 0.7 + float(column) * 2.3).sin())
 }
 
 fn compare(found: &DMatrix<f64>, expected: &DMatrix<f64>) {
