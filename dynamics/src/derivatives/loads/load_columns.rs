@@ -293,19 +293,22 @@ impl<T: Scalar> EachDevice<T> {
                 at.of::<data::Accelerations>(accelerations)?,
             ))
         })?;
-        let width = group.registers.width().max(self.loads.len());
-        self.loads.resize(width, KernelLoads::none());
+        let width = group.registers.width();
+        // Of the widest group so far: a narrower one has the first of them.
+        self.loads.resize(width.max(self.loads.len()), KernelLoads::none());
+        let lanes = self.loads.get_mut(..width)?;
         GroupKernel {
             group,
             joints: members.each_ref().map(|(joints, ..)| *joints),
             accelerations: members.each_ref().map(|(.., accelerations)| *accelerations),
             omega: self.omega,
             hub: self.hub,
-            loads: &mut self.loads,
+            loads: &mut *lanes,
         }
         .run()?;
+        // The rest of the row follows the group, and members beyond it repeat its last.
         for ((device, (joints, modes, _)), loads) in
-            devices.iter().zip(members).zip(&mut self.loads)
+            devices.iter().zip(members).zip(lanes).take(group.devices)
         {
             loads.add_passive(device, joints);
             eliminate(self.by, &GivenJoints::of(device, modes), loads, &mut self.found);
