@@ -32,7 +32,7 @@ const OF_HUB: [&str; 3] = ["constant_share", "eliminate", "back_substitute"];
 pub(super) const FEATURE: &str = "derivatives";
 const OF_FEATURE: [&str; 2] = ["LoadDerivatives", "load_derivatives"];
 
-/// The feature that a record or function of this name is part of in a crate; the dynamics crate alone has one.
+/// The feature that a record or function of this name is part of in a crate; only the dynamics crate has one.
 fn feature(name: &str, target: TargetCrate<'_>) -> Option<&'static str> {
     (target == TargetCrate::Dynamics && OF_FEATURE.contains(&name)).then_some(FEATURE)
 }

@@ -84,6 +84,7 @@ pub trait Kernels: 'static {
     ) -> Option<LoadDerivatives<Self, T>> {
         None
     }
+
     /// The emitted `external`: wrenches on the bodies, summed inwards.
     fn external<T: Real>(
         constants: &Self::Constants<T>,
