@@ -116,17 +116,17 @@ mod tests {
     fn sweep() -> Sweep {
         let values =
             [[(3.0, 0.0), (0.0, 1.0)], [(-1.0, 2.0), (0.0, -4.0)], [(0.5, 0.5), (2.0, 0.0)]];
-        let lines = values.iter().zip([10.0, 10.0, 7.0]).enumerate();
-        let line = |(contributor, (values, frequency)): (usize, (&[(f64, f64); 2], f64))| Line {
+        let frequencies = [10.0, 10.0, 7.0];
+        let line = |contributor: usize| Line {
             contributor,
-            frequency,
-            values: values.iter().map(|(re, im)| Complex::new(*re, *im)).collect(),
+            frequency: frequencies[contributor],
+            values: values[contributor].map(|(re, im)| Complex::new(re, im)).to_vec(),
         };
         Sweep {
             speeds: vec![10.0],
             outputs: Vec::new(),
             contributors: Vec::new(),
-            lines: vec![lines.map(line).collect()],
+            lines: vec![(0..values.len()).map(line).collect()],
             noise: NoiseSweep::default(),
         }
     }
