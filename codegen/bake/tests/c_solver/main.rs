@@ -140,12 +140,16 @@ fn files_of(name: &str, devices: &[String], names: &[&str]) -> Vec<EmittedFile> 
     files.filter(|file| file.path != "README.md").collect()
 }
 
-fn program(name: &str, compiler: &str, files: &[EmittedFile], more: &[&str]) -> PathBuf {
-    let set = name.trim_end_matches("_one");
-    let main = include_str!("program.c").replace("NAME", set);
-    let main = main.replace("UPPER", &set.to_uppercase());
-    let kind = if more.is_empty() { "" } else { "_sanitised" };
-    let folder = build::folder(&format!("solver_{name}_{compiler}{kind}"));
+/// The program of a test, in a folder of its own: tests run side by side.
+fn program(
+    [test, name]: [&str; 2],
+    compiler: &str,
+    files: &[EmittedFile],
+    more: &[&str],
+) -> PathBuf {
+    let main = include_str!("program.c").replace("NAME", name);
+    let main = main.replace("UPPER", &name.to_uppercase());
+    let folder = build::folder(&format!("solver_{test}_{name}_{compiler}"));
     build::c(&folder, compiler, files, &[("main.c", &main)], more)
 }
 
@@ -203,7 +207,7 @@ fn compare(name: &str) {
     let failed: Vec<_> = failed.iter().map(|(case, n)| (case.settings, &n[..4])).collect();
     assert!(failed.is_empty(), "{name}: {failed:?}");
     for compiler in build::compilers() {
-        let program = program(name, compiler, &files, &[]);
+        let program = program(["compare", name], compiler, &files, &[]);
         assert_eq!(differing(&program, &cases, &expected), None, "{name}, {compiler}");
     }
 }
@@ -282,7 +286,7 @@ fn what_is_refused_is_refused_as_in_rust() {
         assert!(there, "no case has status {status}");
     }
     for compiler in build::compilers() {
-        let program = program(name, compiler, &files, &sanitisers(compiler));
+        let program = program(["refused", name], compiler, &files, &sanitisers(compiler));
         assert_eq!(differing(&program, &cases, &expected), None, "{compiler}");
     }
 }
@@ -311,7 +315,7 @@ fn a_joint_without_inertia_is_refused_as_in_rust() {
     let expected = reference(&case);
     assert_eq!(expected[1], 4.0, "not singular");
     for compiler in build::compilers() {
-        let program = program(name, compiler, &files, &[]);
+        let program = program(["singular", name], compiler, &files, &[]);
         let cases = std::slice::from_ref(&case);
         let expected = std::slice::from_ref(&expected);
         assert_eq!(differing(&program, cases, expected), None, "{compiler}");
@@ -336,7 +340,7 @@ fn parameters_and_angles_that_c_does_not_take_are_refused() {
     });
     let numbers: Vec<_> = [good.numbers(), far.numbers()].into_iter().chain(broken).collect();
     for compiler in build::compilers() {
-        let program = program(name, compiler, &files, &[]);
+        let program = program(["parameters", name], compiler, &files, &[]);
         let found = build::run(&program, &numbers.concat());
         let statuses: Vec<_> = found.chunks(length).map(|own| [own[0], own[1]]).collect();
         let parameter = [1.0, 0.0];
@@ -374,7 +378,7 @@ fn the_sources_are_one_translation_unit_too() {
     let cases = cases(names);
     let expected: Vec<_> = cases.iter().map(reference).collect();
     for compiler in build::compilers() {
-        let program = program(&format!("{name}_one"), compiler, &files, &[]);
+        let program = program(["one", name], compiler, &files, &[]);
         assert_eq!(differing(&program, &cases, &expected), None, "{compiler}");
     }
 }
@@ -429,7 +433,7 @@ fn a_sum_in_another_order_is_noticed() {
         let file = files.iter_mut().find(|file| file.path == path).expect("a file");
         assert!(file.text.contains(right), "{path}: {right}");
         file.text = file.text.replacen(right, wrong, 1);
-        let program = program(name, compiler, &files, &[]);
+        let program = program(["mutants", name], compiler, &files, &[]);
         let noticed = differing(&program, &cases, &expected);
         assert!(noticed.is_some(), "{path}: nothing seen");
     }
