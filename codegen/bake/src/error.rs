@@ -18,6 +18,8 @@ pub enum BakeError {
     Keep(String, String),
     /// The spacecraft's name, which is one of the emitted files' or of a language.
     Name(String),
+    /// A device with a body, another one likewise, and the name that both joints have in C.
+    SameName([String; 2], [String; 2], String),
     /// Device, and the body of a joint with a motor that nothing moves with.
     Massless(String, String),
     /// A claim that does not hold, with the terms that differ.
@@ -59,6 +61,11 @@ impl fmt::Display for BakeError {
                     "a spacecraft cannot be called `{name}` in Rust and C; choose another name"
                 )
             }
+            Self::SameName([device, body], [other, other_body], name) => write!(
+                f,
+                "the joint of the {body} of {device} and that of the {other_body} of {other} are \
+                 both `{name}` in C; choose another name for {device} or {other}"
+            ),
             Self::Massless(device, body) => write!(
                 f,
                 "{device}: the joint of the {body} moves no mass and no inertia; state some, or \

@@ -71,6 +71,12 @@ const TAKEN: [&str; 25] = [
 /// Names that a spacecraft may not have: those of files and records that are emitted beside it.
 const NOT_OF_A_SPACECRAFT: [&str; 4] = ["alloc", "kernels", "proc_macro", "test_reference"];
 
+/// Headers of the standard library of C: an emitted one of that name would be included in its place.
+const C_HEADERS: &str = "\
+    assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign \
+    stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar \
+    wchar wctype";
+
 /// Operations of an evaluation of the hub by itself, 183 of them in the checks of its pivots: the
 /// suite `operations` of the emitted crates counts them.
 pub const HUB_OPERATIONS: usize = 415;
@@ -122,7 +128,9 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
 
 /// Whether files and records may have the spacecraft's name.
 pub(crate) fn check_name(own: &str) -> Result<(), BakeError> {
-    let reserved = NOT_OF_A_SPACECRAFT.contains(&own) || own.starts_with("precess");
+    let reserved = NOT_OF_A_SPACECRAFT.contains(&own)
+        || C_HEADERS.split_whitespace().any(|header| header == own)
+        || own.starts_with("precess");
     if reserved || is_keyword(own) || own.contains("__") || own.ends_with('_') {
         return Err(BakeError::Name(own.to_owned()));
     }

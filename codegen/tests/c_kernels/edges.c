@@ -33,6 +33,7 @@ static enum precess_solved solve(
 int main(void)
 {
     const double inertia[6] = {1.0, 0.0, 0.0, 2.0, 0.0, 4.0};
+    const double overflown[6] = {1.0, 0.0, 0.0, DBL_MAX * 2.0, 0.0, 4.0};
     const double rod[6] = {1.0, 0.0, 0.0, 1.0, 0.0, 0.0};
     struct precess_body_acceleration moves = {7.0, 7.0, 7.0, 7.0, 7.0, 7.0};
     double sine;
@@ -43,6 +44,7 @@ int main(void)
     CHECK(solve(4.0, rod, 1.0, &moves) == PRECESS_SINGULAR);
     CHECK(solve(4.0, inertia, DBL_MAX * 2.0, &moves) == PRECESS_NOT_FINITE);
     CHECK(solve(0.25, inertia, DBL_MAX, &moves) == PRECESS_NOT_FINITE);
+    CHECK(solve(4.0, overflown, 1.0, &moves) == PRECESS_NOT_FINITE);
     CHECK(moves.r_b_n_ddot_bx == 7.0 && moves.omega_dot_bz == 7.0);
     CHECK(solve(4.0, inertia, 1.0, &moves) == PRECESS_SOLVED);
     CHECK(moves.r_b_n_ddot_bx == 0.25 && moves.omega_dot_bz == 0.0);

@@ -76,14 +76,35 @@ fn response<T: Real>(pivot: Option<[T; 2]>, drive: Drive<T>) -> [T; 2] {
 }
 
 impl<T: Scalar> Stiffness<T> {
-    /// The larger of both estimates.
+    /// The larger of both estimates; one that is infinite or NaN stays.
     pub(crate) fn max(self, other: Self) -> Self {
-        Self { damping: self.damping.max(other.damping), spring: self.spring.max(other.spring) }
+        let larger = |a: T, b: T| if !a.is_finite() || b <= a { a } else { b };
+        Self {
+            damping: larger(self.damping, other.damping),
+            spring: larger(self.spring, other.spring),
+        }
     }
 
     /// Whether a step is far below the limit; NaN is not.
     pub(crate) fn accepts(&self, dt: T) -> bool {
         let (dt, accepted) = (dt.abs(), T::from_f64(ACCEPTED));
         self.damping * dt <= accepted && self.spring * dt * dt <= accepted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stiffness_that_is_not_a_number_is_never_accepted() {
+        let of = |damping: f64, spring: f64| Stiffness { damping, spring };
+        let largest = of(0.0, 0.0).max(of(f64::NAN, 0.0)).max(of(1.0, 2.0));
+        assert!(largest.damping.is_nan() && largest.spring == 2.0);
+        assert!(!largest.accepts(1e-9));
+        let largest = of(0.0, 0.0).max(of(0.0, f64::NAN));
+        assert!(largest.spring.is_nan() && !largest.accepts(1e-9));
+        let largest = of(3.0, f64::INFINITY).max(of(2.0, 5.0)).max(of(4.0, 1.0));
+        assert_eq!((largest.damping, largest.spring), (4.0, f64::INFINITY));
     }
 }

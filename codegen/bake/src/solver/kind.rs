@@ -37,7 +37,7 @@ struct Component {
     /// `joints[1]`, or `hub`.
     record: String,
     vector: &'static str,
-    component: usize,
+    axis: usize,
 }
 
 /// A record of a pose.
@@ -167,7 +167,7 @@ fn components(names: Vec<String>) -> Vec<Component> {
             format!("joints[{place}]")
         };
         let vector = if within < 3 { "force" } else { "moment" };
-        Component { name, place, record, vector, component: within % 3 }
+        Component { name, place, record, vector, axis: within % 3 }
     };
     names.into_iter().enumerate().map(component).collect()
 }

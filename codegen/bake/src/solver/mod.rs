@@ -15,11 +15,13 @@ use crate::error::BakeError;
 use crate::shape::check_name;
 use crate::templates::templates;
 
-/// The templates.
-const TEMPLATES: [(&str, &str); 5] = [
+/// The templates; one that another includes is before it.
+const TEMPLATES: [(&str, &str); 7] = [
     ("kind.h", include_str!("../templates/solver/kind.h.tera")),
     ("kind.c", include_str!("../templates/solver/kind.c.tera")),
     ("set.h", include_str!("../templates/solver/set.h.tera")),
+    ("stability.c", include_str!("../templates/solver/stability.c.tera")),
+    ("step.c", include_str!("../templates/solver/step.c.tera")),
     ("set.c", include_str!("../templates/solver/set.c.tera")),
     ("README.md", include_str!("../templates/solver/README.md.tera")),
 ];
@@ -28,7 +30,7 @@ const TEMPLATES: [(&str, &str); 5] = [
 ///
 /// # Errors
 /// When a device is of no kind or has another number of bodies than its kind; when the name is one of the
-/// emitted files'.
+/// emitted files' or of a header of C; when two joints have the same name in C.
 pub fn solver(description: &Description) -> Result<Vec<EmittedFile>, BakeError> {
     check_name(&description.name)?;
     let kinds = description.device.iter().map(|device| {
@@ -63,7 +65,7 @@ pub fn solver(description: &Description) -> Result<Vec<EmittedFile>, BakeError> 
             render(path, &format!("kind.{end}"), &context)?;
         }
     }
-    let (name, context) = (&description.name, set::context(description, &kinds, &distinct));
+    let (name, context) = (&description.name, set::context(description, &kinds, &distinct)?);
     render(format!("{name}.h"), "set.h", &context)?;
     render(format!("{name}.c"), "set.c", &context)?;
     render("README.md".to_owned(), "README.md", &context)?;

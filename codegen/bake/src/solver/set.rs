@@ -6,6 +6,8 @@ use precess_description::Description;
 use serde::Serialize;
 use tera::Context;
 
+use crate::error::BakeError;
+
 /// Devices of one kind in a row: an array of the emitted records.
 #[derive(Serialize)]
 struct Run {
@@ -27,6 +29,8 @@ struct Run {
 struct JointName {
     name: String,
     doc: String,
+    #[serde(skip)]
+    of: [String; 2],
 }
 
 /// What the files of a set say.
@@ -34,38 +38,39 @@ pub(super) fn context(
     description: &Description,
     kinds: &[&'static Kind],
     distinct: &[&'static Kind],
-) -> Context {
+) -> Result<Context, BakeError> {
     let upper = description.name.to_uppercase();
     let (mut runs, mut joints): (Vec<Run>, Vec<JointName>) = (Vec::new(), Vec::new());
     for (number, (device, kind)) in description.device.iter().zip(kinds).enumerate() {
-        match runs.last_mut().filter(|run| run.kind == kind.name) {
-            Some(run) => {
-                run.count += 1;
-                run.names = format!("{}, {}", run.names, device.name);
-            }
-            None => {
-                let before = runs.iter().filter(|run| run.kind == kind.name).count();
-                let member = match before {
-                    0 => kind.name.to_owned(),
-                    before => format!("{}_{}", kind.name, before + 1),
-                };
-                runs.push(Run {
-                    kind: kind.name,
-                    upper: kind.name.to_uppercase(),
-                    title: capital(kind.title),
-                    member,
-                    names: device.name.clone(),
-                    count: 1,
-                    device: number,
-                    first: joints.len(),
-                });
-            }
+        if let Some(run) = runs.last_mut().filter(|run| run.kind == kind.name) {
+            run.count += 1;
+            run.names = format!("{}, {}", run.names, device.name);
+        } else {
+            let before = runs.iter().filter(|run| run.kind == kind.name).count();
+            let member = match before {
+                0 => kind.name.to_owned(),
+                before => format!("{}_{}", kind.name, before + 1),
+            };
+            runs.push(Run {
+                kind: kind.name,
+                upper: kind.name.to_uppercase(),
+                title: capital(kind.title),
+                member,
+                names: device.name.clone(),
+                count: 1,
+                device: number,
+                first: joints.len(),
+            });
         }
-        joints.extend(kind.links.iter().map(|link| {
-            let body = link.body.title.replace([' ', '-'], "_");
-            let name = format!("{upper}_{}_{body}", device.name).to_uppercase();
-            JointName { name, doc: format!("{}: {}", device.name, link.body.title) }
-        }));
+        for link in kind.links {
+            let title = link.body.title;
+            let name = format!("{upper}_{}_{}", device.name, title.replace([' ', '-'], "_"));
+            let (name, of) = (name.to_uppercase(), [device.name.clone(), title.to_owned()]);
+            if let Some(other) = joints.iter().find(|joint| joint.name == name) {
+                return Err(BakeError::SameName(other.of.clone(), of, name));
+            }
+            joints.push(JointName { name, doc: format!("{}: {title}", device.name), of });
+        }
     }
     let mut context = Context::new();
     let title = if description.title.is_empty() { &description.name } else { &description.title };
@@ -78,5 +83,5 @@ pub(super) fn context(
     context.insert("joint_names", &joints);
     context.insert("runs", &runs);
     context.insert("kinds", &distinct.iter().map(|kind| kind.name).collect::<Vec<_>>());
-    context
+    Ok(context)
 }

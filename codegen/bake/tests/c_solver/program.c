@@ -1,5 +1,5 @@
-/* Reads spacecraft, states and inputs as doubles; writes statuses, accelerations, and the state after
- * some steps: see main.rs of this suite. NAME and UPPER are the set's. */
+/* Reads spacecraft, states and inputs as doubles; writes statuses, accelerations, the state after
+ * some steps, and its wrapped coordinates: see main.rs of this suite. NAME and UPPER are the set's. */
 
 #include <stdio.h>
 
@@ -100,6 +100,7 @@ int main(void)
         struct NAME_parameters parameters;
         struct NAME_spacecraft spacecraft;
         struct NAME_state state;
+        struct NAME_state wrapped;
         struct NAME_inputs inputs;
         struct NAME_accelerations found = { { 0.0 }, { 0.0 }, { 0.0 } };
         double dt;
@@ -116,6 +117,7 @@ int main(void)
         if (is_over) {
             return 0;
         }
+        wrapped = state;
         numbers[0] = NAME_init(&parameters, &spacecraft, &device);
         if (numbers[0] == PRECESS_OK) {
             struct NAME_accelerations made;
@@ -128,6 +130,7 @@ int main(void)
                 numbers[2] = NAME_step(&spacecraft, &state, &inputs, dt, &state);
                 numbers[3] += numbers[2] == PRECESS_OK ? 1.0 : 0.0;
             }
+            NAME_wrap(&spacecraft, &state, &wrapped);
         }
         give(numbers, 4);
         give(found.r_b_n_ddot, 3);
@@ -139,6 +142,7 @@ int main(void)
         give(state.omega, 3);
         give(state.coordinates, UPPER_JOINTS);
         give(state.rates, UPPER_JOINTS);
+        give(wrapped.coordinates, UPPER_JOINTS);
         if (is_over) {
             return 1;
         }

@@ -68,7 +68,8 @@ fn by<A: Numbers>(case: &Case) -> Vec<f64> {
     let (mut statuses, mut found) = ([0.0; 4], vec![0.0; 6 + case.joints.len()]);
     let Ok(craft) = made else {
         statuses[0] = 1.0;
-        return [statuses.to_vec(), found, start(case)].concat();
+        let coordinates = case.joints.iter().map(|joint| joint.coordinate).collect();
+        return [statuses.to_vec(), found, start(case), coordinates].concat();
     };
     let (mut state, inputs) = (state::<A>(case, &craft), inputs(case, &craft));
     let accelerations = craft.accelerations(&state, &inputs);
@@ -84,7 +85,10 @@ fn by<A: Numbers>(case: &Case) -> Vec<f64> {
         state = next;
         statuses[3] += 1.0;
     }
-    [statuses.to_vec(), found, numbers(&state)].concat()
+    let numbers = numbers(&state);
+    let wrapped = state.wrapped(&craft);
+    let wrapped = wrapped.devices.states().map(|[coordinate, _]| coordinate).collect();
+    [statuses.to_vec(), found, numbers, wrapped].concat()
 }
 
 fn state<A: Numbers>(case: &Case, craft: &Spacecraft<Set>) -> State<Set, A> {

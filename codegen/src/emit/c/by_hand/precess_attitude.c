@@ -15,7 +15,8 @@ static double norm_squared(const double q[4])
     return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
 }
 
-/* The quaternion by a size that its squares can bear: one of about unit length stays as it is. */
+/* The quaternion over a size at which no square overflows or underflows; one of about unit length
+ * is not scaled. */
 static void scaled(const double q[4], double out[4])
 {
     const double vector = precess_larger(

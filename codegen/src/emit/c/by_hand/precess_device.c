@@ -37,13 +37,52 @@ double precess_trace(const struct precess_body_parameters *body)
     return precess_magnitude(i[0]) + precess_magnitude(i[3]) + precess_magnitude(i[5]);
 }
 
+/* Whether a tensor has no principal moment below -4096 epsilons of its largest element: with that
+ * much added to its diagonal it is positive definite, so that every pivot of its factors is above
+ * zero. Pivots of a definite tensor are accurate to some epsilons of the largest element. */
+static int is_semidefinite(const double i[6])
+{
+    const double bound = 4096.0 * DBL_EPSILON;
+    double largest = 0.0;
+    double factors[2];
+    double s[6];
+    double below;
+    double second;
+    double third;
+    int k;
+
+    for (k = 0; k < 6; k++) {
+        largest = precess_larger(largest, precess_magnitude(i[k]));
+    }
+    if (largest == 0.0) {
+        return 1;
+    }
+    precess_reciprocal_in_two(largest, &factors[0], &factors[1]);
+    for (k = 0; k < 6; k++) {
+        s[k] = i[k] * factors[0] * factors[1];
+    }
+    s[0] = s[0] + bound;
+    s[3] = s[3] + bound;
+    s[5] = s[5] + bound;
+    if (!(s[0] > 0.0)) {
+        return 0;
+    }
+    second = s[3] - s[1] * (s[1] / s[0]);
+    if (!(second > 0.0)) {
+        return 0;
+    }
+    below = s[4] - s[2] * (s[1] / s[0]);
+    third = s[5] - s[2] * (s[2] / s[0]) - below * (below / second);
+    return third > 0.0;
+}
+
 int precess_hub_is_possible(const struct precess_hub_parameters *hub)
 {
     const double *const i = hub->inertia;
 
     return precess_is_finite(hub->mass) && hub->mass > 0.0
-        && precess_are_finite(hub->centre_of_mass, 3) && precess_are_finite(i, 6) && i[0] >= 0.0
-        && i[3] >= 0.0 && i[5] >= 0.0;
+        && precess_are_finite(hub->centre_of_mass, 3) && precess_are_finite(i, 6)
+        && is_semidefinite(i);
 }
 
 /* Whether it is right-handed, and its columns are orthonormal. */
@@ -92,8 +131,8 @@ int precess_device_is_possible(
 
         if (!precess_is_finite(b->mass) || !precess_are_finite(b->origin, 3)
             || !precess_are_finite(b->centre_of_mass, 3) || !precess_are_finite(b->inertia, 6)
-            || b->mass < 0.0 || b->inertia[0] < 0.0 || b->inertia[3] < 0.0
-            || b->inertia[5] < 0.0 || !is_possible_passive(&passive[k])) {
+            || b->mass < 0.0 || !is_semidefinite(b->inertia)
+            || !is_possible_passive(&passive[k])) {
             return 0;
         }
     }
@@ -173,7 +212,9 @@ enum precess_status precess_check_pivots(
     /* The joint nearest the tip was eliminated first: it is the cause. */
     for (k = 0; k < count; k++) {
         if (kinds[k].driven && drives[k].driven == 1.0 && !(pivots[k].pivot > bounds[k])) {
-            status = precess_is_finite(pivots[k].pivot) ? PRECESS_NO_INERTIA : PRECESS_OVERFLOWS;
+            status = precess_is_finite(pivots[k].pivot) && precess_is_finite(bounds[k])
+                ? PRECESS_NO_INERTIA
+                : PRECESS_OVERFLOWS;
         }
     }
     return status;

@@ -39,13 +39,15 @@ double precess_largest_offset(const struct precess_body_parameters *bodies, int 
 /** The sum of the moments of inertia of a body, kg m². */
 double precess_trace(const struct precess_body_parameters *body);
 
-/** Whether these are parameters of a hub: finite, mass above zero, no moment of inertia below. */
+/** Whether these are parameters of a hub: finite, mass above zero, no principal moment of inertia
+ * below zero by more than 4096 epsilons of the largest element. */
 int precess_hub_is_possible(const struct precess_hub_parameters *hub);
 
 /**
  * Whether these are parameters of a device: finite, the mount a rotation to 4096 epsilons, masses
- * and moments of inertia not negative, that of the last body above zero, springs and friction not
- * negative. Products of inertia and the triangle inequality are not checked.
+ * not negative, that of the last body above zero, principal moments of inertia not below zero by
+ * more than 4096 epsilons of the largest element, springs and friction not negative. The triangle
+ * inequality is not checked.
  */
 int precess_device_is_possible(
     const struct precess_matrix *mount,

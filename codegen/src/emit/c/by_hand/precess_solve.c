@@ -181,7 +181,7 @@ struct system {
     double h_w[3];
 };
 
-/* That of the rigid body, less what the joints take out of it. */
+/* That of the rigid body, less the sums of what eliminated joints subtract. */
 static void put_together(
     const struct precess_assembly *assembly, const double omega[3], struct system *out)
 {
@@ -224,8 +224,24 @@ static void put_together(
     }
 }
 
-/* Scale of each pivot: what is rounded in M, as it comes together in that pivot. Pivot k is
- * v . M v with L^T v = e_k; small pivots before it make v long. */
+/* L^-T e_k, from factors of rows up to k only: what follows a pivot of zero is no number. */
+static void column(const struct factors *f, int k, double out[3])
+{
+    out[0] = 1.0;
+    out[1] = 0.0;
+    out[2] = 0.0;
+    if (k == 1) {
+        out[0] = 0.0 - f->l_21;
+        out[1] = 1.0;
+    } else if (k == 2) {
+        out[2] = 1.0;
+        out[1] = 0.0 - f->l_32;
+        out[0] = 0.0 - f->l_21 * out[1] - f->l_31;
+    }
+}
+
+/* Scale of each pivot: magnitude of the terms of M that are summed in it. Pivot k is v . M v with
+ * L^T v = e_k, so rounding of M_ii counts v_i^2 times; small pivots before it make v long. */
 static void grow(
     double mass,
     const double moments[3],
@@ -238,17 +254,17 @@ static void grow(
     int j;
 
     for (k = 0; k < 3; k++) {
-        double unit[3] = {0.0, 0.0, 0.0};
         double coupled[3];
         double v[3];
         double w[3];
 
-        unit[k] = 1.0;
-        backward(vv, unit, v);
+        column(vv, k, v);
         out[k] = mass * (v[0] * v[0]) + mass * (v[1] * v[1]) + mass * (v[2] * v[2]);
-        backward(ww, unit, w);
+        column(ww, k, w);
         for (j = 0; j < 3; j++) {
-            coupled[j] = z[0][j] * w[0] + z[1][j] * w[1] + z[2][j] * w[2];
+            coupled[j] = z[0][j] * w[0];
+            coupled[j] = k > 0 ? coupled[j] + z[1][j] * w[1] : coupled[j];
+            coupled[j] = k > 1 ? coupled[j] + z[2][j] * w[2] : coupled[j];
         }
         backward(vv, coupled, v);
         out[3 + k] = (mass * (v[0] * v[0]) + mass * (v[1] * v[1]) + mass * (v[2] * v[2]))
@@ -333,6 +349,7 @@ enum precess_solved precess_assembly_solve(
     double omega_dot[3];
     double r_b_n_ddot[3];
     double moments[3];
+    double pivots[6];
     double scales[6];
     int k;
 
@@ -356,9 +373,13 @@ enum precess_solved precess_assembly_solve(
     moments_of(assembly, moments);
     grow(assembly->body.mass, moments, &vv, (const double(*)[3])z, &ww, scales);
     for (k = 0; k < 3; k++) {
-        if (!precess_pivot_is_sound(vv.pivots[k], scales[k])
-            || !precess_pivot_is_sound(ww.pivots[k], scales[3 + k])) {
-            return PRECESS_SINGULAR;
+        pivots[k] = vv.pivots[k];
+        pivots[3 + k] = ww.pivots[k];
+    }
+    for (k = 0; k < 6; k++) {
+        if (!precess_pivot_is_sound(pivots[k], scales[k])) {
+            return is_finite(pivots[k]) && is_finite(scales[k]) ? PRECESS_SINGULAR
+                                                                : PRECESS_NOT_FINITE;
         }
     }
     for (k = 0; k < 3; k++) {

@@ -25,7 +25,8 @@ enum precess_solved {
     /** A pivot of the hub is only rounding beside the mass or inertia that was there before any
      * joint was eliminated: it is left without inertia. */
     PRECESS_SINGULAR = 1,
-    /** An acceleration is infinite or no number: so is an input, or a result overflows. */
+    /** An acceleration, or the first pivot that is not above its bound, or that bound, is infinite
+     * or no number: so is an input, or a result overflows. */
     PRECESS_NOT_FINITE = 2
 };
 
@@ -50,7 +51,7 @@ struct precess_assembly {
     double force[3];
     /** What acts from outside about B, N m. */
     double torque_b[3];
-    /** What the joints take out of the equations: sums of the fields of the shares. */
+    /** What eliminated joints subtract from the equations: sums of the fields of the shares. */
     double m_vv[6];
     /** Likewise, row by row. */
     double m_vw[9];
