@@ -78,7 +78,7 @@ impl Bake {
             print(&text)?;
             return Ok(Exit::Success);
         }
-        let left = if self.general { Vec::new() } else { scenario.not_described() };
+        let left = if self.general { scenario.not_in_c_solver() } else { scenario.not_described() };
         for left in left {
             note(&format!("note: {left} is not part of the kernels; add it to torques and forces"));
         }

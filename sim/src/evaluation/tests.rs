@@ -108,6 +108,7 @@ fn sliding_friction_is_evaluated_and_sticking_is_an_error() {
     assert_eq!(rejected, Err(EvaluationError::Friction { joint: joint() }));
     let left_out = ["friction that sticks or quadratic drag of wheel.theta"];
     assert_eq!(scenario.not_described(), left_out);
+    assert_eq!(scenario.not_in_c_solver(), left_out);
 }
 
 #[test]

@@ -126,11 +126,7 @@ impl Scenario {
         let passive = self.members().filter(|(_, member)| acts(member));
         let mut list: Vec<_> =
             passive.map(|(name, _)| format!("spring, damper or friction of {name}")).collect();
-        for of in &self.friction {
-            let found = self.joints().nth(of.joint);
-            let what = "friction that sticks or quadratic drag of";
-            list.extend(found.map(|(_, name, info)| format!("{what} {name}.{}", info.coordinate)));
-        }
+        list.extend(self.not_in_c_solver());
         if self.gravity != Gravity::None {
             list.push("gravity".to_owned());
         }
@@ -138,6 +134,14 @@ impl Scenario {
             list.push("a wrench from outside".to_owned());
         }
         list
+    }
+
+    /// What acts in the scenario and is not part of the solver in C that assumes nothing.
+    #[must_use]
+    pub fn not_in_c_solver(&self) -> Vec<String> {
+        let what = "friction that sticks or quadratic drag of";
+        let joints = self.friction.iter().filter_map(|of| self.joints().nth(of.joint));
+        joints.map(|(_, name, info)| format!("{what} {name}.{}", info.coordinate)).collect()
     }
 
     /// Whether a joint is locked from the start, and nothing releases it.
