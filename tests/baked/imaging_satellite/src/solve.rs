@@ -103,7 +103,7 @@ impl<T: Real + PartialOrd> Assembly<T> {
         })
     }
 
-    /// That of the rigid body, less the sums of what eliminated joints subtract; `m_vw` by its columns.
+    /// That of the rigid body, less what eliminated joints subtract; `m_vw` by its columns.
     fn system(&self, omega: [T; 3]) -> System<T> {
         let (m, s, taken) = (self.body.mass, self.body.first_moment, &self.m_vw);
         let centrifugal = cross(omega, cross(omega, s));
