@@ -28,6 +28,7 @@ use crate::jitter::sweep::{Sweep, parts, sweep};
 use crate::margins::MarginsError;
 use crate::margins::analysis::chosen;
 use crate::margins::closed_sweep::close;
+use crate::margins::notes::notes;
 use crate::pointing::RequirementState;
 use crate::report::jitter::{JitterReport, disagreements, rpm};
 use crate::scenario::Scenario;
@@ -312,7 +313,8 @@ fn closed(
     let show = |done: usize| bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
     let unstable = close(scenario, of, budget, found, &show).map_err(other)?;
     bar.finish_and_clear();
-    let mut texts = Vec::new();
+    let mut texts: Vec<String> =
+        notes(scenario, of).into_iter().map(|text| format!("loop of `{name}`: {text}")).collect();
     if let Some(first) = unstable.first() {
         texts.push(format!(
             "the loop of `{name}` is not stable at {} speeds, from {} on",

@@ -17,12 +17,15 @@ use super::progress::progress_bar;
 use super::table::{aligned, six};
 use super::terminal::{note, print};
 use crate::file::from_file;
+use crate::margins::MarginsError;
 use crate::margins::analysis::{AXES, ControlLoop, LoopAnalysis, chosen};
 use crate::margins::lines::ClosedLine;
+use crate::margins::measurement::ReadingNoise;
 use crate::margins::noise::NoiseGains;
+use crate::margins::notes::notes;
 use crate::pointing::RequirementState;
-use crate::report::margins::{LeastMargins, MarginsReport, MeasuredNoise, decibels};
-use crate::scenario::{AllocationInverse, AttitudeReference, SampledController, Scenario};
+use crate::report::margins::{LeastMargins, MarginsReport, decibels};
+use crate::scenario::{SampledController, Scenario};
 use crate::units::{Measure, parse_quantity};
 
 pub(super) const HELP: &str = "\
@@ -58,12 +61,12 @@ pub(super) struct Margins {
     /// The least phase margin of an axis, with its unit.
     #[arg(long, value_name = "ANGLE", value_parser = angle, default_value = "30 deg")]
     phase_margin: f64,
-    /// Standard deviation of the measured rotation about each axis at a sample, with its unit.
-    #[arg(long, value_name = "ANGLE", value_parser = angle, default_value = "0 deg")]
-    attitude_noise: f64,
-    /// Standard deviation of the measured rate about each axis at a sample, with its unit.
-    #[arg(long, value_name = "RATE", value_parser = rate, default_value = "0 deg/s")]
-    rate_noise: f64,
+    /// Standard deviation of the rotation that is read about each axis at a sample, with its unit: in the place of the star tracker's.
+    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    attitude_noise: Option<f64>,
+    /// Standard deviation of the rate that is read about each axis at a sample, with its unit: in the place of the gyro's.
+    #[arg(long, value_name = "RATE", value_parser = rate)]
+    rate_noise: Option<f64>,
     /// Folder for the results; made if it is missing.
     #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
     out: PathBuf,
@@ -126,6 +129,7 @@ impl Margins {
         for text in &notes {
             note(&format!("note: {text}"));
         }
+        let measured = self.noise_of(of).map_err(|error| other(&error))?;
         let found = find(&scenario, of).map_err(|error| other(&error))?;
         let report = MarginsReport {
             scenario: &scenario,
@@ -133,7 +137,7 @@ impl Margins {
             analysis: &found.analysis,
             lines: &found.lines,
             noise: found.noise.as_ref(),
-            measured: MeasuredNoise { attitude: self.attitude_noise, rate: self.rate_noise },
+            measured,
             least: LeastMargins { gain: self.gain_margin, phase: self.phase_margin },
             notes: &notes,
             warnings: &warnings,
@@ -157,10 +161,20 @@ impl Margins {
     }
 }
 
-fn find(
-    scenario: &Scenario,
-    of: &SampledController,
-) -> Result<Found, crate::margins::MarginsError> {
+impl Margins {
+    /// Noise as it is stated, or that of the sensors.
+    fn noise_of(&self, of: &SampledController) -> Result<ReadingNoise, MarginsError> {
+        let own = ReadingNoise::of_sensors(of)?;
+        let rate = self.rate_noise.unwrap_or(own.rate);
+        let attitude = match self.attitude_noise {
+            Some(stated) => ReadingNoise::new(stated, rate).attitude,
+            None => own.attitude,
+        };
+        Ok(ReadingNoise { attitude, rate })
+    }
+}
+
+fn find(scenario: &Scenario, of: &SampledController) -> Result<Found, MarginsError> {
     let bar = progress_bar(STEPS, "steps");
     let found = ControlLoop::new(scenario, of, &[])?;
     bar.inc(1);
@@ -171,41 +185,6 @@ fn find(
     let noise = found.noise();
     bar.finish_and_clear();
     Ok(Found { analysis, lines, noise })
-}
-
-/// What the linear loop has not as the run has it.
-fn notes(scenario: &Scenario, of: &SampledController) -> Vec<String> {
-    let mut notes = Vec::new();
-    if let AttitudeReference::Turning { omega, .. } = &of.reference
-        && omega.norm() > 0.0
-    {
-        notes.push(format!(
-            "the reference turns at {} rad/s; margins are about one at rest",
-            six(omega.norm())
-        ));
-    }
-    match of.allocation.inverse {
-        AllocationInverse::LeastLargest => notes.push(
-            "the least largest command is taken as the pseudo-inverse, which gives the same torque"
-                .to_owned(),
-        ),
-        AllocationInverse::Generalised(..) => {
-            notes.push(
-                "the dither of the generalised inverse is taken as it is at the start".to_owned(),
-            );
-        }
-        AllocationInverse::Exact | AllocationInverse::SingularityRobust(_) => {}
-    }
-    if scenario.controllers.len() > 1 {
-        notes.push("joints of the other controllers keep their motor torques".to_owned());
-    }
-    if scenario.gravity != precess_dynamics::Gravity::None {
-        notes.push("gravity is left out".to_owned());
-    }
-    if scenario.structure.as_ref().is_some_and(|of| of.massive().len() < of.modes.len()) {
-        notes.push("residual flexibility is left out; the modes are in it".to_owned());
-    }
-    notes
 }
 
 /// A number at a frequency.
@@ -263,11 +242,24 @@ fn summary(report: &MarginsReport<'_>) -> String {
     }
     poles(&mut text, found);
     lines(&mut text, report.lines);
-    if let Some(noise) = report.noise {
-        let rms = report.measured.attitude_rms(noise).map(|rms| six(rms / ARCSEC));
-        if report.measured != MeasuredNoise::default() {
-            let _ = writeln!(text, "noise: attitude {} arcsec RMS about x, y, z", rms.join(", "));
-        }
+    if report.measured != ReadingNoise::default() {
+        let _ = match report.noise {
+            Some(noise) => {
+                let rms = noise.attitude_rms(&report.measured).map(|rms| six(rms / ARCSEC));
+                let read = report.measured.attitude_deviations().map(|rms| six(rms / ARCSEC));
+                writeln!(
+                    text,
+                    "noise: attitude {} arcsec RMS about x, y, z, by {} arcsec and {} urad/s of the readings",
+                    rms.join(", "),
+                    read.join(", "),
+                    six(1e6 * report.measured.rate)
+                )
+            }
+            None => writeln!(
+                text,
+                "noise: its effect has no end; the loop is not stable, or an estimator has no gain"
+            ),
+        };
     }
     if let Some(periodic) = found.periodic {
         let _ = writeln!(

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, Schur};
+use nalgebra::{Complex, DMatrix, Schur};
 use precess_control::{AtFrequency, AxisMargins, LoopResponse, SampledLoop, longest_delay};
 
 use super::MarginsError;
 use super::feedback::law_feedback;
+use super::measurement::torque_filters;
 use super::plant::ControlledPlant;
 use super::sampled::ControlledSamples;
 use crate::jitter::model::{Model, Output};
@@ -36,10 +37,12 @@ pub struct ControlLoop {
     pub plant: ControlledPlant,
     /// The same from sample to sample.
     pub samples: ControlledSamples,
-    /// Spacecraft, joints and servo with the law.
+    /// Spacecraft, joints, servo, sensors and estimator with the law and the filters of the torque.
     pub closed: SampledLoop,
     /// The same with all that is given and waits, as [`ControlledSamples::plant`] has it.
     pub(super) with_all: SampledLoop,
+    /// What noise of the readings adds to the states of the plant of `closed`.
+    pub(super) noise: DMatrix<f64>,
 }
 
 /// A curve's point.
@@ -160,10 +163,12 @@ impl ControlLoop {
         plant: ControlledPlant,
     ) -> Result<Self, MarginsError> {
         let samples = ControlledSamples::new(&plant, of, of.delay)?;
-        let feedback = law_feedback(scenario, of, &plant.allocation.momentum)?;
-        let closed = SampledLoop::new(samples.least_plant(&plant.measured())?, feedback.clone())?;
-        let with_all = SampledLoop::new(samples.plant(&plant.measured())?, feedback)?;
-        Ok(Self { name: of.name.clone(), rate: of.rate, plant, samples, closed, with_all })
+        let law = law_feedback(scenario, of, &plant.allocation.momentum)?;
+        let feedback = law.then(&torque_filters(of)?)?;
+        let (least, noise) = samples.least_plant()?;
+        let closed = SampledLoop::new(least, feedback.clone())?;
+        let with_all = SampledLoop::new(samples.plant()?.0, feedback)?;
+        Ok(Self { name: of.name.clone(), rate: of.rate, plant, samples, closed, with_all, noise })
     }
 
     /// Margins, curves and poles.
@@ -188,7 +193,7 @@ impl ControlLoop {
         }
         let delay = longest_delay(self.samples.sampling, |delay| {
             let samples = ControlledSamples::new(&self.plant, of, delay)?;
-            let plant = samples.least_plant(&self.plant.measured())?;
+            let (plant, _) = samples.least_plant()?;
             Ok::<_, MarginsError>(SampledLoop::new(plant, self.closed.feedback().clone())?)
         })?;
         let oscillations = self.oscillations();

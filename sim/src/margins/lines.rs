@@ -42,9 +42,9 @@ pub struct ClosedLine {
     pub alias: f64,
     /// With motors held: without a controller.
     pub held: Component,
-    /// Rotation and angular velocity at the samples, closed loop, rad and rad/s: of `exp(i w t_k)`.
+    /// Rotation and angular velocity of the hub at the samples, closed loop, rad and rad/s: of `exp(i w t_k)`.
     pub sampled: [Complex<f64>; 6],
-    /// The torque of the law at the samples, N m.
+    /// The torque of the law behind its filters at the samples, N m.
     pub torque: [Complex<f64>; 3],
     /// The motion in the closed loop: at the tone itself first, then at its alias, then at further images; where tone and alias
     /// are one, once.
@@ -108,8 +108,7 @@ impl ControlLoop {
         let reduced = self.plant.without_translation(load);
         let known = if known { reduced } else { reduced * Complex::new(0.0, 0.0) };
         let forced = Forced { frequency: w, known, states };
-        let measured = super::plant::complex(&self.plant.measured());
-        let read = &measured * &forced.states;
+        let read = self.samples.read_at_once(&forced.states);
         let period = self.samples.sampling.period;
         let z = Complex::from_polar(1.0, w * period);
         let feedback = self.with_all.feedback();
@@ -126,10 +125,11 @@ impl ControlLoop {
         if !found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
             return Err(unbounded());
         }
-        let n = self.plant.a.nrows();
-        let sampled = read + measured * found.rows(0, n);
-        let torque = c * found.rows(f.nrows(), feedback.a.nrows()) + d * &sampled;
         let own = found.rows(0, added.len()).into_owned();
+        let read = self.samples.read(&forced.states, &own);
+        let torque = c * found.rows(f.nrows(), feedback.a.nrows()) + d * read;
+        let motion = &forced.states + own.rows(0, self.plant.a.nrows());
+        let sampled = super::plant::complex(&self.plant.motion()) * motion;
         let shown = alias(w / TAU, self.rate) * TAU;
         let rate = TAU * self.rate;
         let mut images: Vec<f64> = vec![w];

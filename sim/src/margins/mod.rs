@@ -4,7 +4,8 @@
 //!
 //! ```text
 //! M x'' + C x' + K x = E u + F      x = [theta; modes; free joints]      (the translation is eliminated)
-//! u_k = S x_k + N c_k      c_k = P tau_k + R x_k      tau = law(theta, omega) at the samples
+//! u_k = S x_k + N c_k      c_k = P tau_k + R x_k      tau = filters(law(r)) at the samples
+//! r = filters(estimator(sensors(theta, omega)))      (as they are without sensors)
 //! L = -K_law(z) G(z), from torque to torque, three axes of B      S = (1 + L)^-1      T = 1 - S
 //! ```
 //!
@@ -18,7 +19,9 @@
 //! |---|---|
 //! | equations of motion, servo, what loads do | [`plant`] |
 //! | from sample to sample | [`sampled`] |
+//! | sensors, estimator, filters | [`measurement`] |
 //! | the law | [`feedback`] |
+//! | what is taken otherwise than in a run | [`notes`] |
 //! | margins, curves, poles | [`analysis`] |
 //! | lines of rotors through the loop, and their aliases | [`lines`] |
 //! | the lines of a jitter budget with the loop closed | [`closed_sweep`] |
@@ -29,7 +32,9 @@ pub mod closed_sweep;
 mod error;
 pub mod feedback;
 pub mod lines;
+pub mod measurement;
 pub mod noise;
+pub mod notes;
 pub mod plant;
 pub mod sampled;
 

@@ -6,6 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use precess_dynamics::{HubMode, Steered};
 
 use super::MarginsError;
+use super::measurement::{READ, sensed};
 use crate::engine::{LinearAllocation, linear_allocation};
 use crate::jitter::campbell::{device_rows, matrices, node_rows};
 use crate::jitter::device::Steady;
@@ -38,8 +39,12 @@ pub struct ControlledPlant {
     pub servo: [DMatrix<f64>; 3],
     /// What is commanded for small torques.
     pub(crate) allocation: LinearAllocation,
-    /// Commands by the state beside those for the torque.
+    /// Commands by the state beside those for the torque: by rates of joints.
     pub by_state: DMatrix<f64>,
+    /// Commands by what the law reads, attitude and angular velocity.
+    pub by_read: DMatrix<f64>,
+    /// What sensors have of the motion, by the state: attitude of the star tracker, attitude and angular velocity of the gyro.
+    pub sensed: DMatrix<f64>,
     /// Numbers of the coordinates that are states.
     kept: Vec<usize>,
     /// How many coordinates there are, without the translation.
@@ -109,8 +114,9 @@ impl ControlledPlant {
         let inverse = m.clone().try_inverse().ok_or_else(indefinite)?;
         let largest = k.amax();
         let rotations = COORDINATES - TRANSLATION;
+        let moved = rotations + model.structure.modes.len();
         let kept: Vec<usize> = (0..size)
-            .filter(|at| *at < rotations || k.column(*at).amax() > STIFFNESS_MIN * largest)
+            .filter(|at| *at < moved || k.column(*at).amax() > STIFFNESS_MIN * largest)
             .collect();
         let states = kept.len() + size;
         let own = coordinates_of(&model);
@@ -136,7 +142,6 @@ impl ControlledPlant {
         let joints: Vec<[f64; 2]> = states_of(scenario, &model, speed);
         let allocation = linear_allocation(scenario, of, &joints)?;
         let mut commands = DMatrix::zeros(commanded.len(), states);
-        commands.columns_mut(kept.len(), rotations).copy_from(&allocation.by_omega);
         for (index, joint) in own.iter().enumerate() {
             let first = COORDINATES + model.structure.modes.len() - TRANSLATION;
             if *joint < allocation.by_rate.ncols() {
@@ -144,6 +149,9 @@ impl ControlledPlant {
                 commands.column_mut(column).copy_from(&allocation.by_rate.column(*joint));
             }
         }
+        let mut by_read = DMatrix::zeros(commanded.len(), READ);
+        by_read.columns_mut(rotations, rotations).copy_from(&allocation.by_omega);
+        let sensed = sensed(&model, of, (all, moved, kept.len()));
         let (devices, outputs) = (device_rows(&model), output_rows(&model, all));
         Ok(Self {
             model,
@@ -153,6 +161,8 @@ impl ControlledPlant {
             servo,
             allocation,
             by_state: commands,
+            by_read,
+            sensed,
             kept,
             size,
             inverse,
@@ -163,9 +173,9 @@ impl ControlledPlant {
         })
     }
 
-    /// Rows of attitude and angular velocity, of the states.
+    /// Rows of attitude and angular velocity of the hub, of the states.
     #[must_use]
-    pub fn measured(&self) -> DMatrix<f64> {
+    pub fn motion(&self) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(6, self.a.nrows());
         rows.view_mut((0, 0), (3, 3)).fill_with_identity();
         rows.view_mut((3, self.kept.len()), (3, 3)).fill_with_identity();

@@ -5,16 +5,18 @@
 //!
 //! ```text
 //! delay = m T + r, 0 <= r < T:      x_k+1 = Phi x_k + Gamma_0 a_k-m + Gamma_1 a_k-m-1 + D w_k
-//! a_k = E x_k + F tau_k + V w_k     w_k = exp(i w k T)
+//! a_k = E x_k + F tau_k + N r_k + V w_k     w_k = exp(i w k T)
+//! s_k+1 = A s_k + B y_k      r_k = C s_k + D y_k      y_k: what sensors have of x_k, r_k: what the law reads
 //! ```
 //!
 //! With `x = x_w + xi`, where `x_w` is the motion under a load `exp(i w t)` with motors held, `xi` has the equation without load,
 //! but that what computes torques reads `x`.
 
 use nalgebra::{Complex, DMatrix, DVector};
-use precess_control::{ControlError, SampledPlant, Sampling, held_step};
+use precess_control::{ControlError, Feedback, SampledPlant, Sampling, held_step};
 
 use super::MarginsError;
+use super::measurement::Measurement;
 use super::plant::{ControlledPlant, complex};
 use crate::scenario::SampledController;
 use crate::structure::accelerance::ComplexMatrix;
@@ -34,8 +36,12 @@ pub struct ControlledSamples {
     phi: DMatrix<f64>,
     /// By what acts from within this period on, and by what acted before.
     gamma: [DMatrix<f64>; 2],
-    /// What a sample gives, by the state and by the torque of the law.
-    given: [DMatrix<f64>; 2],
+    /// What a sample gives, by the state, by the torque of the law, and by what it reads.
+    given: [DMatrix<f64>; 3],
+    /// From what sensors have of the motion to what the law reads.
+    measurement: Measurement,
+    /// What sensors have of the motion, by the state.
+    sensed: DMatrix<f64>,
     /// What a sample gives, by loads on the coordinates.
     by_load: DMatrix<f64>,
     /// Times within a period, s, from which on torques of motors are held, and whether what is given at this period has come to
@@ -75,12 +81,14 @@ impl ControlledSamples {
             rest = 0.0;
         }
         let [by_state, by_command, by_load] = plant.servo.clone();
-        let commands = [plant.by_state.clone(), plant.allocation.by_torque.clone()];
+        let commands =
+            [plant.by_state.clone(), plant.allocation.by_torque.clone(), plant.by_read.clone()];
         let count = by_command.nrows();
         let mut times = vec![(0.0, rest == 0.0), (rest, true)];
         let (given, given_by_load, torques) = match of.servo.rate {
             None => {
-                let given = [&by_state + &by_command * &commands[0], &by_command * &commands[1]];
+                let [first, second, third] = commands.map(|of| &by_command * of);
+                let given = [&by_state + first, second, third];
                 let none = |columns| DMatrix::zeros(count, columns);
                 let kept = [none(by_state.ncols()), DMatrix::identity(count, count)];
                 let [states, acts] = kept;
@@ -112,6 +120,8 @@ impl ControlledSamples {
             phi: DMatrix::zeros(0, 0),
             gamma: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
             given,
+            measurement: Measurement::new(of)?,
+            sensed: plant.sensed.clone(),
             by_load: given_by_load,
             times,
             torques,
@@ -144,53 +154,89 @@ impl ControlledSamples {
         next.chain(std::iter::once(self.sampling.period))
     }
 
-    /// From the torque of the law to attitude and angular velocity at the samples: what was given and waits, newest first, is
-    /// behind the states of the spacecraft.
+    /// From the torque of the law to what it reads at the samples. Behind the states of the spacecraft there is what was
+    /// given and waits, newest first, then the states of the measurement. Beside it: what noise of the readings adds to these.
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn plant(&self, measured: &DMatrix<f64>) -> Result<SampledPlant, ControlError> {
-        self.plant_of(measured, &self.gamma, &self.given)
+    pub fn plant(&self) -> Result<(SampledPlant, DMatrix<f64>), ControlError> {
+        self.plant_of(&self.gamma, &self.given)
     }
 
     /// The same with no more waiting than the rank of what is given: three numbers where commands follow from a torque.
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn least_plant(&self, measured: &DMatrix<f64>) -> Result<SampledPlant, ControlError> {
-        let [by_state, by_torque] = &self.given;
-        let (count, states) = by_state.shape();
-        let mut both = DMatrix::zeros(count, states + by_torque.ncols());
-        both.columns_mut(0, states).copy_from(by_state);
-        both.columns_mut(states, by_torque.ncols()).copy_from(by_torque);
-        let parts = both.svd(true, false);
+    pub fn least_plant(&self) -> Result<(SampledPlant, DMatrix<f64>), ControlError> {
+        let count = self.by_load.nrows();
+        let columns = self.given.iter().flat_map(|of| of.column_iter().map(|of| of.into_owned()));
+        let all: Vec<_> = columns.collect();
+        let parts = DMatrix::from_columns(&all).svd(true, false);
         let least = RANK * parts.singular_values.max();
         let kept: Vec<usize> = (0..parts.singular_values.len())
             .filter(|k| parts.singular_values[*k] > least)
             .collect();
         let Some(directions) = parts.u.filter(|_| kept.len() < count) else {
-            return self.plant(measured);
+            return self.plant();
         };
         let directions = directions.select_columns(&kept);
         let gamma = self.gamma.each_ref().map(|of| of * &directions);
         let given = self.given.each_ref().map(|of| directions.transpose() * of);
-        self.plant_of(measured, &gamma, &given)
+        self.plant_of(&gamma, &given)
     }
 
     fn plant_of(
         &self,
-        measured: &DMatrix<f64>,
         gamma: &[DMatrix<f64>; 2],
-        [by_state, by_torque]: &[DMatrix<f64>; 2],
-    ) -> Result<SampledPlant, ControlError> {
+        [by_state, by_torque, by_read]: &[DMatrix<f64>; 3],
+    ) -> Result<(SampledPlant, DMatrix<f64>), ControlError> {
         let [f, g] = self.with_waiting(gamma);
-        let n = self.phi.nrows();
-        let mut h = DMatrix::zeros(measured.nrows(), f.nrows());
-        h.columns_mut(0, n).copy_from(measured);
-        let mut closed = f;
-        let mut states = closed.columns_mut(0, n);
-        states += &g * by_state;
-        SampledPlant::from_matrices(self.sampling, [closed, &g * by_torque, h])
+        let Feedback { a, b, c, d } = &self.measurement.chain;
+        let (n, own, more) = (self.phi.nrows(), f.nrows(), a.nrows());
+        let mut closed = DMatrix::zeros(own + more, own + more);
+        closed.view_mut((0, 0), (own, own)).copy_from(&f);
+        let mut states = closed.view_mut((0, 0), (own, n));
+        states += &g * (by_state + by_read * d * &self.sensed);
+        closed.view_mut((0, own), (own, more)).copy_from(&(&g * by_read * c));
+        closed.view_mut((own, 0), (more, n)).copy_from(&(b * &self.sensed));
+        closed.view_mut((own, own), (more, more)).copy_from(a);
+        let mut by_command = DMatrix::zeros(own + more, by_torque.ncols());
+        by_command.rows_mut(0, own).copy_from(&(&g * by_torque));
+        let mut read = DMatrix::zeros(d.nrows(), own + more);
+        read.columns_mut(0, n).copy_from(&(d * &self.sensed));
+        read.columns_mut(own, more).copy_from(c);
+        let [to_states, directly] = &self.measurement.noise;
+        let mut noise = DMatrix::zeros(own + more, directly.ncols());
+        noise.rows_mut(0, own).copy_from(&(&g * by_read * directly));
+        noise.rows_mut(own, more).copy_from(to_states);
+        let plant = SampledPlant::from_matrices(self.sampling, [closed, by_command, read])?;
+        Ok((plant, noise))
+    }
+
+    /// What the law reads at once of a motion, without the states of the measurement.
+    #[must_use]
+    pub fn read_at_once(&self, states: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+        complex(&self.measurement.chain.d) * (complex(&self.sensed) * states)
+    }
+
+    /// What noise of the readings is of what the law reads, at once.
+    #[must_use]
+    pub fn noise_at_once(&self) -> &DMatrix<f64> {
+        let [_, directly] = &self.measurement.noise;
+        directly
+    }
+
+    /// What the law reads of a motion and the states of [`Self::plant`] beside it.
+    #[must_use]
+    pub fn read(
+        &self,
+        motion: &DVector<Complex<f64>>,
+        states: &DVector<Complex<f64>>,
+    ) -> DVector<Complex<f64>> {
+        let c = complex(&self.measurement.chain.c);
+        let own = states.rows(0, self.phi.nrows()).into_owned();
+        let measured = states.rows(states.nrows() - c.ncols(), c.ncols()).into_owned();
+        self.read_at_once(&(own + motion)) + c * measured
     }
 
     /// `X = [x; a_k-1; ..; a_k-m-1]`: `X_k+1 = F X_k + G a_k`.
@@ -212,13 +258,14 @@ impl ControlledSamples {
         [f, g]
     }
 
-    /// `[D + G (E x_w + V w); 0]` and `x_w`: what a forced motion adds to the states of [`Self::plant`] in a period, `w_k` being
-    /// one, and its own states at the sample.
+    /// What a forced motion adds to the states of [`Self::plant`] in a period, `w_k` being one: `D + G (E x_w + N r_w + V w)`, and of
+    /// the measurement `B y_w`.
     #[must_use]
     pub fn driven_by(&self, plant: &ControlledPlant, of: &Forced) -> DVector<Complex<f64>> {
         let [f, g] = self.with_waiting(&self.gamma);
         let n = self.phi.nrows();
-        let mut added = DVector::zeros(f.nrows());
+        let more = self.measurement.chain.a.nrows();
+        let mut added = DVector::zeros(f.nrows() + more);
         let [by_state, _, by_load] = &self.torques;
         let torque = complex(by_state) * &of.states + complex(by_load) * &of.known;
         // Torques that are computed within the period read the forced motion, too.
@@ -230,8 +277,15 @@ impl ControlledSamples {
             within = complex(&phi) * within + complex(&gamma) * read;
         }
         added.rows_mut(0, n).copy_from(&within);
-        let given = complex(&self.given[0]) * &of.states + complex(&self.by_load) * &of.known;
-        added + complex(&g) * given
+        let given = complex(&self.given[0]) * &of.states
+            + complex(&self.given[2]) * self.read_at_once(&of.states)
+            + complex(&self.by_load) * &of.known;
+        let mut by_given = added.rows_mut(0, f.nrows());
+        by_given += complex(&g) * given;
+        let sensed = complex(&self.sensed) * &of.states;
+        let measured = complex(&self.measurement.chain.b) * sensed;
+        added.rows_mut(f.nrows(), more).copy_from(&measured);
+        added
     }
 
     /// The component at an angular frequency, rad/s, which is that of the samples or one of its images, of the torques of motors,
@@ -247,6 +301,7 @@ impl ControlledSamples {
         let own = states.rows(0, n).into_owned();
         let newest = complex(&self.given[0]) * (&own + &of.states)
             + complex(&self.given[1]) * torque
+            + complex(&self.given[2]) * self.read(&of.states, states)
             + complex(&self.by_load) * &of.known;
         // What is given so many samples ago.
         let ago = |samples: usize| match samples.checked_sub(1) {

@@ -1,8 +1,9 @@
-//! Margins of a scenario's loop: a rigid spacecraft against closed forms, poles and margins against python-control, lines of rotors and their aliases against runs, noise against a run of the recursion, what has no margins.
+//! Margins of a scenario's loop: a rigid spacecraft against closed forms, poles and margins against python-control, lines of rotors and their aliases against runs, noise against a run of the recursion, what has no margins; sensors, filters and estimators in the loop.
 
 mod closed_form;
 mod judged;
 mod lines;
+mod measured;
 mod rejected;
 
 use std::path::Path;

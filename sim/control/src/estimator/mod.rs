@@ -2,3 +2,4 @@
 
 pub(crate) mod covariance;
 pub(crate) mod mekf;
+mod steady;

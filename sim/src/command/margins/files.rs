@@ -82,9 +82,9 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
         json!({
             "attitude_by_attitude": gains.attitude,
             "attitude_by_rate_s": gains.rate,
-            "attitude_noise_rad": report.measured.attitude,
+            "attitude_noise_rad": report.measured.attitude_deviations(),
             "rate_noise_rad_per_s": report.measured.rate,
-            "attitude_rms_rad": report.measured.attitude_rms(gains),
+            "attitude_rms_rad": gains.attitude_rms(&report.measured),
         })
     });
     let all = json!({

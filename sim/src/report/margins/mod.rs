@@ -10,6 +10,7 @@ use super::number::short;
 use super::page::{Page, lines};
 use crate::margins::analysis::{AXES, LoopAnalysis};
 use crate::margins::lines::ClosedLine;
+use crate::margins::measurement::ReadingNoise;
 use crate::margins::noise::NoiseGains;
 use crate::pointing::RequirementState;
 use crate::scenario::{SampledController, Scenario};
@@ -23,28 +24,6 @@ pub(crate) struct LeastMargins {
     pub(crate) phase: f64,
 }
 
-/// Noise of what the controller reads: standard deviations at a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct MeasuredNoise {
-    /// Of the rotation about each axis, rad.
-    pub(crate) attitude: f64,
-    /// Of the angular velocity about each axis, rad/s.
-    pub(crate) rate: f64,
-}
-
-impl MeasuredNoise {
-    /// RMS of the rotation about each axis, rad.
-    pub(crate) fn attitude_rms(&self, gains: &NoiseGains) -> [f64; 3] {
-        let square = |row: &[f64; 3]| row.iter().map(|gain| gain * gain).sum::<f64>();
-        let of = |axis: usize| {
-            let [by_attitude, by_rate] =
-                [&gains.attitude, &gains.rate].map(|of| of.get(axis).map_or(0.0, square));
-            (by_attitude * self.attitude.powi(2) + by_rate * self.rate.powi(2)).sqrt()
-        };
-        [of(0), of(1), of(2)]
-    }
-}
-
 /// Everything that the page shows.
 pub(crate) struct MarginsReport<'a> {
     pub(crate) scenario: &'a Scenario,
@@ -53,7 +32,7 @@ pub(crate) struct MarginsReport<'a> {
     pub(crate) lines: &'a [ClosedLine],
     /// What noise of one does; none of a loop that is not stable.
     pub(crate) noise: Option<&'a NoiseGains>,
-    pub(crate) measured: MeasuredNoise,
+    pub(crate) measured: ReadingNoise,
     pub(crate) least: LeastMargins,
     pub(crate) notes: &'a [String],
     pub(crate) warnings: &'a [String],

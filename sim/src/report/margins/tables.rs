@@ -179,7 +179,7 @@ impl MarginsReport<'_> {
     pub(super) fn noise_tables(&self) -> Vec<Block> {
         let Some(gains) = self.noise else { return Vec::new() };
         let norm = |row: &[f64; 3]| row.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let measured = self.measured.attitude_rms(gains);
+        let measured = gains.attitude_rms(&self.measured);
         let rows = AXES.iter().enumerate().map(|(axis, name)| {
             let own = |of: &[[f64; 3]; 3]| of.get(axis).map_or(0.0, norm);
             let cells = vec![
@@ -194,11 +194,11 @@ impl MarginsReport<'_> {
             ("Axis", ""),
             ("By noise of the rotation", ""),
             ("By noise of the rate", "s"),
-            ("RMS rotation by the noise stated", ""),
+            ("RMS rotation by this noise", ""),
         ];
         let text = format!(
-            "White noise, independent from sample to sample and from axis to axis: RMS rotation of the hub at the samples per standard deviation. Stated: {} of the rotation, {} rad/s of the rate.",
-            angle(self.measured.attitude),
+            "White noise of the readings, independent from sample to sample: RMS rotation of the hub at the samples per standard deviation. Here: {} of the rotation about x, y and z, {} rad/s of the rate.",
+            self.measured.attitude_deviations().map(angle).join(", "),
             short(self.measured.rate, 3)
         );
         vec![table("What noise does", &columns, 1..4, rows), Block::Note { text }]
