@@ -211,7 +211,7 @@ fn without_its_notch_the_mode_grows_as_in_a_run() {
     let frequency = unstable.arg() * rate / TAU;
     assert!((frequency - 4.16).abs() < 0.1, "{frequency}");
     let growth = unstable.modulus().ln() * rate;
-    without.settings.duration = 60.0;
+    without.settings.duration = 46.0;
     without.requirements.clear();
     let mut samples = Samples::default();
     run(&without, &mut samples, &mut |_| ControlFlow::Continue(())).expect("a run");
@@ -224,7 +224,8 @@ fn without_its_notch_the_mode_grows_as_in_a_run() {
             within.map(|(at, _)| (column[at + 5] - 2.0 * column[at] + column[at - 5]).powi(2));
         squares.sum::<f64>().sqrt()
     };
-    let in_run = (level(50.0) / level(35.0)).ln() / 15.0;
+    // Torques of the wheels are at their limits from about 45 s on.
+    let in_run = (level(40.0) / level(15.0)).ln() / 25.0;
     println!("growth {growth} 1/s, in the run {in_run} 1/s");
     assert!((in_run / growth - 1.0).abs() < 0.01, "{in_run} {growth}");
 }
