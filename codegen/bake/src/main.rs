@@ -21,6 +21,7 @@ use precess_description::Description;
     after_help = "Example:\n  precess bake scenarios/imaging-satellite.toml --out imaging_satellite\n  \
                   precess-bake imaging_satellite.toml --out imaging_satellite --language c"
 )]
+#[expect(clippy::struct_excessive_bools, reason = "options of a command line")]
 struct Options {
     /// The description; standard input without it
     description: Option<PathBuf>,

@@ -12,6 +12,7 @@ use crate::random::Random;
 
 /// Which numbers of a case are drawn.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is tested with and without")]
 pub(crate) struct Settings {
     pub(crate) mrp: bool,
     /// Springs, dampers and dry friction.
@@ -77,7 +78,7 @@ impl Case {
                 let mut joint = Joint {
                     coordinate: random.within(-reach, reach),
                     rate: random.within(-1.0, 1.0) * if spins { spin } else { fast },
-                    mode: if info.driven { 0 } else { 1 },
+                    mode: u8::from(!info.driven),
                     torque: random.within(-0.1, 0.1),
                     acceleration: 0.0,
                     force: random.vector(0.1),

@@ -76,7 +76,7 @@ fn by<A: Numbers>(case: &Case) -> Vec<f64> {
     statuses[1] = status(&accelerations);
     if let Ok(own) = accelerations {
         found = own.r_b_n_ddot.iter().chain(&own.omega_dot).copied().collect();
-        found.extend(own.devices.iter().flat_map(|device| device.values()));
+        found.extend(own.devices.iter().flat_map(Each::values));
     }
     for _ in 0..case.settings.steps {
         let next = craft.step(&state, &inputs, case.settings.dt);
@@ -97,7 +97,7 @@ fn state<A: Numbers>(case: &Case, craft: &Spacecraft<Set>) -> State<Set, A> {
     state.r_b_n_dot = Vector3::from(case.r_b_n_dot);
     state.attitude = A::of(case.attitude);
     state.omega = Vector3::from(case.omega);
-    let joints = state.devices.iter_mut().flat_map(|device| device.states_mut());
+    let joints = state.devices.iter_mut().flat_map(JointStates::states_mut);
     for ([coordinate, rate], joint) in joints.zip(&case.joints) {
         (*coordinate, *rate) = (joint.coordinate, joint.rate);
     }
@@ -108,8 +108,8 @@ fn inputs(case: &Case, craft: &Spacecraft<Set>) -> Inputs<Set> {
     let mut inputs = Inputs::none_for(craft);
     inputs.force = Vector3::from(case.force);
     inputs.torque_b = Vector3::from(case.torque_b);
-    let motors = inputs.motors.iter_mut().flat_map(|device| device.values_mut());
-    let modes = inputs.modes.iter_mut().flat_map(|device| device.values_mut());
+    let motors = inputs.motors.iter_mut().flat_map(Each::values_mut);
+    let modes = inputs.modes.iter_mut().flat_map(Each::values_mut);
     for ((torque, mode), joint) in motors.zip(modes).zip(&case.joints) {
         *torque = joint.torque;
         *mode = match joint.mode {
@@ -133,7 +133,7 @@ fn inputs(case: &Case, craft: &Spacecraft<Set>) -> Inputs<Set> {
     };
     if case.settings.wrenches {
         let mut bodies = Inputs::no_wrenches_for(craft);
-        let wrenches = bodies.iter_mut().flat_map(|device| device.values_mut());
+        let wrenches = bodies.iter_mut().flat_map(Each::values_mut);
         for (wrench, joint) in wrenches.zip(&case.joints) {
             let (force, moment) = (Vector3::from(joint.force), Vector3::from(joint.moment));
             *wrench = Wrench { force, moment };
@@ -144,7 +144,7 @@ fn inputs(case: &Case, craft: &Spacecraft<Set>) -> Inputs<Set> {
 }
 
 fn numbers<A: Numbers>(state: &State<Set, A>) -> Vec<f64> {
-    let joints: Vec<_> = state.devices.iter().flat_map(|device| device.states()).collect();
+    let joints: Vec<_> = state.devices.iter().flat_map(JointStates::states).collect();
     let mut numbers: Vec<_> = state.r_b_n.iter().chain(&state.r_b_n_dot).copied().collect();
     numbers.extend(state.attitude.numbers());
     numbers.extend(state.omega.iter());
