@@ -1,4 +1,4 @@
-//! Arrays of NumPy that a batch reads and writes, with their names in messages.
+//! Arrays of `NumPy` that a batch reads and writes, with their names in messages.
 
 use numpy::{
     PyArray3, PyArrayMethods as _, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods as _,

@@ -176,7 +176,9 @@ impl BatchRows {
                     found.map_err(|error| Failure::Evaluation(Arc::new(error)))
                 });
                 if let Err(failure) = found {
-                    rows_of(&mut write, index).into_iter().for_each(|row| row.fill(f64::NAN));
+                    for row in rows_of(&mut write, index) {
+                        row.fill(f64::NAN);
+                    }
                     failures.push((number * PART + index, failure));
                 }
                 if !go() {

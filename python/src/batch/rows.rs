@@ -15,6 +15,9 @@ use super::work::{ProgressCheck, share};
 /// Index of an element that failed, and why.
 pub(crate) type Failed = Vec<(usize, Failure)>;
 
+/// Outputs and inputs of a linearised system, and its names.
+type Named = ([Vec<Variable>; 2], Arc<Linearized>);
+
 /// Many states of a spacecraft, or of one each.
 pub(crate) struct BatchRows {
     pub(super) evaluator: Arc<Evaluator>,
@@ -26,7 +29,7 @@ pub(crate) struct BatchRows {
     /// What differentiates each, made where it is first wanted: lanes have no derivatives.
     pub(super) each: OnceLock<Vec<Result<Arc<Evaluator>, Failure>>>,
     /// The names of the last linearised system, by what it is of.
-    pub(super) names: Mutex<Option<([Vec<Variable>; 2], Arc<Linearized>)>>,
+    pub(super) names: Mutex<Option<Named>>,
 }
 
 impl BatchRows {

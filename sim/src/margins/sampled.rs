@@ -169,7 +169,8 @@ impl ControlledSamples {
     /// Numbers that are not finite.
     pub fn least_plant(&self) -> Result<(SampledPlant, DMatrix<f64>), ControlError> {
         let count = self.by_load.nrows();
-        let columns = self.given.iter().flat_map(|of| of.column_iter().map(|of| of.into_owned()));
+        let columns =
+            self.given.iter().flat_map(|of| of.column_iter().map(nalgebra::Matrix::into_owned));
         let all: Vec<_> = columns.collect();
         let parts = DMatrix::from_columns(&all).svd(true, false);
         let least = RANK * parts.singular_values.max();
