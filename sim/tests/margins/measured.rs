@@ -175,7 +175,7 @@ fn the_committed_scenarios_have_margins() {
     let mut names: Vec<_> = std::fs::read_dir(path(""))
         .expect("the folder of scenarios")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .filter(|name| name.ends_with(".toml"))
+        .filter(|name| name.split('.').next_back() == Some("toml"))
         .collect();
     names.sort();
     let mut count = 0;
@@ -235,7 +235,7 @@ fn without_its_notch_the_mode_grows_as_in_a_run() {
 fn motion_without_torque_is_not_in_the_loop() {
     let with = scenario("vscmg-pyramid-slew.toml");
     let mut without = with.clone();
-    without.controllers[0].allocation.null_motion = Default::default();
+    without.controllers[0].allocation.null_motion = precess::scenario::NullMotion::default();
     let [a, b] = [&with, &without].map(|of| loop_of(of).closed.poles().expect("poles"));
     assert_eq!(a, b);
     let said = |of: &Scenario| notes(of, &of.controllers[0]).join("\n");
