@@ -41,6 +41,10 @@ pub(super) fn contiguous<'a>(
     name: &str,
     array: &'a mut PyReadwriteArray3<'_, f64>,
 ) -> PyResult<&'a mut [f64]> {
-    let found = array.as_slice_mut();
-    found.map_err(|_| PyValueError::new_err(format!("{name} needs contiguous rows (C order)")))
+    let wrong = || PyValueError::new_err(format!("{name} needs contiguous rows (C order)"));
+    // A slice is also given of columns that are contiguous.
+    if !array.is_c_contiguous() {
+        return Err(wrong());
+    }
+    array.as_slice_mut().map_err(|_| wrong())
 }

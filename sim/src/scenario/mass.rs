@@ -158,6 +158,7 @@ impl MassMatrix {
 
 /// Sum of the angular momenta of the hub and of each joint by itself, about the centre of mass, in the initial state, N m s: what a
 /// total that cancels is compared with. None where they cannot be computed.
+#[cfg(feature = "tool")]
 pub(crate) fn momentum_size(scenario: &Scenario) -> Option<f64> {
     let spacecraft = scenario.spacecraft().ok()?;
     let size = |state: &State<Set>| {

@@ -16,6 +16,8 @@ use crate::equations::arithmetic::Arithmetic;
 use crate::equations::device::Device;
 use crate::equations::load_sums::HubAccelerations;
 #[cfg(feature = "lanes")]
+use crate::equations::side_by_side::fallbacks;
+#[cfg(feature = "lanes")]
 use crate::equations::side_by_side::group::DeviceGroup;
 use crate::isolation::carrier::Carrier;
 use crate::model::joint_array::MAX_JOINTS;
@@ -354,6 +356,7 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
             if self.group(group, devices, data, first).is_some() {
                 return Ok(count);
             }
+            fallbacks::count();
         }
         for (lane, device) in devices.iter().enumerate().take(count) {
             let at = MemberIndex(first.saturating_add(lane));

@@ -12,6 +12,8 @@ mod kernel_in_lanes;
 mod kernel_loads;
 #[cfg(feature = "alloc")]
 pub(crate) mod load_columns;
+#[cfg(all(test, feature = "lanes"))]
+mod load_columns_tests;
 #[cfg(feature = "alloc")]
 pub(crate) mod mass_system;
 #[cfg(feature = "alloc")]
