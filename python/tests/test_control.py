@@ -1,9 +1,8 @@
-"""Controllers that are functions of Python: the bits of a law that is built in, errors, several at a time, their cost."""
+"""Controllers that are functions of Python: the bits of a law that is built in, errors, several at a time."""
 
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Sequence
 
 import numpy as np
@@ -43,8 +42,6 @@ step = "50 ms"
 [output]
 rate = "4 Hz"
 """
-#: Beyond the function itself, s.
-CALL = 10e-6
 
 
 def damping(sample: precess.ControllerSample) -> list[float]:
@@ -128,23 +125,3 @@ def test_what_is_wrong_is_said() -> None:
 
     with pytest.raises(LookupError, match="lost"):
         scenario.run(controllers={"aocs": late})
-
-
-def test_a_call_costs_less_than_ten_microseconds() -> None:
-    values = {"run.duration": 20.0, "controller.aocs.rate": 1000.0, "controller.aocs.delay": 0.0}
-    scenario = precess.Scenario.from_text(BUS, set={**values, "run.step": 1e-3, "output.rate": 1.0})
-    answer = (0.0, 0.0, 0.0)
-
-    def least(run: object) -> float:
-        found = []
-        for _ in range(5):
-            begun = time.perf_counter()
-            run()  # type: ignore[operator]
-            found.append(time.perf_counter() - begun)
-        return min(found)
-
-    own = least(lambda: scenario.run(controllers={"aocs": lambda sample: answer}))
-    law = least(lambda: scenario.run())
-    each = (own - law) / 20_000
-    print(f"{each * 1e6:.2f} microseconds a call")
-    assert each < CALL
