@@ -28,6 +28,14 @@ pub struct Sample {
 }
 
 impl Plan {
+    /// The values of a sample with their labels, for a sentence: `device.rw.wheel.rate [rpm] = 600`.
+    #[must_use]
+    pub(crate) fn shown(&self, sample: usize) -> String {
+        let values = self.samples.get(sample).map_or(&[][..], |sample| &sample.values);
+        let pairs = self.labels.iter().zip(values);
+        pairs.map(|(label, value)| format!("{label} = {value}")).collect::<Vec<_>>().join(", ")
+    }
+
     /// Every combination of the values of some axes, the last axis fastest.
     ///
     /// # Errors

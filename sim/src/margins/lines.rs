@@ -10,6 +10,7 @@ use nalgebra::{Complex, DVector};
 use super::analysis::{ControlLoop, alias};
 use super::sampled::{Forced, at};
 use crate::structure::Fault;
+use crate::structure::accelerance::complex;
 
 /// A component that is slower than this share of the rate of the samples is constant: no motion that is seen.
 const CONSTANT: f64 = 1e-6;
@@ -112,13 +113,13 @@ impl ControlLoop {
         let period = self.samples.sampling.period;
         let z = Complex::from_polar(1.0, w * period);
         let feedback = self.with_all.feedback();
-        let [d, b, c] = [&feedback.d, &feedback.b, &feedback.c].map(super::plant::complex);
+        let [d, b, c] = [&feedback.d, &feedback.b, &feedback.c].map(complex);
         let [f, g, _] = self.with_all.plant().with_waiting();
         let mut right = DVector::zeros(self.with_all.state_matrix().nrows());
         let added = self.samples.driven_by(&self.plant, &forced);
         right.rows_mut(0, added.len()).copy_from(&added);
         let mut by_read = right.rows_mut(0, f.nrows());
-        by_read += super::plant::complex(&g) * (&d * &read);
+        by_read += complex(&g) * (&d * &read);
         right.rows_mut(f.nrows(), feedback.a.nrows()).copy_from(&(b * &read));
         let unbounded = || Fault::Unbounded { frequency: w };
         let found = at(z, self.with_all.state_matrix()).lu().solve(&right).ok_or_else(unbounded)?;
@@ -129,7 +130,7 @@ impl ControlLoop {
         let read = self.samples.read(&forced.states, &own);
         let torque = c * found.rows(f.nrows(), feedback.a.nrows()) + d * read;
         let motion = &forced.states + own.rows(0, self.plant.a.nrows());
-        let sampled = super::plant::complex(&self.plant.motion()) * motion;
+        let sampled = complex(&self.plant.motion()) * motion;
         let shown = alias(w / TAU, self.rate) * TAU;
         let rate = TAU * self.rate;
         let mut images: Vec<f64> = vec![w];

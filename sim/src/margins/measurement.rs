@@ -275,8 +275,8 @@ fn beside(first: &Feedback, second: &Feedback) -> Feedback {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "a whole number, of at most a million samples"
+    reason = "a whole number, of at most a million samples or servo times"
 )]
-fn whole(number: f64) -> usize {
-    number as usize
+pub(super) fn whole(number: f64) -> usize {
+    number.round() as usize
 }

@@ -12,7 +12,7 @@ use crate::jitter::campbell::{device_rows, matrices, node_rows};
 use crate::jitter::device::Steady;
 use crate::jitter::model::{Model, Output};
 use crate::scenario::{SampledController, Scenario};
-use crate::structure::accelerance::ComplexMatrix;
+use crate::structure::accelerance::complex;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::{COORDINATES, Fault};
 
@@ -369,9 +369,4 @@ fn beside(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     both.columns_mut(0, left.ncols()).copy_from(left);
     both.columns_mut(left.ncols(), right.ncols()).copy_from(right);
     both
-}
-
-/// As complex numbers.
-pub(super) fn complex(of: &DMatrix<f64>) -> ComplexMatrix {
-    of.map(|value| Complex::new(value, 0.0))
 }

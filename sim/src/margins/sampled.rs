@@ -16,10 +16,10 @@ use nalgebra::{Complex, DMatrix, DVector};
 use precess_control::{ControlError, Feedback, SampledPlant, Sampling, held_step};
 
 use super::MarginsError;
-use super::measurement::Measurement;
-use super::plant::{ControlledPlant, complex};
+use super::measurement::{Measurement, whole};
+use super::plant::ControlledPlant;
 use crate::scenario::SampledController;
-use crate::structure::accelerance::ComplexMatrix;
+use crate::structure::accelerance::{ComplexMatrix, complex};
 
 /// A number of periods or of servo times that is whole to within rounding.
 const WHOLE: f64 = 1e-9;
@@ -334,16 +334,6 @@ fn integral(w: f64, [from, to]: [f64; 2]) -> Complex<f64> {
     let u = w * half;
     let sinc = if u.abs() < 1e-6 { 1.0 - u * u / 6.0 } else { u.sin() / u };
     Complex::from_polar(2.0 * half * sinc, -w * middle)
-}
-
-/// A number that is whole and not negative.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number, of at most 100 periods or a million servo times"
-)]
-fn whole(number: f64) -> usize {
-    number.round() as usize
 }
 
 /// A complex matrix of a real one, for solutions at a z.

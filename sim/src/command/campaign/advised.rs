@@ -63,14 +63,7 @@ fn has_no_common_factor(a: usize, b: usize) -> bool {
 impl Advised {
     fn sentence(&self, plan: &Plan, looked_at: usize) -> String {
         let Self { advice, first, samples } = self;
-        let values = plan.samples.get(*first).map_or(&[][..], |sample| &sample.values);
-        let at: Vec<_> = plan
-            .labels
-            .iter()
-            .zip(values)
-            .map(|(label, value)| format!("{label} = {value}"))
-            .collect();
-        let at = at.join(", ");
+        let at = plan.shown(*first);
         let Diagnostic { message, help, .. } = advice.into();
         let of_how_many = match (advice.is_of_rates(), looked_at == plan.samples.len()) {
             (false, _) => String::new(),

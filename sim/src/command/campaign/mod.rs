@@ -303,14 +303,11 @@ pub(super) fn failures(plan: &Plan, finished: &Finished) -> String {
         .flatten()
         .filter_map(|row| row.result.as_ref().err().map(|error| (row.sample, error)));
     let Some((sample, error)) = failed.next() else { return String::new() };
-    let values = plan.samples.get(sample).map_or(&[][..], |sample| &sample.values);
-    let pairs = plan.labels.iter().zip(values);
-    let at: Vec<_> = pairs.map(|(label, value)| format!("{label} = {value}")).collect();
     format!(
         "{} of {} samples failed; the first is sample {sample}, {}: {error}\n",
         1 + failed.count(),
         plan.samples.len(),
-        at.join(", ")
+        plan.shown(sample)
     )
 }
 
