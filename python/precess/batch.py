@@ -275,8 +275,8 @@ class Batch:
         directions, matrices cost less.
         """
         y, base, u = self._given(states, inputs)
-        along = (None if of is None else table_of(name, of) for name, of in (("dx", dx), ("du", du)))
-        found, failures = self._native.jvp(y, base, *along, u, threads_of(threads))
+        dx, du = (None if of is None else table_of(name, of) for name, of in (("dx", dx), ("du", du)))
+        found, failures = self._native.jvp(y, base, dx, du, u, threads_of(threads))
         self._note(failures, [found])
         return found
 
