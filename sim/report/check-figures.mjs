@@ -53,7 +53,9 @@ function measure() {
   return found;
 }
 
-const browser = await chromium.launch({ executablePath, args: QUIET });
+// Beside compilers, a page loads late.
+const PATIENCE = 300_000;
+const browser = await chromium.launch({ executablePath, timeout: PATIENCE, args: QUIET });
 let faults = 0;
 let texts = 0;
 for (const page of pages) {
@@ -61,6 +63,7 @@ for (const page of pages) {
   const isFile = page.endsWith('.svg');
   for (const [width, javaScriptEnabled] of isFile ? [[1400, true]] : [[1400, false], [400, false], [400, true]]) {
     const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled });
+    context.setDefaultTimeout(PATIENCE);
     const tab = await context.newPage();
     await tab.goto(pathToFileURL(page).href);
     const found = await tab.evaluate(measure);

@@ -21,6 +21,8 @@ await mkdir(folder, { recursive: true });
 const QUIET = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-sandbox'];
 const WEBGL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+// Beside compilers, a page loads and an element answers late; a check that fails does not wait for this.
+const PATIENCE = 300_000;
 
 /** The page of the sample, filled in as the Rust program does. */
 async function samplePage() {
@@ -56,6 +58,7 @@ function check(condition, what) {
 /** A page that records messages and requests. */
 async function open(browser, settings) {
   const context = await browser.newContext({ deviceScaleFactor: 1, ...settings });
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage();
   page.noise = [];
   page.on('console', (message) => page.noise.push(`console: ${message.text()}`));
@@ -74,6 +77,10 @@ async function close(page, name) {
 }
 
 const shot = (page, name, full = false) => page.screenshot({ path: join(folder, `${name}.png`), fullPage: full });
+/** Waits for what happens after a while, for half a minute at most; what is checked then says whether it did. */
+async function until(holds) {
+  for (let i = 0; i < 300 && !await holds(); i += 1) await new Promise((done) => { setTimeout(done, 100); });
+}
 const frames = (page) => page.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))); }));
 const readTime = async (page) => Number((await page.locator('.bar .time').first().textContent()).replace('\u2212', '-').match(/-?[\d.]+/)[0]);
 const readRange = async (page) => (await page.locator('.bar .range').first().textContent()).replaceAll('\u2212', '-').match(/-?[\d.]+/g).map(Number);
@@ -209,9 +216,10 @@ async function keyboard(page) {
   await page.keyboard.press('0');
   await frames(page);
   check(String(await readRange(page)) === String(whole), '0 shows the whole run');
-  await page.waitForTimeout(450);
+  const unit = report.columns[report.charts[0].columns[0]].unit;
+  await until(async () => (await page.locator('[role=status]').textContent()).includes(unit));
   const said = await page.locator('[role=status]').textContent();
-  check(said.includes(report.columns[report.charts[0].columns[0]].unit) && / s\. /.test(said), `values are announced: ${said}`);
+  check(said.includes(unit) && / s\. /.test(said), `values are announced: ${said}`);
   const outline = await plot.evaluate((node) => getComputedStyle(node).outlineStyle);
   check(outline !== 'none', 'the chart with the focus has a ring');
   const described = await plot.getAttribute('aria-describedby');
@@ -263,7 +271,7 @@ async function replay(page, name) {
   await page.locator('#replay-stage select').nth(1).selectOption({ index: 0 });
   await set(0);
   await play.click();
-  await page.waitForTimeout(900);
+  await until(async () => await readTime(page) > report.start);
   await play.click();
   await frames(page);
   const played = await readTime(page);
@@ -315,7 +323,7 @@ async function printed(browser) {
 
 async function main() {
   const launch = async (more) => {
-    browsers.push(await chromium.launch({ executablePath, args: [...QUIET, ...more] }));
+    browsers.push(await chromium.launch({ executablePath, timeout: PATIENCE, args: [...QUIET, ...more] }));
     return browsers.at(-1);
   };
   const browser = await launch(WEBGL);

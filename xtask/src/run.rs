@@ -93,7 +93,7 @@ pub fn run_there(command: &mut Command) -> Result<(), String> {
 /// What a program prints in the folder that the command states, if it succeeds.
 ///
 /// # Errors
-/// The command that failed and all that it printed.
+/// The command that failed and all that it printed, which begins in the first line: that one is in the table of `test`.
 pub fn output(command: &mut Command) -> Result<String, String> {
     let line = shown(command);
     let output = command.output().map_err(|error| format!("`{line}` did not start: {error}"))?;
@@ -102,7 +102,8 @@ pub fn output(command: &mut Command) -> Result<String, String> {
         return Ok(text);
     }
     let errors = String::from_utf8_lossy(&output.stderr);
-    Err(format!("`{line}` failed ({}):\n{text}{errors}", output.status))
+    let printed = format!("{text}{errors}");
+    Err(format!("`{line}` failed ({}): {}", output.status, printed.trim_start()))
 }
 
 /// Whether a program is on this machine: it states its version.
