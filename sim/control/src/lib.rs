@@ -11,7 +11,7 @@
 //! - [`AnalogSection`], [`Section`], [`Filter`]: filters of second order, made discrete;
 //! - [`Gyro`], [`StarTracker`], [`Accelerometer`], [`Quantum`] (of tachometers and encoders), [`DelayLine`]: sensors, with
 //!   [`Noise`] by a seed;
-//! - [`SampledPlant`], [`Feedback`], [`SampledLoop`]: a linear loop with hold and delay, its margins and poles;
+//! - [`SampledPlant`], [`Feedback`], [`SampledLoop`], [`LoopCurve`]: a linear loop with hold and delay, its margins and poles;
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
 //! - [`MomentumDumping`]: an external torque;
 //! - [`rotation`]: quaternions as turns one after another.
@@ -105,6 +105,7 @@ pub use law::gyroscopic::Gyroscopic;
 pub use law::mrp::{MrpFeedback, MrpGains};
 pub use law::quaternion::QuaternionFeedback;
 pub use law::{Law, Sample};
+pub use linear::curve::LoopCurve;
 pub use linear::feedback::Feedback;
 pub use linear::margins::{AtFrequency, AxisMargins, delay_margin, longest_delay};
 pub use linear::plant::{Plant, SampledPlant, Sampling, held_step};

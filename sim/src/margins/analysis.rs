@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, DMatrix, Schur};
-use precess_control::{AtFrequency, AxisMargins, LoopResponse, SampledLoop, longest_delay};
+use precess_control::{
+    AtFrequency, AxisMargins, LoopCurve, LoopResponse, SampledLoop, longest_delay,
+};
 
 use super::MarginsError;
 use super::feedback::law_feedback;
@@ -177,7 +179,8 @@ impl ControlLoop {
     /// [`MarginsError`].
     pub fn analysis(&self, of: &SampledController) -> Result<LoopAnalysis, MarginsError> {
         let stable = self.closed.is_stable()?;
-        let mut axes = self.closed.margins()?;
+        let curve = self.closed.curve()?;
+        let mut axes = stable.then(|| curve.margins());
         for axis in axes.iter_mut().flatten() {
             axis.gain_down = axis.gain_down.filter(|of| of.value > GAIN_LEAST);
         }
@@ -185,11 +188,11 @@ impl ControlLoop {
         if stable {
             let own = |axis: usize| {
                 let of = |at: &LoopResponse| at.complementary.get((axis, axis)).map_or(0.0, norm);
-                self.closed.largest(of)
+                curve.largest(of)
             };
-            complementary = Some([own(0)?, own(1)?, own(2)?].to_vec());
+            complementary = Some([own(0), own(1), own(2)].to_vec());
             let of_t = |at: &LoopResponse| at.complementary.singular_values().max();
-            peaks = Some([self.closed.largest(LoopResponse::peak)?, self.closed.largest(of_t)?]);
+            peaks = Some([curve.largest(LoopResponse::peak), curve.largest(of_t)]);
         }
         let delay = longest_delay(self.samples.sampling, |delay| {
             let samples = ControlledSamples::new(&self.plant, of, delay)?;
@@ -198,7 +201,7 @@ impl ControlLoop {
         })?;
         let oscillations = self.oscillations();
         let (poles, neutral) = self.poles(&oscillations)?;
-        let points = self.points()?;
+        let points = self.points(&curve);
         let crossover = points.iter().filter(|at| at.open[0] >= 1.0).map(|at| at.omega);
         let periodic = match crossover.fold(0.0, f64::max) {
             omega if omega > 0.0 => Some(AtFrequency { value: self.plant.periodic(omega)?, omega }),
@@ -219,9 +222,8 @@ impl ControlLoop {
     }
 
     /// The curves.
-    fn points(&self) -> Result<Vec<LoopPoint>, MarginsError> {
-        let at = |omega: f64| {
-            let found = self.closed.response(omega)?;
+    fn points(&self, curve: &LoopCurve<'_>) -> Vec<LoopPoint> {
+        let at = |found: &LoopResponse| {
             let mut axes = [Complex::new(0.0, 0.0); 3];
             for (axis, to) in axes.iter_mut().enumerate() {
                 *to = found.axis(axis)?;
@@ -236,7 +238,7 @@ impl ControlLoop {
                     .map(|of| of.get((axis, axis)).map_or(0.0, norm))
             };
             Some(LoopPoint {
-                omega,
+                omega: found.omega,
                 axes,
                 loci,
                 open: [sizes.max(), sizes.min()],
@@ -245,8 +247,8 @@ impl ControlLoop {
             })
         };
         let lowest = LOWEST * self.closed.nyquist();
-        let shown = self.closed.frequencies()?.into_iter().filter(|omega| *omega >= lowest);
-        Ok(shown.filter_map(at).collect())
+        let shown = curve.responses().iter().filter(|found| found.omega >= lowest);
+        shown.filter_map(at).collect()
     }
 
     fn oscillations(&self) -> Vec<OpenOscillation> {

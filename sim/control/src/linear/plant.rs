@@ -12,6 +12,7 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use crate::linear::resolvent::Resolvent;
 use crate::model::error::{self, ControlError};
 
 /// A linear plant in continuous time, `x' = A x + B u`, `y = C x`.
@@ -149,12 +150,21 @@ impl SampledPlant {
         for k in 0..resolvent.nrows() {
             resolvent[(k, k)] += z;
         }
-        let late = z.inv();
-        let mut right = complex(&self.gamma_0) + complex(&self.gamma_1) * late;
-        for _ in 0..self.periods {
-            right *= late;
-        }
+        let [newer, older] = self.scales(z);
+        let right = complex(&self.gamma_0) * newer + complex(&self.gamma_1) * older;
         Some(complex(&self.c) * resolvent.lu().solve(&right)?)
+    }
+
+    /// `z^-m` and `z^(-m-1)`.
+    pub(super) fn scales(&self, z: Complex<f64>) -> [Complex<f64>; 2] {
+        let late = z.inv();
+        let newer = (0..self.periods).fold(Complex::new(1.0, 0.0), |all, _| all * late);
+        [newer, newer * late]
+    }
+
+    /// For [`Self::transfer`] at many z.
+    pub(super) fn reduced(&self) -> Resolvent {
+        Resolvent::new(&self.phi, &[&self.gamma_0, &self.gamma_1], &self.c)
     }
 
     /// One equation for the plant and the commands that wait: `x = [plant; u_k-1; ..; u_k-m-1]`, `x_k+1 = F x_k + G u_k`,

@@ -15,6 +15,7 @@ use crate::linear::eigenvalues::eigenvalues;
 use crate::linear::feedback::Feedback;
 use crate::linear::frequencies;
 use crate::linear::plant::SampledPlant;
+use crate::linear::resolvent::Resolvent;
 use crate::model::error::ControlError;
 
 /// A closed loop in discrete time.
@@ -90,7 +91,23 @@ impl SampledLoop {
     pub fn response(&self, omega: f64) -> Option<LoopResponse> {
         let angle = omega * self.plant.sampling().period;
         let z = Complex::new(libm::cos(angle), libm::sin(angle));
-        let open = -(self.feedback.transfer(z)? * self.plant.transfer(z)?);
+        self.response_of(omega, z, &self.plant.transfer(z)?)
+    }
+
+    /// The same with the plant reduced once.
+    pub(super) fn response_reduced(&self, plant: &Resolvent, omega: f64) -> Option<LoopResponse> {
+        let angle = omega * self.plant.sampling().period;
+        let z = Complex::new(libm::cos(angle), libm::sin(angle));
+        self.response_of(omega, z, &plant.at(z, &self.plant.scales(z))?)
+    }
+
+    fn response_of(
+        &self,
+        omega: f64,
+        z: Complex<f64>,
+        plant: &DMatrix<Complex<f64>>,
+    ) -> Option<LoopResponse> {
+        let open = -(self.feedback.transfer(z)? * plant);
         let unit = DMatrix::identity(open.nrows(), open.nrows());
         let sensitivity = (&unit + &open).try_inverse()?;
         let complementary = unit - &sensitivity;

@@ -153,6 +153,33 @@ fn coupled_axes_with_gains_in_proportion_are_alike() {
     assert!(all.value >= alone.value * (1.0 - CLOSED_FORM));
 }
 
+/// Three coupled axes with an oscillation and a delay: the response in Hessenberg form against a solution with the matrix itself.
+#[test]
+fn a_curve_has_the_responses_of_single_frequencies() {
+    const PERIOD: f64 = 0.1;
+    /// Rounding by `1 / (w T)²`, twice integrated, is 1e-12 at the lowest of these.
+    const REDUCED: f64 = 1e-9;
+    let inertia = DMatrix::from_row_slice(3, 3, &[9.0, -1.0, 2.0, -1.0, 7.0, 0.5, 2.0, 0.5, 8.0]);
+    let mut plant = turning(&inertia);
+    // A spring on the first axis of 1e4 times the other numbers; without damping its pole on the unit circle is a frequency at
+    // which neither response is exact.
+    (plant.a[(3, 0)], plant.a[(3, 3)]) = (-1e4, -4.0);
+    let plant = SampledPlant::new(&plant, Sampling { period: PERIOD, delay: 0.24 });
+    let gains = [0.8, 1.4, 0.1].map(|gain| &inertia * gain);
+    let feedback = Feedback::pid([&gains[0], &gains[1], &gains[2]], PERIOD);
+    let closed = SampledLoop::new(plant.expect("plant"), feedback).expect("loop");
+    let curve = closed.curve().expect("poles");
+    let above = |at: &&crate::LoopResponse| at.omega * PERIOD > 0.01;
+    let mut count = 0;
+    for found in curve.responses().iter().filter(above) {
+        let expected = closed.response(found.omega).expect("no pole").open;
+        let apart = (&found.open - &expected).norm() / expected.norm();
+        assert!(apart < REDUCED, "{}: {apart:e}", found.omega);
+        count += 1;
+    }
+    assert!(count > 200, "{count}");
+}
+
 /// A delay within the matrices, and a delay beside them.
 #[test]
 fn a_plant_of_its_matrices_is_the_same_loop() {
