@@ -1,13 +1,10 @@
 // Measures the texts of every figure of given pages in Chromium, at two widths: each is inside its figure, and no two
-// overlap. Themes change colours and move nothing. Pages that scroll sideways are named, too. CHROMIUM names the browser where it is not at
-// /usr/bin/chromium.
+// overlap. Themes change colours and move nothing. Pages that scroll sideways are named, too.
 
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { contextOf, launch } from './browser.mjs';
 
 const pages = process.argv.slice(2);
-const QUIET = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-sandbox'];
-const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Runs in the page: what is wrong with the texts of its figures, and how many there are. */
 function measure() {
@@ -53,17 +50,14 @@ function measure() {
   return found;
 }
 
-// Beside compilers, a page loads late.
-const PATIENCE = 300_000;
-const browser = await chromium.launch({ executablePath, timeout: PATIENCE, args: QUIET });
+const browser = await launch();
 let faults = 0;
 let texts = 0;
 for (const page of pages) {
   // A file of its own is not laid out. Of a page, the figures are measured that charts replace where scripts run: they are printed.
   const isFile = page.endsWith('.svg');
   for (const [width, javaScriptEnabled] of isFile ? [[1400, true]] : [[1400, false], [400, false], [400, true]]) {
-    const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled });
-    context.setDefaultTimeout(PATIENCE);
+    const context = await contextOf(browser, { viewport: { width, height: 900 }, javaScriptEnabled });
     const tab = await context.newPage();
     await tab.goto(pathToFileURL(page).href);
     const found = await tab.evaluate(measure);

@@ -1,6 +1,5 @@
 // Opens a report in Chromium and checks what it does; see build.mjs for the commands. Without --page,
 // the page is made from sample.mjs. Screenshots go to the folder of --out, else to a temporary one; it is printed.
-// CHROMIUM names the browser where it is not at /usr/bin/chromium.
 
 import assert from 'node:assert/strict';
 import { mkdir, mkdtemp, readFile, writeFile } from 'node:fs/promises';
@@ -9,7 +8,7 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import nunjucks from 'nunjucks';
-import { chromium } from 'playwright-core';
+import { contextOf, launch } from './browser.mjs';
 import { bucketValues, decode, pointValues } from './check-data.mjs';
 import { sampleContext, sampleData } from './sample.mjs';
 
@@ -18,11 +17,7 @@ const { values: options } = parseArgs({ options: { page: { type: 'string' }, out
 const folder = options.out ?? await mkdtemp(join(tmpdir(), 'precess-report-'));
 await mkdir(folder, { recursive: true });
 
-const QUIET = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-sandbox'];
 const WEBGL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
-// Beside compilers, a page loads and an element answers late; a check that fails does not wait for this.
-const PATIENCE = 300_000;
 
 /** The page of the sample, filled in as the Rust program does. */
 async function samplePage() {
@@ -57,8 +52,7 @@ function check(condition, what) {
 
 /** A page that records messages and requests. */
 async function open(browser, settings) {
-  const context = await browser.newContext({ deviceScaleFactor: 1, ...settings });
-  context.setDefaultTimeout(PATIENCE);
+  const context = await contextOf(browser, { deviceScaleFactor: 1, ...settings });
   const page = await context.newPage();
   page.noise = [];
   page.on('console', (message) => page.noise.push(`console: ${message.text()}`));
@@ -322,11 +316,11 @@ async function printed(browser) {
 }
 
 async function main() {
-  const launch = async (more) => {
-    browsers.push(await chromium.launch({ executablePath, timeout: PATIENCE, args: [...QUIET, ...more] }));
+  const started = async (more) => {
+    browsers.push(await launch(more));
     return browsers.at(-1);
   };
-  const browser = await launch(WEBGL);
+  const browser = await started(WEBGL);
   for (const width of [1280, 360]) {
     for (const colorScheme of ['light', 'dark']) {
       const name = `${width}-${colorScheme}`;
@@ -368,7 +362,7 @@ async function main() {
   await still(browser);
   await printed(browser);
 
-  const blind = await launch(['--disable-gpu', '--disable-3d-apis', '--disable-software-rasterizer']);
+  const blind = await started(['--disable-gpu', '--disable-3d-apis', '--disable-software-rasterizer']);
   const page = await open(blind, { viewport: { width: 1280, height: 900 } });
   if (report.replay) check(await page.locator('.replay-missing').isVisible(), 'a sentence says that WebGL is missing');
   if (report.charts.length > 0) {

@@ -33,6 +33,7 @@ pub struct AxisMargins {
 const PER_PERIOD: f64 = 8.0;
 /// The longest delay looked at, in periods.
 const LONGEST: f64 = 32.0;
+
 impl SampledLoop {
     /// Margins of each command, crossings refined to rounding between [`Self::frequencies`]; none of a loop that is not
     /// stable.

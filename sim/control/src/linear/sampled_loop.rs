@@ -89,16 +89,20 @@ impl SampledLoop {
     /// At an angular frequency, rad/s; none at a pole of plant, feedback or closed loop.
     #[must_use]
     pub fn response(&self, omega: f64) -> Option<LoopResponse> {
-        let angle = omega * self.plant.sampling().period;
-        let z = Complex::new(libm::cos(angle), libm::sin(angle));
+        let z = self.z(omega);
         self.response_of(omega, z, &self.plant.transfer(z)?)
     }
 
     /// The same with the plant reduced once.
     pub(super) fn response_reduced(&self, plant: &Resolvent, omega: f64) -> Option<LoopResponse> {
-        let angle = omega * self.plant.sampling().period;
-        let z = Complex::new(libm::cos(angle), libm::sin(angle));
+        let z = self.z(omega);
         self.response_of(omega, z, &plant.at(z, &self.plant.scales(z))?)
+    }
+
+    /// `e^(i w T)`.
+    fn z(&self, omega: f64) -> Complex<f64> {
+        let angle = omega * self.plant.sampling().period;
+        Complex::new(libm::cos(angle), libm::sin(angle))
     }
 
     fn response_of(
