@@ -3,8 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::linearization::columns_of;
-use crate::derivatives::loads::by_loads::{ByLoads, are_finite};
+use crate::derivatives::loads::by_loads::ByLoads;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree::by_tree::ByTree;
 use crate::derivatives::variable::Variable;
@@ -41,17 +40,9 @@ impl<T: Scalar> Emitted<T> {
         variables: &[Variable],
         into: &mut DMatrix<T>,
     ) -> Result<(), usize> {
-        let of_tree = match self {
-            Self::OnHub(found) => return found.columns(variables, into),
-            Self::OfTree(found) => found,
-        };
-        for (number, (variable, column)) in variables.iter().zip(columns_of(into)).enumerate() {
-            let Some((of_hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
-            *of_hub = of_tree.column(*variable, joints);
-            if !are_finite(column) {
-                return Err(number);
-            }
+        match self {
+            Self::OnHub(found) => found.columns(variables, into),
+            Self::OfTree(found) => found.columns(variables, into),
         }
-        Ok(())
     }
 }

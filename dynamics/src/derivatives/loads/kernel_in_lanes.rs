@@ -105,3 +105,64 @@ fn write<K: Kind, T: Number, const WIDTH: usize>(
 fn within<U: Scalar, T: Number>(like: T, mount: &Columns<T>, v: Vec3<U>) -> Vec3<T> {
     rotate_transposed(mount, map(v, |number| like.like(number.to_f64())))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+
+    use crate::equations::side_by_side::registers::Registers;
+    use crate::numbers::each::{Each, JointStates};
+    use crate::{Devices, Dgvscmg, Hub, Inputs, Outputs, Spacecraft, State};
+
+    type One = [Dgvscmg; 1];
+
+    fn device(number: u8) -> Dgvscmg {
+        let k = f64::from(number);
+        let inertia = Matrix3::new(0.2, 0.001, -0.002, 0.001, 0.11, 0.003, -0.002, 0.003, 0.12);
+        Dgvscmg {
+            mount: Rotation3::from_euler_angles(0.7 * k, 0.3, -0.2 * k).into_inner(),
+            r_go_b: Vector3::new(0.3, 0.1 * k, 0.5),
+            l_o: Vector3::new(0.02, 0.01, -0.03),
+            m_gi: 0.9,
+            i_gi_gic: inertia * 0.3,
+            d: 0.001,
+            ..Dgvscmg::bare_wheel(4.0, inertia)
+        }
+    }
+
+    /// The matrices of a hub with these devices.
+    fn matrices<D: Devices<Scalar = f64> + crate::set::WithNumbers>(
+        devices: &D,
+    ) -> [DMatrix<f64>; 4] {
+        let hub = Hub { m_b: 80.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 9.0 };
+        let craft = Spacecraft::new(&hub, devices).unwrap();
+        let (mut state, mut inputs) =
+            (State::<D>::at_rest_for(&craft), Inputs::<D>::none_for(&craft));
+        state.omega = Vector3::new(0.1, -0.2, 0.3);
+        let mut k = 0.0;
+        for [coordinate, rate] in state.devices.states_mut() {
+            (*coordinate, *rate) = (0.3 * k - 0.5, 2.0 - k);
+            k += 1.0;
+        }
+        for motor in inputs.motors.values_mut() {
+            *motor = 0.1 * k - 0.2;
+            k -= 1.0;
+        }
+        let found = craft.linearize(&state, &inputs, &Outputs::accelerations()).unwrap();
+        [found.a, found.b, found.c, found.d]
+    }
+
+    #[test]
+    fn devices_side_by_side_have_the_bits_of_one_after_another() {
+        let devices = [0, 1, 2, 3].map(device);
+        let hub = Hub { m_b: 80.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 9.0 };
+        let craft = Spacecraft::new(&hub, &devices).unwrap();
+        let [first, ..] = &craft.devices;
+        assert_eq!(first.group.is_some(), Registers::widest().is_some());
+        let [a, b, c, d] = devices;
+        // Sets of one device each: no row, and so no group.
+        let apart: (One, One, One, One) = ([a], [b], [c], [d]);
+        let bits = |of: [DMatrix<f64>; 4]| of.map(|of| of.map(f64::to_bits));
+        assert_eq!(bits(matrices(&devices)), bits(matrices(&apart)));
+    }
+}

@@ -31,6 +31,21 @@ impl<T: Scalar> Changes<T> {
         }
     }
 
+    /// Nothing.
+    pub(crate) fn clear(&mut self) {
+        self.motions.fill(None);
+        self.loads.fill([zeros(); 2]);
+        self.joints.fill(zero());
+        self.modes.fill(zero());
+        self.given = [zeros(); 2];
+    }
+
+    /// The loads of the hub, of the modes and of the joints.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = T> {
+        let hub = self.loads.first().into_iter().flatten().flatten();
+        hub.chain(&self.modes).chain(&self.joints).copied()
+    }
+
     /// The motion of a base changes by this, too.
     pub(crate) fn moves(&mut self, base: usize, by: &BaseMotion<T>) {
         if let Some(to) = self.motions.get_mut(base) {

@@ -11,3 +11,4 @@ pub(crate) mod mass_matrix;
 pub(crate) mod members;
 pub(crate) mod modal_columns;
 pub(crate) mod system;
+pub(crate) mod variables;

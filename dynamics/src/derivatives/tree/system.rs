@@ -3,8 +3,11 @@
 //! Each row has elements only in the columns of its ancestors: the joints inboard of it, and the hub. Eliminated from the
 //! tips inwards it stays so, at any depth of carriers.
 
+#![expect(clippy::inline_always, reason = "part of a loop over rows")]
+
 use alloc::vec::Vec;
 
+use crate::derivatives::loads::side_by_side::{TOGETHER, add_product};
 use crate::numbers::real::{Scalar, one, zero};
 
 /// The rows from the hub's on, each after its ancestors.
@@ -18,6 +21,8 @@ pub(crate) struct TreeSystem<T> {
 pub(crate) struct Row<T> {
     /// The rows of its ancestors, from the first on.
     path: Vec<usize>,
+    /// How many of these are the first rows of all, one after another.
+    first: usize,
     /// Its elements in their columns.
     entries: Vec<T>,
     /// Its diagonal, then the reciprocal of its pivot.
@@ -37,7 +42,8 @@ impl<T: Scalar> TreeSystem<T> {
             path.extend(row.path.iter().copied().chain([parent]));
         }
         let entries = alloc::vec![zero(); path.len()];
-        self.rows.push(Row { path, entries, diagonal: zero(), free });
+        let first = path.iter().enumerate().take_while(|(place, row)| place == *row).count();
+        self.rows.push(Row { path, first, entries, diagonal: zero(), free });
     }
 
     /// The number of rows.
@@ -66,7 +72,7 @@ impl<T: Scalar> TreeSystem<T> {
     pub(crate) fn factorise(&mut self) {
         for k in (0..self.rows.len()).rev() {
             let (ancestors, rest) = self.rows.split_at_mut(k);
-            let Some(Row { path, entries, diagonal, free }) = rest.first_mut() else { return };
+            let Some(Row { path, entries, diagonal, free, .. }) = rest.first_mut() else { return };
             if !*free {
                 *diagonal = one();
                 continue;
@@ -86,33 +92,55 @@ impl<T: Scalar> TreeSystem<T> {
         }
     }
 
-    /// `M⁻¹` times numbers, in their place; zero in rows that are not free.
-    pub(crate) fn solve(&self, numbers: &mut [T]) {
+    /// `M⁻¹` times numbers, in their place, some columns side by side; zero in rows that are not free.
+    pub(crate) fn solve(&self, numbers: &mut [[T; TOGETHER]]) {
         for (k, row) in self.rows.iter().enumerate().rev() {
             let (ancestors, rest) = numbers.split_at_mut(k.min(numbers.len()));
             let Some(own) = rest.first_mut() else { continue };
             if !row.free {
-                *own = zero();
+                *own = [zero(); TOGETHER];
             }
-            if own.vanishes() {
+            if own.iter().all(|number| number.vanishes()) {
                 continue;
             }
-            for (ancestor, entry) in row.path.iter().zip(&row.entries) {
+            let (first, last, entries) = row.split(ancestors.len());
+            let ((of_first, of_last), own) = (entries, *own);
+            for (to, entry) in ancestors.iter_mut().zip(of_first).take(first) {
+                add_product(to, -*entry, &own);
+            }
+            for (ancestor, entry) in last.iter().zip(of_last) {
                 if let Some(to) = ancestors.get_mut(*ancestor) {
-                    *to = *to - *entry * *own;
+                    add_product(to, -*entry, &own);
                 }
             }
         }
         for (k, row) in self.rows.iter().enumerate() {
             let (ancestors, rest) = numbers.split_at_mut(k.min(numbers.len()));
             let Some(own) = rest.first_mut() else { continue };
-            let mut sum = *own * row.diagonal;
-            for (ancestor, entry) in row.path.iter().zip(&row.entries) {
+            let mut sum = *own;
+            for number in &mut sum {
+                *number = *number * row.diagonal;
+            }
+            let (first, last, (of_first, of_last)) = row.split(ancestors.len());
+            for (of, entry) in ancestors.iter().zip(of_first).take(first) {
+                add_product(&mut sum, -*entry, of);
+            }
+            for (ancestor, entry) in last.iter().zip(of_last) {
                 if let Some(of) = ancestors.get(*ancestor) {
-                    sum = sum - *entry * *of;
+                    add_product(&mut sum, -*entry, of);
                 }
             }
             *own = sum;
         }
+    }
+}
+
+impl<T> Row<T> {
+    /// How many ancestors are the first rows of all, the others, and the elements of both.
+    #[inline(always)]
+    fn split(&self, rows: usize) -> (usize, &[usize], (&[T], &[T])) {
+        let first = self.first.min(rows);
+        let (_, last) = self.path.split_at_checked(first).unwrap_or_default();
+        (first, last, self.entries.split_at_checked(first).unwrap_or_default())
     }
 }
