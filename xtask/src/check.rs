@@ -29,6 +29,12 @@ pub(crate) fn lint() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     let all = ["--workspace", "--all-targets", "--all-features"];
     cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
+    // Without the emitted derivatives: by itself as on board, with a heap, and in lanes.
+    for features in ["", "alloc", "avx512,threads"] {
+        let solver = ["--package", "precess-dynamics", "--no-default-features"];
+        let options = [&solver[..], &["--features", features, "--", "--deny", "warnings"]].concat();
+        cargo(&[&["clippy", "--quiet"][..], &options].concat())?;
+    }
     cargo(&["fmt", "--all", "--check", "--manifest-path", MANIFEST])?;
     let folder = target()?.join("flight");
     let options = ["--manifest-path", MANIFEST, "--target-dir", &folder.to_string_lossy()];

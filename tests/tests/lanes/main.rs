@@ -2,6 +2,7 @@
 //! threads, errors; and what is promised of every service, those in lanes among them.
 
 mod batch;
+mod derivatives;
 mod loads;
 mod locked;
 #[path = "../dynamics/locked_gyros.rs"]
