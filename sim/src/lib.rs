@@ -5,7 +5,7 @@
 //!                                                    \--report--> page and figures
 //! ```
 //!
-//! A [`scenario::Scenario`] is read from TOML ([`file`]) or built by a program, run by [`engine::run`]
+//! A [`scenario::Scenario`] is read from TOML ([`mod@file`]) or built by a program, run by [`engine::run`]
 //! into any [`record::Recorder`], and shown by [`report::Report`]; [`evaluation`] evaluates its spacecraft
 //! at any state. The commands are in [`command`].
 //! [`spectra`] and [`pointing`] are of any sampled signal, recorded or measured.

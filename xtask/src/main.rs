@@ -1,4 +1,4 @@
-//! The workbench: one short file per command, and two programs for those that link much, built when they are called
+//! The workbench: one short file per command, and three programs for those that link much, built when they are called
 //! for.
 
 mod accuracy;
@@ -21,7 +21,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use xtask::capi;
 
-use program::{DERIVE, DISTRIBUTE, Program};
+use program::{DERIVE, DISTRIBUTE, Program, SITE};
 
 /// The workbench of Precess.
 #[derive(Parser)]
@@ -95,6 +95,9 @@ enum Command {
     /// Build the wheel of the Python package, install it in an environment of its own, run its tests
     #[command(disable_help_flag = true)]
     Python(Forwarded),
+    /// Write documents, references and notebooks as one folder of pages that need no network
+    #[command(disable_help_flag = true)]
+    Site(Forwarded),
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -137,6 +140,7 @@ fn main() -> ExitCode {
         Command::Capi => capi::host(),
         Command::Dist(arguments) => arguments.run(DISTRIBUTE, "dist"),
         Command::Python(arguments) => arguments.run(DISTRIBUTE, "python"),
+        Command::Site(arguments) => arguments.run(SITE, "site"),
         Command::Demo => demo::demo(),
     })
 }

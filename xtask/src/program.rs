@@ -19,6 +19,8 @@ pub(crate) const DERIVE: Program = Program { package: "precess-derive", name: "d
 /// `flight`, `dist` and `python`: reads object files, packs.
 pub(crate) const DISTRIBUTE: Program =
     Program { package: "precess-distribute", name: "distribute" };
+/// `site`: sets Markdown and formulas.
+pub(crate) const SITE: Program = Program { package: "precess-site", name: "site" };
 
 impl Program {
     /// The program with this command.
@@ -26,6 +28,7 @@ impl Program {
         match command {
             "regen" | "bake" | "mutate" => Some(DERIVE),
             "flight" | "dist" | "python" => Some(DISTRIBUTE),
+            "site" => Some(SITE),
             _ => None,
         }
     }

@@ -7,7 +7,7 @@
 //! - [`mutation`]: each operand of the emitted functions made wrong, against conservation laws,
 //!   differences and other engines;
 //! - [`notation`]: names, equations and units as LaTeX;
-//! - [`report`]: the documents, as Markdown and HTML.
+//! - [`report`]: the documents, as Markdown.
 
 pub mod consequence;
 pub mod mutation;

@@ -143,7 +143,7 @@ pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
     let verdicts = verdicts?;
     rows.extend(verdicts.rows.iter().cloned());
     files.extend(documents?);
-    files.extend(report::kinds(&told)?);
+    files.push(report::kinds(&told)?);
     files.extend(report::errata(pages, printed, &verdicts)?);
     Ok(Regeneration { files, rows, verdicts })
 }

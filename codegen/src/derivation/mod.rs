@@ -6,7 +6,7 @@
 //!   joints' axes can be parallel;
 //! - [`quantities`]: the paper's quantities of each body and of the system's centre of mass. Below it, by the same
 //!   names: `angular_momenta` (20) to (76) and `motor_torques` (77) to (121);
-//! - [`reference`]: mass matrix and bias as sums over bodies, by plain differentiation in B, for the proofs. Below it:
+//! - [`mod@reference`]: mass matrix and bias as sums over bodies, by plain differentiation in B, for the proofs. Below it:
 //!   wrenches applied to the bodies, exerted by parent bodies, and of a field; [`reference::boltzmann_hamel`], the same
 //!   once more from the kinetic energy only;
 //! - [`recursions`] in local frames, each emitted by its own name: `composite` (as `first_moment` and

@@ -57,7 +57,7 @@ pub(super) fn substitutions<'g>(
 /// `components` in the special case.
 ///
 /// # Errors
-/// As [`substitutions`].
+/// As `substitutions`.
 pub fn in_the_case<'g>(
     graph: &'g Graph,
     given: &[(String, String)],

@@ -1,4 +1,4 @@
-//! Scenario files: TOML text into a [`Scenario`], or into every error at once.
+//! Scenario files: TOML text into a [`Scenario`](crate::scenario::Scenario), or into every error at once.
 //!
 //! ```text
 //! text -> document (keys and values with their places) -> includes and overrides merged

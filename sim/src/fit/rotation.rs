@@ -6,7 +6,7 @@
 //!
 //! With an index pulse the polynomial is that of least squares through whole turns at the pulses, and
 //! phases count from the index. Without, the angle is zero at the middle and phases have no meaning
-//! between records. Speed and drift are corrected by the lines themselves ([`super::orders`]), within what the
+//! between records. Speed and drift are corrected by the lines themselves (`orders`), within what the
 //! scatter of the pulses, or the stated accuracy of the speed, leaves open.
 
 use std::f64::consts::TAU;

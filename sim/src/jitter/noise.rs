@@ -1,5 +1,5 @@
 //! [`NoiseSweep`]: densities of lines of sight by broadband noise, at some speeds, and their integrals over frequency
-//! ([`intervals`](super::intervals)). Between speeds the mean square is a straight line of logarithms.
+//! (`intervals`). Between speeds the mean square is a straight line of logarithms.
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Quantities with written units: `4 kg`, `6000 rpm`, `32 g cm`, `-0.02, 0.01, 10 cm`.
 //!
-//! A unit is a product of powers of the symbols of [`symbols`], and what a key wants is a
+//! A unit is a product of powers of the symbols of `symbols`, and what a key wants is a
 //! [`Measure`]: a dimension and the unit that an error names. The plane angle is a
 //! dimension of its own, so an angular rate in hertz is an error and not a factor of 2 pi; so are hertz within any
 //! other unit of a rate, `N/Hz^2`. What data sheets write is read where it has one reading.

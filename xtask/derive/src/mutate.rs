@@ -15,7 +15,7 @@ use xtask::files::{differing, write};
 use xtask::run::root;
 use xtask::say;
 
-use crate::pages::{committed, read_pages, read_texts, texts};
+use crate::pages::{read_pages, read_texts, texts};
 use crate::regen::PAGES;
 
 /// The file of the engines' stored values.
@@ -87,15 +87,15 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
     let pages = root().join(PAGES);
     let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
     let verdicts = verdicts.map_err(|error| error.to_string())?;
-    let mut files = report::mutation(reports).map_err(|error| error.to_string())?;
+    let page = report::mutation(reports).map_err(|error| error.to_string())?;
+    let mut files: Vec<_> = page.into_iter().collect();
     for report in reports.iter().filter(|report| report.kind.name == DGVSCMG.name) {
         let traces = traceability(&verdicts, report, &sources()?);
-        files.extend(traces.map_err(|error| error.to_string())?);
+        files.push(traces.map_err(|error| error.to_string())?);
     }
     if !check {
         return write(texts(&files), &root());
     }
-    let files = committed(files);
     let (stale, all) = (differing(texts(&files), &root()), files.len());
     if stale > 0 {
         return Err(format!("{stale} of {all} pages are stale; run `cargo xtask mutate`"));

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
-use precess_review::report::BUILT;
 use xtask::files::{File, read_files};
 
 /// The pages of a folder by name; its README describes them and is none.
@@ -21,12 +20,6 @@ pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
 pub(crate) fn read_texts(folder: &Path, ending: &str) -> Result<Vec<Page>, String> {
     let files = read_files(folder, ending)?;
     Ok(files.into_iter().map(|(name, text)| Page { name, text }).collect())
-}
-
-/// Those of the files that are committed, and so can be stale; pages for a browser are only built.
-pub(crate) fn committed(mut files: Vec<EmittedFile>) -> Vec<EmittedFile> {
-    files.retain(|file| !file.path.starts_with(BUILT));
-    files
 }
 
 /// Path and text of each.

@@ -8,7 +8,7 @@ use xtask::run::root;
 use super::suites::{How, Suite, When};
 
 /// The packages of the suites and their folders.
-const FOLDERS: [(&str, &str); 20] = [
+const FOLDERS: [(&str, &str); 21] = [
     ("precess-codegen", "codegen"),
     ("precess-bake", "codegen/bake"),
     ("precess-description", "codegen/description"),
@@ -27,6 +27,7 @@ const FOLDERS: [(&str, &str); 20] = [
     ("precess", "sim"),
     ("xtask", "xtask"),
     ("precess-distribute", "xtask/distribute"),
+    ("precess-site", "xtask/site"),
     ("precess-lanes", "sim/lanes"),
     ("precess-point-masses", "tests/point_masses"),
 ];
@@ -96,6 +97,7 @@ fn command(name: &str) -> &'static str {
         "flight" => "boards print the bits of this machine, and pass the gates; the C library",
         "python" => "the wheel is built, installed and tested",
         "reports" => "the built report is that of its sources, and works in a browser",
+        "site" => "the documents become pages without a dead link, which a browser walks",
         _ => "",
     }
 }

@@ -28,7 +28,7 @@ use xtask::say;
 
 use crate::measured::of_children;
 use crate::members::Members;
-use crate::program::{DERIVE, DISTRIBUTE};
+use crate::program::{DERIVE, DISTRIBUTE, SITE};
 use outcome::Outcome;
 use programs::Program;
 use queue::{Job, Queue, held};
@@ -179,7 +179,7 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
 
 /// Builds the programs of the commands, so that whoever waits sees cargo's progress.
 fn built_for(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<(), String> {
-    [DERIVE, DISTRIBUTE].into_iter().try_for_each(|program| {
+    [DERIVE, DISTRIBUTE, SITE].into_iter().try_for_each(|program| {
         let needs = |suite: &&Suite| {
             matches!(suite.how, How::Command(words) if program.is_needed_by(words[0]))
         };

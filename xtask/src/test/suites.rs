@@ -307,6 +307,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("xtask", "lib", &[&["xtask/src"]]),
     always("xtask", "bin", &[&["xtask/src", "xtask/features", "Cargo.toml"]]),
     all("precess-distribute", "bin", &[&["xtask/src", "xtask/distribute"]]),
+    always("precess-site", "bin", &[&["xtask/src", "xtask/site"]]),
     Suite { how: How::Documentation, when: When::Always, broken_by: &[SOLVER, DESKTOP, GENERATOR] },
     // What is built for others, in build folders of its own; then what waits for cargo in the common one.
     command(
@@ -320,6 +321,22 @@ pub(crate) const SUITES: &[Suite] = &[
         &["python", "--quick"],
         When::All,
         &[SOLVER, LANES, DESKTOP, &["sim/lanes", "python", "xtask/distribute"]],
+    ),
+    command(
+        &["site", "--check"],
+        When::All,
+        &[
+            DESKTOP,
+            SOLVER,
+            &[
+                "docs",
+                "python/precess",
+                "python/notebooks",
+                "flight/capi/include",
+                "xtask/site",
+                "sim/report",
+            ],
+        ],
     ),
     command(&["instructions", "--check"], When::All, &[SOLVER, LANES, &["tests/counts", "docs"]]),
     command(

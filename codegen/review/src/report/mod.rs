@@ -1,11 +1,10 @@
-//! The documents that are generated with the code: Markdown, and the same as self-contained HTML.
+//! The documents that are generated with the code, as Markdown.
 
 mod balance;
 mod derivation;
 mod errata;
 mod figures;
 mod frames;
-mod html;
 mod kinds;
 mod mutation;
 mod traceability;
@@ -16,7 +15,6 @@ use std::fmt;
 use balance::Balance;
 pub use derivation::NotationError;
 use figures::Figures;
-pub use html::HtmlError;
 pub use kinds::KindText;
 pub use mutation::mutation;
 use tera::{Context, Tera};
@@ -30,16 +28,11 @@ use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::page::{Block, Page, PageError};
 
-/// Where files are that are built and not committed, from the repository's root.
-pub const BUILT: &str = "target/";
-
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.
 #[derive(Debug)]
 pub enum ReportError {
     /// Something cannot be set as mathematics.
     Notation(NotationError),
-    /// A page has no HTML.
-    Html(HtmlError),
     /// A template failed.
     Template(tera::Error),
     /// A page cannot be read.
@@ -52,7 +45,6 @@ impl fmt::Display for ReportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Notation(error) => error.fmt(f),
-            Self::Html(error) => error.fmt(f),
             Self::Template(error) => write!(f, "template: {error}"),
             Self::Page(error) => error.fmt(f),
             Self::Consequence(error) => error.fmt(f),
@@ -65,12 +57,6 @@ impl std::error::Error for ReportError {}
 impl From<NotationError> for ReportError {
     fn from(error: NotationError) -> Self {
         Self::Notation(error)
-    }
-}
-
-impl From<HtmlError> for ReportError {
-    fn from(error: HtmlError) -> Self {
-        Self::Html(error)
     }
 }
 
@@ -101,20 +87,19 @@ pub fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Vec<EmittedFile
     context.insert("derivation", &derivation::derivation(chain, blocks)?);
     let template = include_str!("templates/derivation.md.tera");
     let picture = frames::drawing(chain);
-    let mut files = document("docs/derivation", template, &context, &[("frames.svg", &picture)])?;
-    files.push(EmittedFile { path: "docs/frames.svg".to_owned(), text: picture });
-    Ok(files)
+    let page = document("docs/derivation", template, &context)?;
+    Ok(vec![page, EmittedFile { path: "docs/frames.svg".to_owned(), text: picture }])
 }
 
 /// The kinds: chains, symbols, what is zero, costs.
 ///
 /// # Errors
 /// When a symbol cannot be set.
-pub fn kinds(kinds: &[KindText]) -> Result<Vec<EmittedFile>, ReportError> {
+pub fn kinds(kinds: &[KindText]) -> Result<EmittedFile, ReportError> {
     let mut context = Context::new();
     context.insert("kinds", kinds);
     context.insert("costs", &kinds::Costs::of_kinds(kinds));
-    document("docs/kinds", include_str!("templates/kinds.md.tera"), &context, &[])
+    document("docs/kinds", include_str!("templates/kinds.md.tera"), &context)
 }
 
 /// The errata of the paper: what is printed, what is right, and what the difference does; and the
@@ -135,9 +120,7 @@ pub fn errata(
     context.insert("errata", &errata::errata(verdicts, &figures, &balance)?);
     let [errata, letter] =
         [include_str!("templates/errata.md.tera"), include_str!("templates/letter.md.tera")];
-    let mut files = document("docs/errata", errata, &context, &[])?;
-    files.extend(document("docs/letter", letter, &context, &[])?);
-    Ok(files)
+    Ok(vec![document("docs/errata", errata, &context)?, document("docs/letter", letter, &context)?])
 }
 
 /// From each equation to the line, the page, the code and the laws that see it wrong; `sources` are
@@ -149,11 +132,11 @@ pub fn traceability(
     verdicts: &Verdicts,
     report: &Report,
     sources: &[Page],
-) -> Result<Vec<EmittedFile>, ReportError> {
+) -> Result<EmittedFile, ReportError> {
     let mut context = Context::new();
     context.insert("trace", &traceability::traceability(verdicts, report, sources));
     let template = include_str!("templates/traceability.md.tera");
-    document("docs/traceability", template, &context, &[])
+    document("docs/traceability", template, &context)
 }
 
 /// The pages that work an equation out, each once.
@@ -169,20 +152,11 @@ fn page_links(entry: &Entry) -> String {
     pages.join(", ")
 }
 
-/// A document as Markdown, which is committed, and as HTML for a browser, which is not.
-fn document(
-    path: &str,
-    template: &str,
-    context: &Context,
-    pictures: &[(&str, &str)],
-) -> Result<Vec<EmittedFile>, ReportError> {
+/// A document.
+fn document(path: &str, template: &str, context: &Context) -> Result<EmittedFile, ReportError> {
     let mut tera = Tera::default();
     tera.autoescape_on(Vec::<&str>::new());
     tera.add_raw_template("document", template)?;
     let text = tera.render("document", context)?;
-    let page = html::html(&text, pictures)?;
-    Ok(vec![
-        EmittedFile { path: format!("{path}.md"), text },
-        EmittedFile { path: format!("{BUILT}{path}.html"), text: page },
-    ])
+    Ok(EmittedFile { path: format!("{path}.md"), text })
 }

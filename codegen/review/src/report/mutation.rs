@@ -75,9 +75,9 @@ struct LawText {
 ///
 /// # Errors
 /// When the template cannot be filled; when no report is of the DGVSCMG, there is no page.
-pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
+pub fn mutation(reports: &[Report]) -> Result<Option<EmittedFile>, ReportError> {
     let full = |report: &&Report| report.kind.name == DGVSCMG.name;
-    let Some(report) = reports.iter().find(full) else { return Ok(Vec::new()) };
+    let Some(report) = reports.iter().find(full) else { return Ok(None) };
     let elsewhere = reports.iter().filter(|report| !full(report));
     let elsewhere = elsewhere.flat_map(|report| {
         let survivors = report.listed(MutantStatus::Survivor).into_iter();
@@ -105,7 +105,7 @@ pub fn mutation(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
     };
     let mut context = Context::new();
     context.insert("page", &page);
-    document("docs/mutation", include_str!("templates/mutation.md.tera"), &context, &[])
+    document("docs/mutation", include_str!("templates/mutation.md.tera"), &context).map(Some)
 }
 
 impl DeviceRow {

@@ -13,7 +13,7 @@ use super::{Matrix, write};
 /// Bytes of the op4 file, and the text of the table that names it as `file`.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn of_structure(
     structure: &Structure,
     file: &str,
