@@ -125,4 +125,4 @@ for (const [name, path, width, theme] of [
 await browser.close();
 for (const fault of faults) console.error(fault);
 if (faults.length > 0) process.exit(1);
-console.log(`${checks} checks passed on ${all.length} pages; pictures in ${pictures}`);
+console.log(`${checks} checks in the browser on ${all.length} pages; pictures in ${pictures}`);

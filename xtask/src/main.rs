@@ -88,10 +88,13 @@ enum Command {
     /// Build the library for flight software, and test it from C and C++
     #[command(after_help = "Example: cargo xtask capi")]
     Capi,
-    /// Build what is distributed: sources, crates, C library, Python package; install each in an empty
+    /// Build what is distributed: sources, crates, C library, desktop tool, Python package; install each in an empty
     /// place and run its first example
     #[command(disable_help_flag = true)]
     Dist(Forwarded),
+    /// Check licences, bans and sources of the crates of every workspace against deny.toml
+    #[command(disable_help_flag = true)]
+    Dependencies(Forwarded),
     /// Build the wheel of the Python package, install it in an environment of its own, run its tests
     #[command(disable_help_flag = true)]
     Python(Forwarded),
@@ -139,6 +142,7 @@ fn main() -> ExitCode {
         Command::Flight(arguments) => arguments.run(DISTRIBUTE, "flight"),
         Command::Capi => capi::host(),
         Command::Dist(arguments) => arguments.run(DISTRIBUTE, "dist"),
+        Command::Dependencies(arguments) => arguments.run(DISTRIBUTE, "dependencies"),
         Command::Python(arguments) => arguments.run(DISTRIBUTE, "python"),
         Command::Site(arguments) => arguments.run(SITE, "site"),
         Command::Demo => demo::demo(),

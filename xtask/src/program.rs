@@ -16,7 +16,7 @@ pub(crate) struct Program {
 
 /// `regen`, `bake` and `mutate`: links the generator.
 pub(crate) const DERIVE: Program = Program { package: "precess-derive", name: "derive" };
-/// `flight`, `dist` and `python`: reads object files, packs.
+/// `flight`, `dist`, `dependencies` and `python`: reads object files, packs.
 pub(crate) const DISTRIBUTE: Program =
     Program { package: "precess-distribute", name: "distribute" };
 /// `site`: sets Markdown and formulas.
@@ -27,7 +27,7 @@ impl Program {
     pub(crate) fn of_command(command: &str) -> Option<Self> {
         match command {
             "regen" | "bake" | "mutate" => Some(DERIVE),
-            "flight" | "dist" | "python" => Some(DISTRIBUTE),
+            "flight" | "dist" | "dependencies" | "python" => Some(DISTRIBUTE),
             "site" => Some(SITE),
             _ => None,
         }

@@ -25,6 +25,7 @@ mod result;
 mod run;
 mod scenarios;
 mod schema;
+mod shell;
 mod sources;
 mod spectrum;
 mod structure;
@@ -113,6 +114,12 @@ enum Command {
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
+    /// Print what a shell completes after `precess`
+    #[command(after_help = shell::COMPLETIONS_HELP)]
+    Completions(shell::Completions),
+    /// Print the manual page of `precess`, or write those of all its commands
+    #[command(after_help = shell::MANUAL_HELP)]
+    Manual(shell::Manual),
 }
 
 impl Cli {
@@ -161,6 +168,10 @@ impl Cli {
             Command::Sweep(sweep) => sweep.execute(),
             Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),
+            Command::Completions(completions) => {
+                completions.execute(with_exit_codes(Self::command()))
+            }
+            Command::Manual(manual) => manual.execute(with_exit_codes(Self::command())),
         };
         match done {
             Ok(exit) if notes_are_written() => exit.into(),

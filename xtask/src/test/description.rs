@@ -97,6 +97,9 @@ fn command(name: &str) -> &'static str {
         "flight" => "boards print the bits of this machine, and pass the gates; the C library",
         "python" => "the wheel is built, installed and tested",
         "reports" => "the built report is that of its sources, and works in a browser",
+        "dependencies" => {
+            "crates of others have allowed licences and sources, and one version each"
+        }
         "site" => "the documents become pages without a dead link, which a browser walks",
         _ => "",
     }

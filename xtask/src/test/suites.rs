@@ -315,6 +315,18 @@ pub(crate) const SUITES: &[Suite] = &[
         When::All,
         &[SOLVER, BOARD, BAKING, &["xtask/distribute", "docs"]],
     ),
+    command(
+        &["dependencies"],
+        When::All,
+        &[&[
+            "deny.toml",
+            "Cargo.lock",
+            "flight/Cargo.lock",
+            "flight/firmware/Cargo.lock",
+            "python/Cargo.lock",
+            "sim/fuzz/Cargo.lock",
+        ]],
+    ),
     command(&["engines"], When::All, &[ENGINES]),
     command(&["reports"], When::All, &[DESKTOP, &["sim/report", "scenarios"]]),
     command(

@@ -210,6 +210,8 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
             plan,
             &["wheel.toml", "--plan", "plan.toml", "--samples", "4", "--out", "out"],
         ),
+        of("completions", &[], &["bash"]),
+        of("manual", &[], &["--out", "out"]),
         of("export table", scenario, &["wheel.toml", "--to", "out/wheel.table"]),
     ];
     let listed: BTreeSet<_> = cases.iter().map(|case| case.name.clone()).collect();

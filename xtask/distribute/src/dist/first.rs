@@ -8,8 +8,9 @@ use super::archive::{Entry, unpack};
 use super::build::program;
 use super::python;
 use super::sources::lay_out;
+use super::tool;
 use xtask::capi::GUIDE;
-use xtask::run::{is_there, root, run_there};
+use xtask::run::{is_there, output, root, run_there};
 use xtask::say;
 use xtask::skip::skip;
 
@@ -35,6 +36,10 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
             codegen(package, place, &target)?
         } else if name.starts_with("precess-c-") {
             library(package, place)?
+        } else if name.ends_with(".cdx.json") {
+            false
+        } else if tool::is_archive(name) {
+            tool(package, place)?
         } else {
             python::first_example(package, place)?
         };
@@ -51,6 +56,22 @@ fn sources(package: &Package, place: &Path, target: &Path) -> Result<bool, Strin
     let mut cargo = Command::new(program());
     cargo.args(["run", "--quiet", "--locked", "-p", "precess", "--", "evaluate", SCENARIO]);
     run_there(cargo.env("CARGO_TARGET_DIR", target).current_dir(place))?;
+    Ok(true)
+}
+
+/// The desktop tool writes an example, and runs it.
+fn tool(package: &Package, place: &Path) -> Result<bool, String> {
+    lay_out(&unpack(&package.bytes)?, &place.join("precess"), &[])?;
+    let program = place.join("precess/bin").join(format!(
+        "{}{}",
+        tool::PACKAGE,
+        std::env::consts::EXE_SUFFIX
+    ));
+    let example = output(Command::new(&program).args(["new", "reaction_wheel"]))?;
+    lay_out(&[Entry::file("bus.toml", example)], &place.join("first"), &[])?;
+    for arguments in [&["check", "bus.toml"][..], &["run", "bus.toml", "--out", "results"]] {
+        run_there(Command::new(&program).args(arguments).current_dir(place.join("first")))?;
+    }
     Ok(true)
 }
 

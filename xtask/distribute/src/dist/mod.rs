@@ -9,8 +9,10 @@ mod crates;
 mod first;
 mod library;
 mod licences;
+mod materials;
 mod python;
 mod sources;
+mod tool;
 mod wrapper;
 
 use std::path::{Path, PathBuf};
@@ -37,7 +39,7 @@ pub(crate) struct Options {
     /// Build a second time, in another folder, and fail unless every byte is the same
     #[arg(long)]
     check: bool,
-    /// Only packages whose name contains this: `precess-c-`, `.crate`, `.whl`
+    /// Only packages whose name contains this: `precess-c-`, `.crate`, `.whl`, `.cdx.json`
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
 }
@@ -90,10 +92,32 @@ fn built(sources: &[Entry], folder: &Path, options: &Options) -> Result<Vec<Pack
     if options.wants(&["precess-c-.tar.gz"]) {
         packages.push(library::package(&stage)?);
     }
+    if options.wants(&[&format!("{}.tar.gz", tool::name(&stage, &version)?)]) {
+        packages.push(tool::package(&stage, &version)?);
+    }
     if options.wants(&["precess.whl", "precess.tar.gz"]) {
         packages.extend(python::packages(&stage, folder)?);
     }
+    if options.wants(&["precess.cdx.json"]) {
+        packages.extend(bills(&stage, &version)?);
+    }
     Ok(packages)
+}
+
+/// The bills of materials, one for each package that links crates of others.
+fn bills(stage: &Stage, version: &str) -> Result<Vec<Package>, String> {
+    let of = |manifest: &'static str, packages: &[(&'static str, &'static str)]| {
+        let metadata = licences::metadata(stage, manifest)?;
+        let bill = |(package, name): &(&str, &str)| {
+            materials::bill(&metadata, package, &format!("{name}-{version}"))
+        };
+        packages.iter().map(bill).collect::<Result<Vec<_>, String>>()
+    };
+    let crates = ["precess-dynamics", "precess-codegen", tool::PACKAGE].map(|name| (name, name));
+    let mut bills = of(tool::MANIFEST, &crates)?;
+    bills.extend(of(xtask::capi::MANIFEST, &[("precess-capi", "precess-c")])?);
+    bills.extend(of(python::MANIFEST, &[("precess-python", "precess-python")])?);
+    Ok(bills)
 }
 
 /// The names and bytes of both builds are the same.

@@ -16,7 +16,7 @@ use xtask::say;
 use xtask::skip::skip;
 
 /// The Python package, in the sources.
-const MANIFEST: &str = "python/Cargo.toml";
+pub(super) const MANIFEST: &str = "python/Cargo.toml";
 /// What builds it. The wheel names its version.
 const MATURIN: &str = "maturin==1.16.0";
 /// The page whose first program is run.
