@@ -6,6 +6,7 @@
 mod archive;
 mod build;
 mod crates;
+mod empty_root;
 mod first;
 mod library;
 mod licences;
@@ -42,6 +43,9 @@ pub(crate) struct Options {
     /// Only packages whose name contains this: `precess-c-`, `.crate`, `.whl`, `.cdx.json`
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
+    /// Install desktop tool and wheel in a Debian without anything else, too (debootstrap, as root)
+    #[arg(long)]
+    empty_root: bool,
 }
 
 /// A file that is distributed.
@@ -71,7 +75,8 @@ pub(crate) fn dist(options: &Options) -> Result<(), String> {
     }
     let into = target()?.join(PACKAGES);
     write(&packages, &into)?;
-    first::examples(&packages, &folder)
+    first::examples(&packages, &folder)?;
+    if options.empty_root { empty_root::examples(&packages, &folder) } else { Ok(()) }
 }
 
 /// Every package, built in a folder.
