@@ -33,7 +33,7 @@ use crate::pointing::RequirementState;
 use crate::report::jitter::{JitterReport, disagreements, rpm};
 use crate::scenario::Scenario;
 use crate::structure::Fault;
-use csv::{lines_csv, own_speeds_csv, requirements_csv};
+use csv::{keep_out_csv, lines_csv, own_speeds_csv, requirements_csv};
 use summary::summary;
 
 pub(super) const HELP: &str = "\
@@ -191,6 +191,7 @@ impl Jitter {
             (format!("{stem}-lines.csv"), lines_csv(&found.sweep)),
             (format!("{stem}-requirements.csv"), requirements_csv(&found)),
             (format!("{stem}-scenario.csv"), own_speeds_csv(&budget, &found)),
+            (format!("{stem}-keep-out.csv"), keep_out_csv(&found)),
         ];
         for (name, svg) in report.figures().map_err(|error| other(&error))? {
             files.push((format!("{stem}-{name}.svg"), svg));
@@ -198,6 +199,11 @@ impl Jitter {
         uninterrupted(|| Outputs::reserve(&self.out, &[], self.force)?.write(&files))?;
         print(&summary(&budget, &found))?;
         let folder = self.out.display();
+        if found.assessed.iter().any(|of| !of.keep_out.is_empty()) {
+            print(&format!(
+                "speeds to keep out of: {folder}/{stem}-keep-out.csv; a controller's wheels leave them by allocation.keep_out = {{ file = \"..\" }}\n"
+            ))?;
+        }
         print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1))?;
         let states: Vec<RequirementState> = found.assessed.iter().map(Assessed::state).collect();
         Ok(Exit::of_states(&states))

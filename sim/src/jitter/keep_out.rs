@@ -1,5 +1,8 @@
 //! Speeds to keep out of: where a quantity is above its limit.
 
+/// Columns of a table of bands: lower and upper end of each, rad/s.
+pub const KEEP_OUT_COLUMNS: [&str; 2] = ["lower_rad_per_s", "upper_rad_per_s"];
+
 /// Intervals of speed in which values exceed a limit; ends are where the straight lines between neighbouring values
 /// cross it. Intervals nearer than `gap` are one.
 #[must_use]
@@ -27,9 +30,31 @@ pub fn keep_out(speeds: &[f64], values: &[f64], limit: f64, gap: f64) -> Vec<[f6
     bands
 }
 
+/// The union of bands, rising: those that meet are one. A band without a width is left out.
+#[must_use]
+pub fn union(bands: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut all: Vec<[f64; 2]> = bands.into_iter().filter(|[from, to]| to > from).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut union: Vec<[f64; 2]> = Vec::with_capacity(all.len());
+    for [from, to] in all {
+        match union.last_mut() {
+            Some(last) if from <= last[1] => last[1] = to.max(last[1]),
+            _ => union.push([from, to]),
+        }
+    }
+    union
+}
+
 #[cfg(test)]
 mod tests {
-    use super::keep_out;
+    use super::{keep_out, union};
+
+    #[test]
+    fn bands_that_meet_are_one() {
+        let bands = [[7.0, 9.0], [1.0, 3.0], [8.0, 8.5], [3.0, 4.0], [6.0, 6.0]];
+        assert_eq!(union(bands), [[1.0, 4.0], [7.0, 9.0]]);
+        assert_eq!(union([]), Vec::<[f64; 2]>::new());
+    }
 
     #[test]
     fn ends_are_where_the_line_crosses_the_limit() {

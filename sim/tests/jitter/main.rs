@@ -5,6 +5,7 @@ mod cubesat;
 mod errors;
 #[cfg(target_os = "linux")]
 mod interrupted;
+mod keep_out;
 mod known;
 mod map;
 mod phases;

@@ -50,7 +50,8 @@ pub(crate) const OTHERS: [&str; 53] = [
      [[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ncontrolled = true",
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\ndevices = \"rw\"\n\
      law = { kind = \"quaternion_feedback\", attitude_gain = \"1 N m\", rate_gain = \"1 N m s\" }\n\
-     reference = { kind = \"slew\", turn = { axis = [0, 0, 1], angle = \"9 deg\" }, acceleration_limit = \"1 deg/s^2\" }",
+     reference = { kind = \"slew\", turn = { axis = [0, 0, 1], angle = \"9 deg\" }, acceleration_limit = \"1 deg/s^2\" }\n\
+     allocation = { keep_out = { file = \"no.csv\" } }",
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"eigen_axis\", frequency = \"1 Hz\", damping_ratio = 0.7 }\n\
      reference = { kind = \"turning\", angular_velocity = \"0, 1, 0 deg/s\" }",
     "[[controller]]\nname = \"a\"\nrate = \"10 Hz\"\nlaw = { kind = \"rate_damping\", rate_gain = \"1 N m s\" }\n\

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::JitterResults;
 use crate::jitter::budget::Budget;
+use crate::jitter::keep_out::{KEEP_OUT_COLUMNS, union};
 use crate::jitter::sweep::Sweep;
 use crate::names::column_heads;
 
@@ -30,6 +31,21 @@ pub(super) fn lines_csv(sweep: &Sweep) -> String {
             }
             text.push('\n');
         }
+    }
+    text
+}
+
+/// A row for each band of speeds in which a requirement is violated, all requirements together: what
+/// `allocation.keep_out` of a controller reads.
+pub(super) fn keep_out_csv(found: &JitterResults) -> String {
+    let [lower, upper] = KEEP_OUT_COLUMNS;
+    let mut text = format!("{lower},{upper}\n");
+    let mut digits = zmij::Buffer::new();
+    for [from, to] in union(found.assessed.iter().flat_map(|of| of.keep_out.iter().copied())) {
+        text.push_str(digits.format(from));
+        text.push(',');
+        text.push_str(digits.format(to));
+        text.push('\n');
     }
     text
 }

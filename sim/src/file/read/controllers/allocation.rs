@@ -1,7 +1,11 @@
 //! `allocation` of a `[[controller]]`: how a torque is divided among its joints.
 
+use std::path::Path;
+
 use crate::file::document::Value;
 use crate::file::keys::Keys;
+use crate::file::read::values::table_file::columns;
+use crate::jitter::keep_out::{KEEP_OUT_COLUMNS, union};
 use crate::scenario::{AllocationInverse, NullMotion, TorqueAllocation};
 use crate::units::Measure;
 
@@ -17,7 +21,12 @@ enum InverseKind {
     Generalised,
 }
 
-pub(super) fn allocation(keys: &Keys<'_>, has_gimbals: bool) -> Option<TorqueAllocation> {
+/// Of a controller, a file of bands from a folder.
+pub(super) fn allocation(
+    keys: &Keys<'_>,
+    has_gimbals: bool,
+    folder: &Path,
+) -> Option<TorqueAllocation> {
     let words = [
         ("exact", InverseKind::Exact),
         ("least_largest", InverseKind::LeastLargest),
@@ -36,7 +45,7 @@ pub(super) fn allocation(keys: &Keys<'_>, has_gimbals: bool) -> Option<TorqueAll
         keys.quantity("dither_frequency", Measure::ANGULAR_RATE).unwrap_or(1.0),
     ];
     let reference = keys.quantity("reference_momentum", Measure::ANGULAR_MOMENTUM);
-    let null_motion = null_motion(keys);
+    let null_motion = null_motion(keys, folder);
     keys.finish();
     if keys.has("inverse") {
         kind?;
@@ -70,7 +79,7 @@ pub(super) fn allocation(keys: &Keys<'_>, has_gimbals: bool) -> Option<TorqueAll
 }
 
 /// Motion without torque; none where something in its keys is wrong.
-fn null_motion(keys: &Keys<'_>) -> Option<NullMotion> {
+fn null_motion(keys: &Keys<'_>, folder: &Path) -> Option<NullMotion> {
     let [angle_gain, keep_out_gain] = NULL_GAINS;
     let gain = |key: &str, default| keys.quantity(key, Measure::FREQUENCY).unwrap_or(default);
     let (angle_gain, keep_out_gain) =
@@ -81,18 +90,50 @@ fn null_motion(keys: &Keys<'_>) -> Option<NullMotion> {
         }
     }
     let angles = listed(keys, "preferred_angles", Measure::ANGLE);
-    let bands = listed(keys, "keep_out", Measure::ANGULAR_RATE)?;
-    let keep_out: Vec<[f64; 2]> =
-        bands.iter().filter_map(|band| <[f64; 2]>::try_from(band.as_slice()).ok()).collect();
-    if keep_out.len() != bands.len() {
-        keys.error(
-            "keep_out",
-            "a band has a lower and an upper end",
-            "write for example `keep_out = [\"1500, 1700 rpm\"]`",
-        );
-        return None;
-    }
+    let keep_out = bands(keys, folder)?;
     Some(NullMotion { preferred_angles: angles?.concat(), angle_gain, keep_out, keep_out_gain })
+}
+
+/// Bands of speeds, of a file or in the key itself; those that meet are one, for the ends of others within a band are no way out of it.
+fn bands(keys: &Keys<'_>, folder: &Path) -> Option<Vec<[f64; 2]>> {
+    let key = "keep_out";
+    let found: Vec<[f64; 2]> = match keys.node(key).map(|node| &node.value) {
+        Some(Value::Table(_)) => {
+            let own = keys.table(key)?;
+            let named = own.file("file", folder);
+            if !own.has("file") {
+                own.missing("file", "file = \"bus-jitter-keep-out.csv\"");
+            }
+            own.finish();
+            let (path, shown) = named?;
+            match columns(&path, &KEEP_OUT_COLUMNS.map(|name| (name, true))).as_deref() {
+                Ok([lower, upper]) => lower.iter().zip(upper).map(|(l, u)| [*l, *u]).collect(),
+                Ok(_) => Vec::new(),
+                Err(message) => {
+                    let help = "`precess jitter` writes one: BUDGET-keep-out.csv";
+                    own.error("file", format!("{shown}: {message}"), help);
+                    return None;
+                }
+            }
+        }
+        _ => {
+            let listed = listed(keys, key, Measure::ANGULAR_RATE)?;
+            let pairs = listed.iter().filter_map(|of| <[f64; 2]>::try_from(of.as_slice()).ok());
+            let pairs: Vec<[f64; 2]> = pairs.collect();
+            if pairs.len() != listed.len() {
+                keys.error(
+                    key,
+                    "a band has a lower and an upper end",
+                    "write for example `keep_out = [\"1500, 1700 rpm\"]`",
+                );
+                return None;
+            }
+            pairs
+        }
+    };
+    // A band that is none is an error of the scenario.
+    let all = found.iter().all(|[from, to]| to > from);
+    Some(if all { union(found) } else { found })
 }
 
 /// The quantities of each text of a list, or of one text by itself; nothing without the key, none where one is wrong.

@@ -67,8 +67,9 @@ fn controller(keys: &Keys<'_>, known: &ControllerContext<'_>) -> Option<SampledC
     let empty = keys.empty();
     let reference = keys.table_or("reference", &empty).and_then(|keys| reference(&keys, known));
     let has_gimbals = joints.iter().flatten().any(|of| of.steered == Steered::Rate);
-    let allocation =
-        keys.table_or("allocation", &empty).and_then(|keys| allocation(&keys, has_gimbals));
+    let allocation = keys
+        .table_or("allocation", &empty)
+        .and_then(|keys| allocation(&keys, has_gimbals, known.folder));
     let servo = keys.table_or("servo", &empty).map(|keys| {
         let gain = keys.quantity("gain", Measure::FREQUENCY);
         let own = keys.quantity("rate", Measure::FREQUENCY);
