@@ -28,7 +28,10 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
         let place = tempfile::tempdir()
             .map_err(|error| format!("cannot make a temporary folder: {error}"))?;
         let (name, place) = (package.name.as_str(), place.path());
-        let tried = if name.ends_with("-sources.tar.gz") {
+        // A bill of materials is read, not installed.
+        let tried = if name.ends_with(".cdx.json") {
+            false
+        } else if name.ends_with("-sources.tar.gz") {
             sources(package, place, &target)?
         } else if name.starts_with("precess-dynamics-") {
             solver(package, place, &target)?
@@ -36,8 +39,6 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
             codegen(package, place, &target)?
         } else if name.starts_with("precess-c-") {
             library(package, place)?
-        } else if name.ends_with(".cdx.json") {
-            false
         } else if tool::is_archive(name) {
             tool(package, place)?
         } else {
