@@ -1,7 +1,7 @@
 //! The desktop tool: a spacecraft's scenario file in, results and a report out.
 //!
 //! ```text
-//! scenario file --file--> Scenario --engine--> samples --record--> CSV, NPZ, Parquet
+//! scenario file --file--> Scenario --engine--> samples --record--> CSV, NPZ, Parquet; MCAP
 //!                                                    \--report--> page and figures
 //! ```
 //!
@@ -56,6 +56,8 @@ pub mod file;
 pub mod fit;
 pub mod jitter;
 pub mod margins;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 mod names;
 mod nearest;
 mod opened;
@@ -64,6 +66,8 @@ pub mod record;
 #[cfg(feature = "tool")]
 pub mod report;
 pub mod scenario;
+#[cfg(any(feature = "tool", feature = "mcap"))]
+mod shapes;
 pub mod spectra;
 pub mod structure;
 pub mod tables;

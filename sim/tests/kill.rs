@@ -27,8 +27,11 @@ const SPREAD: f64 = 1.2;
 const OLD: &[u8] = b"an earlier result\n";
 
 /// The formats that this build writes.
-const FORMATS: &[&str] =
-    if cfg!(feature = "parquet") { &["csv", "npz", "parquet"] } else { &["csv", "npz"] };
+const FORMATS: &[&str] = if cfg!(feature = "parquet") {
+    &["csv", "npz", "mcap", "parquet"]
+} else {
+    &["csv", "npz", "mcap"]
+};
 
 /// A share of one.
 fn share(number: u64) -> f64 {

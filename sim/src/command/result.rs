@@ -54,7 +54,7 @@ impl Rows {
         let wrong = |text: String| wrong(path, &text);
         let ending = path.extension();
         if ending.is_some_and(|ending| {
-            ["npz", "parquet"].iter().any(|of| ending.eq_ignore_ascii_case(of))
+            ["npz", "parquet", "mcap"].iter().any(|of| ending.eq_ignore_ascii_case(of))
         }) {
             return Err(wrong("not a CSV file; name the CSV result of the run".to_owned()));
         }

@@ -52,10 +52,12 @@ pub(super) struct Run {
 impl Run {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
-        if !cfg!(feature = "parquet")
-            && scenarios.iter().any(|(of, _)| of.output.formats.contains(&Format::Parquet))
-        {
-            return Err(without_parquet());
+        let wants = |format| scenarios.iter().any(|(of, _)| of.output.formats.contains(&format));
+        if !cfg!(feature = "parquet") && wants(Format::Parquet) {
+            return Err(without("Parquet", "parquet"));
+        }
+        if !cfg!(feature = "mcap") && wants(Format::Mcap) {
+            return Err(without("MCAP", "mcap"));
         }
         let names: Vec<_> =
             scenarios.iter().flat_map(|(scenario, _)| self.names(scenario)).collect();
@@ -96,7 +98,7 @@ impl Run {
         for format in &scenario.output.formats {
             let name = format!("{}.{}", scenario.name, extension(*format));
             if let Some(reservation) = outputs.take(&name) {
-                files.push(recorder(*format, reservation)?);
+                files.push(recorder(*format, reservation, scenario)?);
             }
         }
         let mut warnings: Vec<_> =
@@ -169,29 +171,41 @@ fn extension(format: Format) -> &'static str {
         Format::Csv => "csv",
         Format::Npz => "npz",
         Format::Parquet => "parquet",
+        Format::Mcap => "mcap",
     }
 }
 
 #[cfg_attr(
-    feature = "parquet",
-    expect(clippy::unnecessary_wraps, reason = "an error only without the feature")
+    all(feature = "parquet", feature = "mcap"),
+    expect(clippy::unnecessary_wraps, reason = "an error only without a feature")
 )]
-fn recorder(format: Format, reservation: Reservation) -> Result<Box<dyn Recorder>, CommandError> {
+#[cfg_attr(
+    not(feature = "mcap"),
+    expect(unused_variables, reason = "only an MCAP file shows the spacecraft")
+)]
+fn recorder(
+    format: Format,
+    reservation: Reservation,
+    scenario: &Scenario,
+) -> Result<Box<dyn Recorder>, CommandError> {
     match format {
         Format::Csv => Ok(Box::new(Csv::reserved(reservation))),
         Format::Npz => Ok(Box::new(Npz::reserved(reservation))),
         #[cfg(feature = "parquet")]
         Format::Parquet => Ok(Box::new(crate::record::Parquet::reserved(reservation))),
         #[cfg(not(feature = "parquet"))]
-        Format::Parquet => Err(without_parquet()),
+        Format::Parquet => Err(without("Parquet", "parquet")),
+        #[cfg(feature = "mcap")]
+        Format::Mcap => Ok(Box::new(crate::mcap::Mcap::reserved(reservation, scenario))),
+        #[cfg(not(feature = "mcap"))]
+        Format::Mcap => Err(without("MCAP", "mcap")),
     }
 }
 
 /// The error of a format that this program does not have.
-fn without_parquet() -> CommandError {
-    CommandError::Other(
-        "this program was built without Parquet; install it by `cargo install --path sim --features parquet`, or \
+fn without(format: &str, feature: &str) -> CommandError {
+    CommandError::Other(format!(
+        "this program was built without {format}; install it by `cargo install --path sim --features {feature}`, or \
          record csv or npz"
-            .to_owned(),
-    )
+    ))
 }

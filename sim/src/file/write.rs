@@ -328,6 +328,7 @@ fn settings(out: &mut String, s: &Scenario) -> Written {
         Format::Csv => "\"csv\"",
         Format::Npz => "\"npz\"",
         Format::Parquet => "\"parquet\"",
+        Format::Mcap => "\"mcap\"",
     };
     let formats: Vec<_> = s.output.formats.iter().map(word).collect();
     let columns = if s.output.columns.is_empty() {

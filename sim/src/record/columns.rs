@@ -22,7 +22,7 @@ pub(crate) use quantity::{Quantity, Source};
 use super::error::RecordError;
 use super::load_columns::{of_carried, of_load, of_mount};
 use crate::nearest::nearest;
-use crate::scenario::Scenario;
+use crate::scenario::{Format, Scenario};
 
 /// Angles of three turns, about z, y and x in this order, from axes to those of B; and the axis of each.
 const ROLL_PITCH_YAW: [(&str, &str); 3] =
@@ -94,7 +94,8 @@ impl Columns {
     }
 
     /// The columns that a scenario records: those it selects, or all that are recorded by default, and the
-    /// quantities of its requirements.
+    /// quantities of its requirements. With an MCAP file position, attitude, coordinates and rates, too: its frames are
+    /// computed from them.
     ///
     /// # Errors
     ///
@@ -102,8 +103,11 @@ impl Columns {
     pub fn from_scenario(scenario: &Scenario) -> Result<Self, RecordError> {
         let Self(all) = Self::all(scenario);
         let selected = &scenario.output.columns;
-        let mut taken: Vec<bool> =
-            all.iter().map(|column| selected.is_empty() && column.quantity.is_default()).collect();
+        let frames = scenario.output.formats.contains(&Format::Mcap);
+        let is_own = |quantity: &Quantity| {
+            (selected.is_empty() && quantity.is_default()) || (frames && quantity.is_of_frames())
+        };
+        let mut taken: Vec<bool> = all.iter().map(|column| is_own(&column.quantity)).collect();
         let required = scenario.requirements.iter().map(|requirement| &requirement.quantity);
         for name in selected.iter().chain(required) {
             let mut known = false;

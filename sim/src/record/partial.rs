@@ -109,7 +109,7 @@ impl Drop for Reservation {
 }
 
 /// Begins the file of a path, by its reservation where there is one.
-pub(super) fn begin(reserved: Option<Reservation>, path: &Path) -> io::Result<Partial> {
+pub(crate) fn begin(reserved: Option<Reservation>, path: &Path) -> io::Result<Partial> {
     reserved.map_or_else(|| Partial::create(path), Reservation::begin)
 }
 

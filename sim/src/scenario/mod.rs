@@ -284,6 +284,8 @@ pub enum Format {
     Npz,
     /// Apache Parquet.
     Parquet,
+    /// MCAP, for Foxglove and PlotJuggler.
+    Mcap,
 }
 
 /// A limit on a recorded quantity.

@@ -143,6 +143,14 @@ impl Quantity {
         matches!(self.source(), Source::Accelerations | Source::PointAcceleration(_))
     }
 
+    /// Whether frames of bodies and lines of wheels are computed from it.
+    pub(super) fn is_of_frames(&self) -> bool {
+        matches!(
+            self,
+            Self::Position(_) | Self::Quaternion(_) | Self::Coordinate(_) | Self::Rate(_)
+        )
+    }
+
     /// Whether it is part of the state that is integrated.
     pub(super) fn is_state(&self) -> bool {
         matches!(

@@ -13,7 +13,6 @@ pub(super) mod replay;
 pub(super) mod requirements;
 pub(super) mod settling;
 mod slow_motion;
-mod stage;
 pub(super) mod summary;
 pub(super) mod tables;
 mod wraps;

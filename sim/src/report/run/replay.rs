@@ -8,12 +8,12 @@ use precess_dynamics::{Mrp, Quaternion};
 use serde::Serialize;
 
 use super::slow_motion::Turns;
-use super::stage::{Hub, Joint, hub, joints};
 use crate::record::Header;
 use crate::record::columns::Quantity;
 use crate::report::data::{doubles, singles};
 use crate::scenario::Scenario;
 use crate::scenario::mass::momentum_size;
+use crate::shapes::{Hub, Joint, hub, joints};
 
 /// Most frames of the run.
 const FRAMES_MAX: usize = 600;

@@ -30,14 +30,19 @@ pub(super) fn output(keys: &Keys<'_>, settings: Option<&Settings>) -> Option<Out
     }
     let columns = columns.unwrap_or_default();
     let formats = words(&output, "formats").map_or(default.formats, |words| {
-        let of = [("csv", Format::Csv), ("npz", Format::Npz), ("parquet", Format::Parquet)];
+        let of = [
+            ("csv", Format::Csv),
+            ("npz", Format::Npz),
+            ("parquet", Format::Parquet),
+            ("mcap", Format::Mcap),
+        ];
         let mut formats = Vec::new();
         for word in words {
             if let Some((_, format)) = of.iter().find(|(name, _)| *name == word) {
                 formats.push(*format);
             } else {
                 let message = format!("`{word}` is no format");
-                output.error("formats", message, "there are csv, npz, parquet");
+                output.error("formats", message, "there are csv, npz, parquet, mcap");
             }
         }
         formats.sort_unstable();

@@ -1,4 +1,4 @@
-//! The bodies as the replay draws them: where their joints are, and a shape that their mass and
+//! The bodies as the replay and a viewer draw them: where their joints are, and a shape that their mass and
 //! inertia suggest.
 
 use nalgebra::Matrix3;
@@ -17,46 +17,46 @@ const RING: f64 = 1.25;
 
 /// The hub's box.
 #[derive(Clone, Serialize)]
-pub(in crate::report) struct Hub {
+pub(crate) struct Hub {
     /// Along the axes of B, m.
-    size: [f64; 3],
+    pub(crate) size: [f64; 3],
     /// From B, m.
-    centre: [f64; 3],
+    pub(crate) centre: [f64; 3],
 }
 
 /// A joint and its child body.
 #[derive(Clone, Serialize)]
-pub(in crate::report) struct Joint {
-    name: String,
+pub(crate) struct Joint {
+    pub(crate) name: String,
     /// Index of the inboard joint; -1 for the hub.
-    parent: i64,
+    pub(crate) parent: i64,
     /// Row by row, from the joint's axes at zero to the parent's.
-    mount: [f64; 9],
+    pub(crate) mount: [f64; 9],
     /// In the parent's frame, m.
-    origin: [f64; 3],
-    axis: usize,
-    slides: bool,
-    body: Option<Body>,
+    pub(crate) origin: [f64; 3],
+    pub(crate) axis: usize,
+    pub(crate) slides: bool,
+    pub(crate) body: Option<Body>,
 }
 
 /// What is drawn.
 #[derive(Clone, Serialize)]
-struct Body {
-    shape: &'static str,
-    radius: f64,
-    width: f64,
-    centre: [f64; 3],
-    size: Option<[f64; 3]>,
-    heavy: Option<[f64; 3]>,
+pub(crate) struct Body {
+    pub(crate) shape: &'static str,
+    pub(crate) radius: f64,
+    pub(crate) width: f64,
+    pub(crate) centre: [f64; 3],
+    pub(crate) size: Option<[f64; 3]>,
+    pub(crate) heavy: Option<[f64; 3]>,
 }
 
 /// The hub of a scenario.
-pub(in crate::report) fn hub(scenario: &Scenario) -> Hub {
+pub(crate) fn hub(scenario: &Scenario) -> Hub {
     Hub { size: scenario.hub_size.into(), centre: scenario.hub.r_bc_b.into() }
 }
 
 /// The joints of a scenario, the inboard one of each device and platform first.
-pub(in crate::report) fn joints(scenario: &Scenario) -> Vec<Joint> {
+pub(crate) fn joints(scenario: &Scenario) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     // The last joint of each member, to whose body the devices on a platform are fixed.
     let mut tips: Vec<i64> = Vec::new();
