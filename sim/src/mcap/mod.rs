@@ -1,4 +1,4 @@
-//! [`Mcap`]: samples and the moving bodies as an MCAP file, which Foxglove shows and PlotJuggler plots.
+//! [`Mcap`]: samples and the moving bodies as an MCAP file, which Foxglove shows and `PlotJuggler` plots.
 //!
 //! | topic | schema | when |
 //! |---|---|---|

@@ -284,7 +284,7 @@ pub enum Format {
     Npz,
     /// Apache Parquet.
     Parquet,
-    /// MCAP, for Foxglove and PlotJuggler.
+    /// MCAP, for Foxglove and `PlotJuggler`.
     Mcap,
 }
 
