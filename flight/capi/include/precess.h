@@ -68,6 +68,7 @@ extern "C" {
 #define precess_energy precess_energy_v2
 #define precess_momentum_of precess_momentum_of_v2
 #define precess_loads_of precess_loads_of_v2
+#define precess_contributions_of precess_contributions_of_v2
 #else
 #error "PRECESS_TABLE_VERSION is 1 or 2"
 #endif
@@ -226,6 +227,25 @@ typedef struct precess_loads {
                            input of a driven joint, computed for a prescribed or locked one */
 } precess_loads;
 
+/* What the devices contribute to the equations of a hub that the caller has, their joints eliminated; B axes.
+ * [force_by_linear  force_by_angular ] and (force, moment) are added to the hub's own mass matrix and load of
+ * [force_by_angular' moment_by_angular]   (M_hub + M) (a, omega') = load_hub + load, a being the inertial
+ * acceleration of B; in a uniform field g, along B, a is that acceleration less g, for the joints too. */
+typedef struct precess_contributions {
+    double force_by_linear[9];    /* symmetric, kg */
+    double force_by_angular[9];   /* kg m; its transpose is moment by a */
+    double moment_by_angular[9];  /* symmetric, kg m^2 */
+    double force[3];              /* N */
+    double moment[3];             /* about B, N m */
+    double mass;                  /* of the devices, kg */
+    double first_moment[3];       /* of the devices about B, kg m */
+    double first_moment_prime[3]; /* its derivative seen from B, kg m/s */
+    double inertia[9];            /* of the devices about B, joints locked, kg m^2 */
+    double joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* acceleration where a and omega' are zero, rad/s^2 or
+                                                              m/s^2 */
+    double by_hub[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS][6]; /* what it has more by each of a, omega' */
+} precess_contributions;
+
 /* Version of the library: PRECESS_VERSION of the header it belongs to. */
 uint32_t precess_version(void);
 
@@ -313,6 +333,12 @@ int32_t precess_energy(const precess_spacecraft *craft, const precess_state *sta
 int32_t precess_momentum_of(const precess_spacecraft *craft, const precess_state *state,
                             int32_t about, const double *point, precess_momentum *out,
                             precess_fault *fault);
+
+/* What the devices contribute to the equations of the caller's hub. Of the inputs motors, modes and wrenches of the
+ * joints are read; the hub of the spacecraft and what acts on it, gravity included, are not. */
+int32_t precess_contributions_of(const precess_spacecraft *craft, const precess_state *state,
+                                 const precess_inputs *inputs, precess_contributions *out,
+                                 precess_fault *fault);
 
 /* Loads (N, N m) at this instant, joints' along PRECESS_AXES_. */
 int32_t precess_loads_of(const precess_spacecraft *craft, const precess_state *state,

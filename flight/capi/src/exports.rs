@@ -4,6 +4,7 @@
 
 use core::ffi::c_void;
 
+use crate::contributions::contributions_of;
 use crate::craft::{Craft, init};
 use crate::error::Fault;
 use crate::evaluate::{accelerations_of, energy, momentum_of, step, stop};
@@ -13,8 +14,8 @@ use crate::state::{state_at_rest, state_restore, state_save, state_wrap};
 use crate::steering::{allocate, servo_torques_of, steering_terms_of};
 use crate::table::{init_from_table, table_write};
 use crate::types::{
-    Accelerations, Allocation, Hub, Inputs, Loads, Momentum, Power, Servo, ServoTorques, State,
-    SteeringLaw, SteeringTerms,
+    Accelerations, Allocation, Contributions, Hub, Inputs, Loads, Momentum, Power, Servo,
+    ServoTorques, State, SteeringLaw, SteeringTerms,
 };
 use crate::version::EntryOf;
 
@@ -157,6 +158,13 @@ versions! {
         inputs: *const Inputs<J>,
         axes: i32,
         out: *mut Loads<J>,
+        fault: *mut Fault,
+    );
+    contributions_of "precess_contributions_of" "precess_contributions_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        inputs: *const Inputs<J>,
+        out: *mut Contributions<J>,
         fault: *mut Fault,
     );
     steering_terms_of "precess_steering_terms_of" "precess_steering_terms_of_v2" (

@@ -6,8 +6,9 @@ use core::mem::{offset_of, size_of};
 
 use crate::error::{Code, Fault};
 use crate::types::{
-    Accelerations, Allocation, Body, Device, Entry, Hub, Inputs, Loads, Momentum, Passive, Power,
-    Servo, ServoTorques, State, SteeringLaw, SteeringTerms, Strut, Suspension, Wrench,
+    Accelerations, Allocation, Body, Contributions, Device, Entry, Hub, Inputs, Loads, Momentum,
+    Passive, Power, Servo, ServoTorques, State, SteeringLaw, SteeringTerms, Strut, Suspension,
+    Wrench,
 };
 use crate::version::{EntryOf, Interface, Versions};
 
@@ -96,6 +97,10 @@ where
         "precess_momentum" Momentum: Momentum { linear angular }
         "precess_power" Power: Power { external hub gravity motors springs friction }
         "precess_loads" Loads: Loads<J> { hub mount joint motor }
+        "precess_contributions" Contributions: Contributions<J> {
+            force_by_linear force_by_angular moment_by_angular force moment mass first_moment
+            first_moment_prime inertia joint by_hub
+        }
         "precess_steering_terms" SteeringTerms: SteeringTerms<J> {
             by_rate by_acceleration momentum first_moment inertia gyroscopic
         }

@@ -11,6 +11,7 @@
 
 #![cfg_attr(not(test), no_std)]
 
+mod contributions;
 pub mod craft;
 mod device;
 mod entry_map;

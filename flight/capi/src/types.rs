@@ -217,6 +217,32 @@ structures! {
         motor: PerJoint<f64, J>,
     }
 
+    /// `precess_contributions`.
+    Contributions<J> {
+        /// kg.
+        force_by_linear: [f64; 9],
+        /// kg m.
+        force_by_angular: [f64; 9],
+        /// kg m².
+        moment_by_angular: [f64; 9],
+        /// N.
+        force: [f64; 3],
+        /// About B, N m.
+        moment: [f64; 3],
+        /// kg.
+        mass: f64,
+        /// About B, kg m.
+        first_moment: [f64; 3],
+        /// Seen from B, kg m/s.
+        first_moment_prime: [f64; 3],
+        /// About B, kg m².
+        inertia: [f64; 9],
+        /// rad/s² or m/s².
+        joint: PerJoint<f64, J>,
+        /// By the six accelerations of the hub.
+        by_hub: PerJoint<[f64; 6], J>,
+    }
+
     /// `precess_steering_terms`.
     SteeringTerms<J> {
         /// N m s or N s.

@@ -52,7 +52,34 @@ static int32_t init(uint32_t count, precess_fault *fault)
     return precess_init(&craft, sizeof craft, &hub, devices, count, fault);
 }
 
-/* Every kind, by itself: steps conserve momentum. */
+/* The equation of forces of a hub whose centre of mass is B, with what its devices contribute; and their joints. */
+static void contributes(const precess_state *state, const precess_inputs *inputs, uint32_t joints)
+{
+    precess_contributions devices_of;
+    precess_accelerations found;
+    uint32_t joint;
+    int row, column;
+    IS(precess_accelerations_of(&craft, state, inputs, &found, 0), PRECESS_OK);
+    IS(precess_contributions_of(&craft, state, inputs, &devices_of, 0), PRECESS_OK);
+    for (row = 0; row < 3; row++) {
+        double sum = hub.mass * found.linear[row] - devices_of.force[row];
+        for (column = 0; column < 3; column++) {
+            sum += devices_of.force_by_linear[3 * row + column] * found.linear[column];
+            sum += devices_of.force_by_angular[3 * row + column] * found.angular[column];
+        }
+        NEAR(sum, 0.0, 1e-10);
+    }
+    for (joint = 0; joint < joints; joint++) {
+        double sum = devices_of.joint[0][joint] - found.joint[0][joint];
+        for (column = 0; column < 3; column++) {
+            sum += devices_of.by_hub[0][joint][column] * found.linear[column];
+            sum += devices_of.by_hub[0][joint][3 + column] * found.angular[column];
+        }
+        NEAR(sum, 0.0, 1e-12);
+    }
+}
+
+/* Every kind, by itself: steps conserve momentum, devices and hub make the equations. */
 static void every_kind(void)
 {
     int32_t kind;
@@ -77,6 +104,7 @@ static void every_kind(void)
         }
         IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &before, 0), PRECESS_OK);
         IS(precess_accelerations_of(&craft, &state, &inputs, &found, 0), PRECESS_OK);
+        contributes(&state, &inputs, joints);
         IS(precess_step(&craft, &state, &inputs, 1e-3, 100, 0, 0), PRECESS_OK);
         IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &after, 0), PRECESS_OK);
         for (axis = 0; axis < 3; axis++) {

@@ -1,5 +1,6 @@
 //! Isolated platforms and rows of panels against a tree of bodies by Newton and Euler, known answers, conservation.
 
+mod contributions;
 mod craft;
 mod derivatives;
 mod energies;

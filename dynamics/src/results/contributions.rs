@@ -1,0 +1,146 @@
+//! [`DeviceContributions`]: what the devices add to the equations of the hub once their joints are eliminated, for a
+//! program that has the hub itself and solves its equations.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::hub::HubConstants;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::system::Solution;
+use crate::numbers::each::Each;
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{Columns, Vec3, components, finite, vector, zeros};
+use crate::results::momentum::first_moments;
+use crate::sets::devices::{ConstantShares, Devices};
+use crate::sets::per_device as data;
+use crate::solve::diagnosis::overflow;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
+
+/// What the devices contribute to the equations of a hub that another program has, their joints eliminated. Everything
+/// is expressed in B; the hub's own mass, inertia, force and torque are not in it.
+///
+/// The hub's equations are `(M_hub + M) [a; omega'] = h_hub + h`, with `a` the inertial acceleration of B, and the
+/// acceleration of a joint is that of `joints` plus `joints_by_hub` times `a` and `omega'`. In a uniform field `g`, expressed
+/// in B, `a` is the acceleration of B less `g` in both: gravity of the inputs is not read, nor are the hub's mode, force
+/// and torque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeviceContributions<D: Devices> {
+    /// `M`, force by `a`, kg; symmetric.
+    pub m_vv: Matrix3<D::Scalar>,
+    /// `M`, force by `omega'`, kg m; its transpose is moment by `a`.
+    pub m_vw: Matrix3<D::Scalar>,
+    /// `M`, moment about B by `omega'`, kg m^2; symmetric.
+    pub m_ww: Matrix3<D::Scalar>,
+    /// `h`, force, N.
+    pub h_v: Vector3<D::Scalar>,
+    /// `h`, moment about B, N m.
+    pub h_w: Vector3<D::Scalar>,
+    /// Mass of the devices, kg.
+    pub mass: D::Scalar,
+    /// First moment of the devices about B, kg m.
+    pub first_moment: Vector3<D::Scalar>,
+    /// Its derivative seen from B, kg m/s.
+    pub first_moment_prime: Vector3<D::Scalar>,
+    /// Inertia of the devices about B, joints locked, kg m^2.
+    pub inertia: Matrix3<D::Scalar>,
+    /// Accelerations of the joints where `a` and `omega'` are zero, rad/s^2; m/s^2 of a sliding joint.
+    pub joints: D::Per<data::Accelerations>,
+    /// What they have more by `a` along x, y, z, per m/s^2, and by `omega'` about x, y, z, per rad/s^2.
+    pub joints_by_hub: [D::Per<data::Accelerations>; 6],
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// What the devices contribute to the equations of the hub, their joints eliminated: motors, springs, friction and
+    /// modes of the joints, and wrenches on the bodies, are those of the inputs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::accelerations`] but for the hub's.
+    pub fn device_contributions<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<DeviceContributions<D>, SolveError<D::Scalar>> {
+        if !self.are_finite(state, inputs) {
+            return Err(self.diagnosis(state, inputs, overflow()));
+        }
+        let found = self.contributions(state, inputs);
+        found.map_err(|failure| self.diagnosis(state, inputs, failure))
+    }
+
+    fn contributions<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<DeviceContributions<D>, SolveError<D::Scalar>> {
+        let omega = components(&state.omega);
+        let environment = Environment { omega, central: None, impulse: false, reduction: None };
+        let nothing = HubConstants { m_b: zero(), first_moment: zeros(), i_b_b: Symmetric::zero() };
+        let constant = nothing.with_constant_shares(D::list::<ConstantShares>(&self.devices));
+        let mut assembly = Assembly::new(&constant, zeros(), zeros());
+        let mut gains = D::new_data(&self.devices, &data::Gains);
+        let (given, by) = (inputs.of_joints(), self.arithmetic);
+        self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut gains)?;
+        let (body, system) = (assembly.body(), assembly.system(omega));
+        let [_, prime] = first_moments::<D>(&self.devices, &state.devices);
+        let accelerations = |r_b_n_ddot, omega_dot| {
+            self.back_substitute(&gains, &Solution { r_b_n_ddot, omega_dot })
+        };
+        let joints = accelerations(zeros(), zeros())?;
+        let mut more = [(); 6].map(|()| joints.clone());
+        for (axis, to) in more.iter_mut().enumerate() {
+            let along = |first: usize| unit(axis.wrapping_sub(first));
+            *to = accelerations(along(0), along(3))?;
+            for (to, without) in to.values_mut().zip(joints.values()) {
+                *to = *to - without;
+            }
+        }
+        let found = DeviceContributions {
+            m_vv: symmetric(&system.m_vv),
+            m_vw: matrix(&system.m_vw),
+            m_ww: symmetric(&system.m_ww),
+            h_v: vector(system.h_v),
+            h_w: vector(system.h_w),
+            mass: body.m_b,
+            first_moment: vector(body.first_moment),
+            first_moment_prime: vector(prime),
+            inertia: symmetric(&body.i_b_b),
+            joints,
+            joints_by_hub: more,
+        };
+        if found.is_finite() { Ok(found) } else { Err(overflow()) }
+    }
+}
+
+impl<D: Devices> DeviceContributions<D> {
+    fn is_finite(&self) -> bool {
+        let vectors = [self.h_v, self.h_w, self.first_moment, self.first_moment_prime];
+        let matrices = [self.m_vv, self.m_vw, self.m_ww, self.inertia];
+        vectors.iter().map(components).all(finite)
+            && matrices.iter().flat_map(Matrix3::iter).copied().all(Scalar::is_finite)
+            && self.joints_by_hub.iter().flat_map(Each::values).all(Scalar::is_finite)
+    }
+}
+
+/// A unit vector; zero for an axis that is none.
+fn unit<T: Scalar>(axis: usize) -> Vec3<T> {
+    let mut unit = zeros();
+    if let Some(to) = unit.get_mut(axis) {
+        *to = T::from_f64(1.0);
+    }
+    unit
+}
+
+fn symmetric<T: Scalar>(of: &Symmetric<T>) -> Matrix3<T> {
+    let Symmetric { xx, xy, xz, yy, yz, zz } = *of;
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+fn matrix<T: Scalar>([x, y, z]: &Columns<T>) -> Matrix3<T> {
+    Matrix3::from_columns(&[vector(*x), vector(*y), vector(*z)])
+}

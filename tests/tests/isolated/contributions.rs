@@ -1,0 +1,134 @@
+//! What the devices contribute to a hub that another program has: with that hub, the accelerations of the whole.
+
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use precess_dynamics::{
+    About, Devices, Each, Gravity, Hub, HubMode, JointStates, Mode, SolveError, Spacecraft,
+};
+use precess_tests::cases;
+
+use crate::craft::{Craft, Options, cluster, mixed, stacked};
+use crate::panels::rows;
+
+/// Seeds of each set and each choice of options.
+const SEEDS: u64 = 40;
+
+/// Rounding of sums of some tens of products, of the sum of their magnitudes.
+const ROUNDING: f64 = 1e-13;
+
+fn hub() -> Hub {
+    let inertia = Matrix3::new(40.0, 1.5, -1.1, 1.5, 35.0, 0.9, -1.1, 0.9, 30.0);
+    Hub { m_b: 180.0, r_bc_b: Vector3::new(0.02, -0.01, 0.05), i_b_bc: inertia }
+}
+
+fn joined(v: &Vector3<f64>, w: &Vector3<f64>) -> Vector6<f64> {
+    Vector6::from_iterator(v.iter().chain(w).copied())
+}
+
+/// Mass matrix of the hub, and its load without force and torque.
+fn of_hub(hub: &Hub, omega: &Vector3<f64>) -> (Matrix6<f64>, Vector6<f64>) {
+    let c = hub.r_bc_b.cross_matrix();
+    let inertia = hub.i_b_bc - c * c * hub.m_b;
+    let mut m = Matrix6::identity() * hub.m_b;
+    m.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-c * hub.m_b));
+    m.fixed_view_mut::<3, 3>(3, 0).copy_from(&(c * hub.m_b));
+    m.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia);
+    let force = omega.cross(&omega.cross(&hub.r_bc_b)) * -hub.m_b;
+    (m, joined(&force, &-omega.cross(&(inertia * omega))))
+}
+
+fn equations_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, what: &str) {
+    let craft = Spacecraft::new(&hub(), &of.devices).expect("a spacecraft");
+    let mut inputs = of.inputs.clone();
+    inputs.hub = HubMode::Free;
+    let found = craft.accelerations(&of.state, &inputs).expect("regular");
+    let devices = craft.device_contributions(&of.state, &inputs).expect("regular");
+    let field = match inputs.gravity {
+        Gravity::Uniform(g) => precess_dynamics::Attitude::dcm(&of.state.attitude) * g,
+        _ => Vector3::zeros(),
+    };
+    let a = joined(&(found.r_b_n_ddot - field), &found.omega_dot);
+    let (mut m, mut h) = of_hub(&hub(), &of.state.omega);
+    let mut own = Matrix6::zeros();
+    own.fixed_view_mut::<3, 3>(0, 0).copy_from(&devices.m_vv);
+    own.fixed_view_mut::<3, 3>(0, 3).copy_from(&devices.m_vw);
+    own.fixed_view_mut::<3, 3>(3, 0).copy_from(&devices.m_vw.transpose());
+    own.fixed_view_mut::<3, 3>(3, 3).copy_from(&devices.m_ww);
+    m += own;
+    let load = joined(&devices.h_v, &devices.h_w);
+    h += load + joined(&inputs.force, &inputs.torque_b);
+    let scale = m.abs() * a.abs() + h.abs() + load.abs();
+    let residual = (m * a - h).abs();
+    for (residual, scale) in residual.iter().zip(&scale) {
+        assert!(*residual <= ROUNDING * scale, "{what}: {residual:e} of {scale:e}");
+    }
+    for (joint, expected) in found.devices.values().enumerate() {
+        let free = devices.joints.values().nth(joint).expect("a joint");
+        let by = |axis: usize| devices.joints_by_hub[axis].values().nth(joint).expect("a joint");
+        let sum = (0..6).fold(free, |sum, axis| sum + by(axis) * a[axis]);
+        let size = (0..6).fold(free.abs(), |sum, k| sum + (free.abs() + by(k).abs()) * a[k].abs());
+        assert!((sum - expected).abs() <= ROUNDING * size, "{what}: {sum:e}, {expected:e}");
+    }
+}
+
+fn mass_properties_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, what: &str) {
+    let hub = hub();
+    let craft = Spacecraft::new(&hub, &of.devices).expect("a spacecraft");
+    let devices = craft.device_contributions(&of.state, &of.inputs).expect("regular");
+    let near = |found: f64, expected: f64| (found - expected).abs() <= ROUNDING * expected.abs();
+    assert!(near(devices.mass + hub.m_b, craft.mass()), "{what}");
+    let centre = craft.centre_of_mass(&of.state).expect("finite");
+    let first = devices.first_moment + hub.r_bc_b * hub.m_b;
+    let size = devices.first_moment.norm() + hub.r_bc_b.norm() * hub.m_b;
+    assert!((first - centre.c * craft.mass()).norm() <= ROUNDING * size, "{what}");
+    let prime = devices.first_moment_prime;
+    let error = (prime - centre.c_prime * craft.mass()).norm();
+    assert!(error <= 1e-12 * prime.norm(), "{what}: {error:e} of {:e}", prime.norm());
+    // With joints at rest the angular momentum about B is that of a rigid body.
+    let mut still = of.state.clone();
+    still.r_b_n_dot = Vector3::zeros();
+    still.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
+    let about = About::Point(still.r_b_n);
+    let angular = craft.momentum(&still, about).expect("finite").angular;
+    let c = hub.r_bc_b.cross_matrix();
+    let inertia = devices.inertia + hub.i_b_bc - c * c * hub.m_b;
+    let expected = inertia * still.omega;
+    let found = precess_dynamics::Attitude::dcm(&still.attitude) * angular;
+    assert!((found - expected).norm() <= 1e-12 * inertia.norm() * still.omega.norm(), "{what}");
+}
+
+#[test]
+fn contributions_and_a_hub_are_the_whole_spacecraft() {
+    let none = Options::default();
+    let uniform = Some(Gravity::Uniform(Vector3::new(0.3, -9.0, 2.0)));
+    let all = [
+        none,
+        Options { springs: true, dry: true, ..none },
+        Options { wrenches: true, modes: true, ..none },
+        Options { gravity: uniform, springs: true, ..none },
+    ];
+    for (number, options) in all.iter().enumerate() {
+        for seed in 0..cases(SEEDS) {
+            let what = format!("options {number}, seed {seed}");
+            equations_are_those_of_the_whole(&cluster(seed, options), &what);
+            equations_are_those_of_the_whole(&mixed(seed, options), &what);
+            equations_are_those_of_the_whole(&stacked(seed, options), &what);
+            equations_are_those_of_the_whole(&rows(seed, options), &what);
+            mass_properties_are_those_of_the_whole(&mixed(seed, options), &what);
+            mass_properties_are_those_of_the_whole(&stacked(seed, options), &what);
+        }
+    }
+}
+
+#[test]
+fn a_state_or_a_locked_joint_that_accelerations_reject_is_rejected() {
+    let mut of = cluster(3, &Options::default());
+    for mode in of.inputs.modes.values_mut() {
+        *mode = Mode::Locked;
+    }
+    let rejected = of.solver.device_contributions(&of.state, &of.inputs);
+    assert!(matches!(rejected, Err(SolveError::LockedJointMoves { .. })), "{rejected:?}");
+    let mut of = cluster(3, &Options::default());
+    of.state.omega.x = f64::NAN;
+    let rejected = of.solver.device_contributions(&of.state, &of.inputs);
+    assert!(matches!(rejected, Err(SolveError::NotFinite { .. })), "{rejected:?}");
+}
