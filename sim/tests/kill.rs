@@ -27,10 +27,11 @@ const SPREAD: f64 = 1.2;
 const OLD: &[u8] = b"an earlier result\n";
 
 /// The formats that this build writes.
-const FORMATS: &[&str] = if cfg!(feature = "parquet") {
-    &["csv", "npz", "mcap", "parquet"]
-} else {
-    &["csv", "npz", "mcap"]
+const FORMATS: &[&str] = match (cfg!(feature = "mcap"), cfg!(feature = "parquet")) {
+    (false, false) => &["csv", "npz"],
+    (true, false) => &["csv", "npz", "mcap"],
+    (false, true) => &["csv", "npz", "parquet"],
+    (true, true) => &["csv", "npz", "mcap", "parquet"],
 };
 
 /// A share of one.

@@ -13,8 +13,8 @@ use xtask::skip::skip;
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated platforms; pyYeti, of structures; Basilisk's
 /// laws, of steering and of attitude, and its law and servo over a run; `SciPy`, of filters; python-control, of
-/// loops.
-const SCRIPTS: [&str; 12] = [
+/// loops; the package `mcap`, of a recording.
+const SCRIPTS: [&str; 13] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -27,6 +27,7 @@ const SCRIPTS: [&str; 12] = [
     "tests/engines/loops.py",
     "tests/engines/steered.py",
     "tests/engines/mrp_feedback.py",
+    "tests/engines/recording.py",
 ];
 
 /// What draws more spacecraft.

@@ -43,7 +43,7 @@ use lines::WheelLines;
 use messages::{Log, Schema, Time};
 
 /// Samples of a run with frames, at most, but for the last one.
-pub const FRAMES_MAX: f64 = 2000.0;
+pub const FRAMES_MAX: f64 = 1000.0;
 
 /// Writes an MCAP file.
 pub struct Mcap {

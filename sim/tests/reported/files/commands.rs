@@ -179,14 +179,15 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
     let (samples, result) = ("table/wheel-sweep.csv", "results/wheel.csv");
     let measurement = "table/wheel-measurement.toml";
+    let formats = if cfg!(feature = "mcap") {
+        "output.formats=[\"csv\", \"npz\", \"mcap\"]"
+    } else {
+        "output.formats=[\"csv\", \"npz\"]"
+    };
     let cases = vec![
         of("new", &[], &["vscmg"]),
         of("check", scenario, &["wheel.toml"]),
-        of(
-            "run",
-            scenario,
-            &["wheel.toml", "--out", "out", "--set", "output.formats=[\"csv\", \"npz\"]"],
-        ),
+        of("run", scenario, &["wheel.toml", "--out", "out", "--set", formats]),
         of("evaluate", scenario, &["wheel.toml"]),
         of("compare", &[result], &[result, result]),
         of("plot", scenario, &["wheel.toml", "--out", "out"]),

@@ -128,3 +128,19 @@ fn without_parquet_the_error_and_the_page_of_formats_name_the_feature() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenarios.md");
     assert!(fs::read_to_string(page).expect("a page").contains("--features parquet"));
 }
+
+#[test]
+#[cfg(not(feature = "mcap"))]
+fn without_mcap_the_error_and_the_page_of_formats_name_the_feature() {
+    let case = &writing("without-mcap")[0];
+    let out = case.folder.join("none");
+    let wheel = case.folder.join("wheel.toml");
+    let arguments =
+        ["run", wheel.to_str().expect("text"), "--set", "output.formats=[\"mcap\"]", "--out"];
+    let ended = precess(&[&arguments[..], &[out.to_str().expect("text")]].concat());
+    assert_eq!(ended.code, Some(1));
+    assert!(ended.error.contains("--features mcap"), "{}", ended.error);
+    assert!(!out.exists(), "before the run");
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenarios.md");
+    assert!(fs::read_to_string(page).expect("a page").contains("--features mcap"));
+}
