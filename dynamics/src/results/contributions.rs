@@ -8,11 +8,9 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
-use crate::equations::system::Solution;
-use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Columns, Vec3, components, finite, vector, zeros};
+use crate::numbers::vec3::{Columns, components, finite, vector, zeros};
 use crate::results::momentum::first_moments;
 use crate::sets::devices::{ConstantShares, Devices};
 use crate::sets::per_device as data;
@@ -24,34 +22,30 @@ use crate::solve::state::State;
 /// What the devices contribute to the equations of a hub that another program has, their joints eliminated. Everything
 /// is expressed in B; the hub's own mass, inertia, force and torque are not in it.
 ///
-/// The hub's equations are `(M_hub + M) [a; omega'] = h_hub + h`, with `a` the inertial acceleration of B, and the
-/// acceleration of a joint is that of `joints` plus `joints_by_hub` times `a` and `omega'`. In a uniform field `g`, expressed
-/// in B, `a` is the acceleration of B less `g` in both: gravity of the inputs is not read, nor are the hub's mode, force
-/// and torque.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeviceContributions<D: Devices> {
+/// The hub's equations are `(M_hub + M) [a; omega'] = h_hub + h`, with `a` the inertial acceleration of B; in a uniform field
+/// `g`, expressed in B, that acceleration less `g`: gravity of the inputs is not read, nor are the hub's mode, force
+/// and torque. The joints' accelerations are those on a [prescribed hub](crate::HubMode::Prescribed) with that `a` and `omega'`,
+/// without gravity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviceContributions<T = f64> {
     /// `M`, force by `a`, kg; symmetric.
-    pub m_vv: Matrix3<D::Scalar>,
+    pub m_vv: Matrix3<T>,
     /// `M`, force by `omega'`, kg m; its transpose is moment by `a`.
-    pub m_vw: Matrix3<D::Scalar>,
+    pub m_vw: Matrix3<T>,
     /// `M`, moment about B by `omega'`, kg m^2; symmetric.
-    pub m_ww: Matrix3<D::Scalar>,
+    pub m_ww: Matrix3<T>,
     /// `h`, force, N.
-    pub h_v: Vector3<D::Scalar>,
+    pub h_v: Vector3<T>,
     /// `h`, moment about B, N m.
-    pub h_w: Vector3<D::Scalar>,
+    pub h_w: Vector3<T>,
     /// Mass of the devices, kg.
-    pub mass: D::Scalar,
+    pub mass: T,
     /// First moment of the devices about B, kg m.
-    pub first_moment: Vector3<D::Scalar>,
+    pub first_moment: Vector3<T>,
     /// Its derivative seen from B, kg m/s.
-    pub first_moment_prime: Vector3<D::Scalar>,
+    pub first_moment_prime: Vector3<T>,
     /// Inertia of the devices about B, joints locked, kg m^2.
-    pub inertia: Matrix3<D::Scalar>,
-    /// Accelerations of the joints where `a` and `omega'` are zero, rad/s^2; m/s^2 of a sliding joint.
-    pub joints: D::Per<data::Accelerations>,
-    /// What they have more by `a` along x, y, z, per m/s^2, and by `omega'` about x, y, z, per rad/s^2.
-    pub joints_by_hub: [D::Per<data::Accelerations>; 6],
+    pub inertia: Matrix3<T>,
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -65,7 +59,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
-    ) -> Result<DeviceContributions<D>, SolveError<D::Scalar>> {
+    ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
         if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
@@ -77,7 +71,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
-    ) -> Result<DeviceContributions<D>, SolveError<D::Scalar>> {
+    ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
         let omega = components(&state.omega);
         let environment = Environment { omega, central: None, impulse: false, reduction: None };
         let nothing = HubConstants { m_b: zero(), first_moment: zeros(), i_b_b: Symmetric::zero() };
@@ -88,18 +82,6 @@ impl<D: Devices> Spacecraft<D> {
         self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut gains)?;
         let (body, system) = (assembly.body(), assembly.system(omega));
         let [_, prime] = first_moments::<D>(&self.devices, &state.devices);
-        let accelerations = |r_b_n_ddot, omega_dot| {
-            self.back_substitute(&gains, &Solution { r_b_n_ddot, omega_dot })
-        };
-        let joints = accelerations(zeros(), zeros())?;
-        let mut more = [(); 6].map(|()| joints.clone());
-        for (axis, to) in more.iter_mut().enumerate() {
-            let along = |first: usize| unit(axis.wrapping_sub(first));
-            *to = accelerations(along(0), along(3))?;
-            for (to, without) in to.values_mut().zip(joints.values()) {
-                *to = *to - without;
-            }
-        }
         let found = DeviceContributions {
             m_vv: symmetric(&system.m_vv),
             m_vw: matrix(&system.m_vw),
@@ -110,30 +92,18 @@ impl<D: Devices> Spacecraft<D> {
             first_moment: vector(body.first_moment),
             first_moment_prime: vector(prime),
             inertia: symmetric(&body.i_b_b),
-            joints,
-            joints_by_hub: more,
         };
         if found.is_finite() { Ok(found) } else { Err(overflow()) }
     }
 }
 
-impl<D: Devices> DeviceContributions<D> {
+impl<T: Scalar> DeviceContributions<T> {
     fn is_finite(&self) -> bool {
         let vectors = [self.h_v, self.h_w, self.first_moment, self.first_moment_prime];
         let matrices = [self.m_vv, self.m_vw, self.m_ww, self.inertia];
         vectors.iter().map(components).all(finite)
             && matrices.iter().flat_map(Matrix3::iter).copied().all(Scalar::is_finite)
-            && self.joints_by_hub.iter().flat_map(Each::values).all(Scalar::is_finite)
     }
-}
-
-/// A unit vector; zero for an axis that is none.
-fn unit<T: Scalar>(axis: usize) -> Vec3<T> {
-    let mut unit = zeros();
-    if let Some(to) = unit.get_mut(axis) {
-        *to = T::from_f64(1.0);
-    }
-    unit
 }
 
 fn symmetric<T: Scalar>(of: &Symmetric<T>) -> Matrix3<T> {

@@ -230,7 +230,8 @@ typedef struct precess_loads {
 /* What the devices contribute to the equations of a hub that the caller has, their joints eliminated; B axes.
  * [force_by_linear  force_by_angular ] and (force, moment) are added to the hub's own mass matrix and load of
  * [force_by_angular' moment_by_angular]   (M_hub + M) (a, omega') = load_hub + load, a being the inertial
- * acceleration of B; in a uniform field g, along B, a is that acceleration less g, for the joints too. */
+ * acceleration of B; in a uniform field g, along B, a is that acceleration less g. Accelerations of the
+ * joints are those on a prescribed hub with this a and omega', without gravity. */
 typedef struct precess_contributions {
     double force_by_linear[9];    /* symmetric, kg */
     double force_by_angular[9];   /* kg m; its transpose is moment by a */
@@ -241,9 +242,6 @@ typedef struct precess_contributions {
     double first_moment[3];       /* of the devices about B, kg m */
     double first_moment_prime[3]; /* its derivative seen from B, kg m/s */
     double inertia[9];            /* of the devices about B, joints locked, kg m^2 */
-    double joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* acceleration where a and omega' are zero, rad/s^2 or
-                                                              m/s^2 */
-    double by_hub[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS][6]; /* what it has more by each of a, omega' */
 } precess_contributions;
 
 /* Version of the library: PRECESS_VERSION of the header it belongs to. */

@@ -164,7 +164,7 @@ versions! {
         craft: *const Craft,
         state: *const State<J>,
         inputs: *const Inputs<J>,
-        out: *mut Contributions<J>,
+        out: *mut Contributions,
         fault: *mut Fault,
     );
     steering_terms_of "precess_steering_terms_of" "precess_steering_terms_of_v2" (

@@ -97,9 +97,9 @@ where
         "precess_momentum" Momentum: Momentum { linear angular }
         "precess_power" Power: Power { external hub gravity motors springs friction }
         "precess_loads" Loads: Loads<J> { hub mount joint motor }
-        "precess_contributions" Contributions: Contributions<J> {
+        "precess_contributions" Contributions: Contributions {
             force_by_linear force_by_angular moment_by_angular force moment mass first_moment
-            first_moment_prime inertia joint by_hub
+            first_moment_prime inertia
         }
         "precess_steering_terms" SteeringTerms: SteeringTerms<J> {
             by_rate by_acceleration momentum first_moment inertia gyroscopic

@@ -218,7 +218,7 @@ structures! {
     }
 
     /// `precess_contributions`.
-    Contributions<J> {
+    Contributions {
         /// kg.
         force_by_linear: [f64; 9],
         /// kg m.
@@ -237,10 +237,6 @@ structures! {
         first_moment_prime: [f64; 3],
         /// About B, kg m².
         inertia: [f64; 9],
-        /// rad/s² or m/s².
-        joint: PerJoint<f64, J>,
-        /// By the six accelerations of the hub.
-        by_hub: PerJoint<[f64; 6], J>,
     }
 
     /// `precess_steering_terms`.

@@ -56,7 +56,8 @@ static int32_t init(uint32_t count, precess_fault *fault)
 static void contributes(const precess_state *state, const precess_inputs *inputs, uint32_t joints)
 {
     precess_contributions devices_of;
-    precess_accelerations found;
+    precess_accelerations found, again;
+    precess_inputs prescribed = *inputs;
     uint32_t joint;
     int row, column;
     IS(precess_accelerations_of(&craft, state, inputs, &found, 0), PRECESS_OK);
@@ -69,13 +70,14 @@ static void contributes(const precess_state *state, const precess_inputs *inputs
         }
         NEAR(sum, 0.0, 1e-10);
     }
+    for (row = 0; row < 3; row++) {
+        prescribed.hub_linear[row] = found.linear[row];
+        prescribed.hub_angular[row] = found.angular[row];
+    }
+    prescribed.hub_mode = PRECESS_HUB_PRESCRIBED;
+    IS(precess_accelerations_of(&craft, state, &prescribed, &again, 0), PRECESS_OK);
     for (joint = 0; joint < joints; joint++) {
-        double sum = devices_of.joint[0][joint] - found.joint[0][joint];
-        for (column = 0; column < 3; column++) {
-            sum += devices_of.by_hub[0][joint][column] * found.linear[column];
-            sum += devices_of.by_hub[0][joint][3 + column] * found.angular[column];
-        }
-        NEAR(sum, 0.0, 1e-12);
+        NEAR(again.joint[0][joint], found.joint[0][joint], 1e-12);
     }
 }
 
