@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::loads::by_loads::ByLoads;
+use crate::derivatives::loads::load_columns::LoadsWorkspace;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree::by_tree::ByTree;
 use crate::derivatives::variable::Variable;
@@ -15,12 +16,12 @@ use crate::solve::state::{Accelerations, State};
 
 /// By the devices of a hub with nothing but a uniform field, or by those of a tree of carriers under whatever acts.
 #[derive(Debug)]
-pub(crate) enum Emitted<T> {
-    OnHub(ByLoads<T>),
+pub(crate) enum Emitted<'a, T> {
+    OnHub(ByLoads<'a, T>),
     OfTree(ByTree<T>),
 }
 
-impl<T: Scalar> Emitted<T> {
+impl<'a, T: Scalar> Emitted<'a, T> {
     /// At a state with its accelerations; none where what acts has no emitted derivatives: a platform that is no
     /// carrier.
     pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
@@ -28,8 +29,9 @@ impl<T: Scalar> Emitted<T> {
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
+        workspace: &'a mut LoadsWorkspace<T>,
     ) -> Option<Self> {
-        let on_hub = ByLoads::new(craft, state, inputs, accelerations).map(Self::OnHub);
+        let on_hub = ByLoads::new(craft, state, inputs, accelerations, workspace).map(Self::OnHub);
         on_hub.or_else(|| ByTree::new(craft, state, inputs, accelerations).map(Self::OfTree))
     }
 

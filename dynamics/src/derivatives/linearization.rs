@@ -11,6 +11,7 @@ use crate::derivatives::error::DerivativeError;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
+use crate::derivatives::workspace::Workspace;
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::components;
@@ -77,6 +78,7 @@ pub struct Linearization<D: Devices, S: StructureData = Rigid> {
     pub c: DMatrix<D::Scalar>,
     /// Derivatives of the outputs by the inputs.
     pub d: DMatrix<D::Scalar>,
+    workspace: Workspace<D::Scalar>,
 }
 
 impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
@@ -111,13 +113,15 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             b,
             c,
             d,
+            workspace: Workspace::new(),
         };
         self.linearize_into(state, inputs, outputs, &mut found)?;
         Ok(found)
     }
 
     /// As [`Self::linearize`], into what an earlier call returned: its matrices and lists are written, and allocated
-    /// again only where they have another size.
+    /// again only where they have another size. Otherwise a fixed set of devices on a rigid hub takes no heap, with
+    /// emitted derivatives (as [`Self::jvp`] has them); a list that of [`Self::accelerations`].
     ///
     /// ```
     /// # use nalgebra::{Matrix3, Vector3};
@@ -147,10 +151,13 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     ) -> Result<(), DerivativeError<D::Scalar>> {
         into.accelerations = self.checked(state, inputs, outputs)?;
         into.shape(self, inputs, outputs);
-        let Linearization { accelerations, states, inputs: by_inputs, a, b, c, d, .. } = into;
+        let Linearization {
+            accelerations, states, inputs: by_inputs, a, b, c, d, workspace, ..
+        } = into;
         let lists = (states.as_slice(), by_inputs.as_slice());
-        self.output_columns((state, inputs), accelerations, outputs, lists, [&mut *c, &mut *d])?;
-        let rows = Slopes::new(self, state, inputs, accelerations);
+        let (at, into) = ((state, inputs), [&mut *c, &mut *d]);
+        self.output_columns(at, accelerations, outputs, lists, into, workspace)?;
+        let rows = Slopes::new(self, state, inputs, accelerations, &mut workspace.moving);
         let not_finite = |variable| DerivativeError::NotFinite { variable };
         rows.fill(states, c, a).map_err(not_finite)?;
         let others = rows.fill(by_inputs, d, b);
@@ -165,9 +172,10 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         outputs: &Outputs<D::Scalar>,
         (states, by_inputs): (&[Variable], &[Variable]),
         into: [&mut DMatrix<D::Scalar>; 2],
+        workspace: &mut Workspace<D::Scalar>,
     ) -> Result<(), DerivativeError<D::Scalar>> {
         let emitted = if *outputs == Outputs::accelerations() {
-            Emitted::new(self, state, inputs, accelerations)
+            Emitted::new(self, state, inputs, accelerations, &mut workspace.loads)
         } else {
             None
         };
@@ -208,6 +216,18 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             rows.extend(Axis::ALL.map(Output::HubForce));
             rows.extend(Axis::ALL.map(Output::HubMoment));
         }
+    }
+}
+
+impl<D: Devices, S: StructureData> Linearization<D, S> {
+    /// The same with accelerations of another set or structure.
+    #[must_use]
+    pub fn with_accelerations<E: Devices<Scalar = D::Scalar>, Q: StructureData>(
+        self,
+        accelerations: Accelerations<E, Q>,
+    ) -> Linearization<E, Q> {
+        let Self { states, inputs, outputs, a, b, c, d, workspace, .. } = self;
+        Linearization { accelerations, states, inputs, outputs, a, b, c, d, workspace }
     }
 }
 

@@ -31,3 +31,5 @@ pub(crate) mod structure;
 #[cfg(feature = "alloc")]
 pub(crate) mod tree;
 pub(crate) mod variable;
+#[cfg(feature = "alloc")]
+mod workspace;

@@ -28,7 +28,7 @@ pub(crate) const OF_HUB: usize = 12;
 
 /// What the slopes at a state depend on, and the order of the states.
 #[derive(Debug)]
-pub(crate) struct Slopes<T> {
+pub(crate) struct Slopes<'a, T> {
     by: Arithmetic,
     bn: Columns<T>,
     pub(crate) omega: Vec3<T>,
@@ -36,32 +36,33 @@ pub(crate) struct Slopes<T> {
     /// Whether the hub moves: its rows are before those of the joints.
     pub(crate) hub: bool,
     /// The joints that are not locked: their coordinates, then their rates are states.
-    pub(crate) moving: Vec<usize>,
+    pub(crate) moving: &'a [usize],
     pub(crate) joints: usize,
     /// Modal coordinates are states after those of the joints, and then their rates.
     pub(crate) modes: usize,
 }
 
-impl<T: Scalar> Slopes<T> {
+impl<'a, T: Scalar> Slopes<'a, T> {
     pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
         craft: &Spacecraft<D, S>,
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
+        moving: &'a mut Vec<usize>,
     ) -> Self {
         let modes = inputs.modes.values().enumerate();
-        let mut found = Self {
+        moving.clear();
+        modes.filter(|(_, mode)| *mode != Mode::Locked).for_each(|(joint, _)| moving.push(joint));
+        Self {
             by: craft.arithmetic,
             bn: columns(&state.attitude.dcm()),
             omega: components(&state.omega),
             r_b_n_ddot: components(&accelerations.r_b_n_ddot),
             hub: !matches!(inputs.hub, HubMode::Fixed),
-            moving: Vec::with_capacity(inputs.modes.values().count()),
+            moving,
             joints: inputs.modes.values().count(),
             modes: S::modes(craft),
-        };
-        found.moving.extend(modes.filter(|(_, mode)| *mode != Mode::Locked).map(|(k, _)| k));
-        found
+        }
     }
 
     /// The change of the acceleration of B, N axes, where the attitude changes by a small rotation.
@@ -73,13 +74,10 @@ impl<T: Scalar> Slopes<T> {
     #[inline(always)]
     fn of_rates(&self, joints: &[T], rates: &mut [T]) {
         if rates.len() == joints.len() {
-            let ((to, last), (from, of_last)) =
-                (rates.as_chunks_mut::<4>(), joints.as_chunks::<4>());
-            to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
-            last.iter_mut().zip(of_last).for_each(|(to, from)| *to = *from);
+            rates.copy_from_slice(joints);
             return;
         }
-        for (rate, joint) in rates.iter_mut().zip(&self.moving) {
+        for (rate, joint) in rates.iter_mut().zip(self.moving) {
             *rate = joints.get(*joint).copied().unwrap_or_else(zero);
         }
     }
@@ -114,7 +112,6 @@ impl<T: Scalar> Slopes<T> {
     /// What the accelerations of all columns change slopes by, and zeros; whether those of B in N are finite.
     #[inline(always)]
     fn of_all_accelerations(&self, accelerations: &DMatrix<T>, slopes: &mut DMatrix<T>) -> bool {
-        slopes.as_mut_slice().fill(zero());
         let from = accelerations.as_slice().chunks_exact(accelerations.nrows().max(1));
         let mut finite = true;
         for (from, to) in from.zip(columns_of(slopes)) {
@@ -123,7 +120,7 @@ impl<T: Scalar> Slopes<T> {
         finite
     }
 
-    /// What accelerations change slopes by; whether that of B in N is finite.
+    /// What accelerations change slopes by, and zeros; whether that of B in N is finite.
     #[inline(always)]
     fn of_accelerations(&self, accelerations: &[T], slopes: &mut [T]) -> bool {
         let Some((of_hub, joints)) = accelerations.split_first_chunk::<6>() else { return true };
@@ -131,21 +128,22 @@ impl<T: Scalar> Slopes<T> {
         if self.hub {
             let Some((hub, rest)) = to.split_first_chunk_mut::<OF_HUB>() else { return true };
             to = rest;
-            let [a, b, c, d, e, f] = *of_hub;
+            let ([a, b, c, d, e, f], o) = (*of_hub, zero());
             let [x, y, z] = rotate_transposed(&self.bn, [a, b, c]);
-            let [.., p, q, r, s, t, u] = hub;
-            (*p, *q, *r, *s, *t, *u) = (x, y, z, d, e, f);
+            *hub = [o, o, o, o, o, o, x, y, z, d, e, f];
             finite = ((x + y + z) * zero()).is_finite();
         }
         let moving = self.moving.len();
-        let Some((_, to)) = to.split_at_mut_checked(moving) else { return true };
+        let Some((coordinates, to)) = to.split_at_mut_checked(moving) else { return true };
         let Some((rates, to)) = to.split_at_mut_checked(moving) else { return true };
         let Some((joints, rest)) = joints.split_at_checked(self.joints) else { return true };
+        coordinates.fill(zero());
         self.of_rates(joints, rates);
         if self.modes > 0
-            && let (Some(rates), Some(of_modes)) =
-                (to.get_mut(self.modes..), rest.get(..self.modes))
+            && let Some((coordinates, rates)) = to.split_at_mut_checked(self.modes)
+            && let Some(of_modes) = rest.get(..self.modes)
         {
+            coordinates.fill(zero());
             rates.iter_mut().zip(of_modes).for_each(|(to, from)| *to = *from);
         }
         finite
@@ -184,7 +182,7 @@ impl<T: Scalar> Slopes<T> {
     }
 
     /// The hub's rows of a column of states; none where it is fixed.
-    fn hub_rows<'a>(&self, slopes: &'a mut [T]) -> Option<[&'a mut Vec3<T>; 4]> {
+    fn hub_rows<'b>(&self, slopes: &'b mut [T]) -> Option<[&'b mut Vec3<T>; 4]> {
         let (hub, _) = slopes.split_at_mut_checked(OF_HUB).filter(|_| self.hub)?;
         match hub.as_chunks_mut::<3>().0 {
             [position, attitude, velocity, omega] => Some([position, attitude, velocity, omega]),
@@ -196,7 +194,7 @@ impl<T: Scalar> Slopes<T> {
 /// Slopes by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 struct Dispatched<'a, T> {
-    of: &'a Slopes<T>,
+    of: &'a Slopes<'a, T>,
     accelerations: &'a DMatrix<T>,
     slopes: &'a mut DMatrix<T>,
 }

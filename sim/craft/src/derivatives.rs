@@ -37,9 +37,8 @@ pub fn linearize_rigid(
     let craft = Craft::from(craft.clone());
     let inputs = inputs.clone().with_modal(craft.no_inputs().modal);
     let found = linearize(&craft, &rigid_state(state.clone()), &inputs, outputs)?;
-    let Linearization { accelerations, states, inputs, outputs, a, b, c, d } = found;
-    let accelerations = accelerations.with_modal(());
-    Ok(Linearization { accelerations, states, inputs, outputs, a, b, c, d })
+    let accelerations = found.accelerations.clone().with_modal(());
+    Ok(found.with_accelerations(accelerations))
 }
 
 /// A column of derivatives for each state or input, and the accelerations.

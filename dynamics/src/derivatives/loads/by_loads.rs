@@ -9,11 +9,12 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, Moving, Place};
-use crate::derivatives::loads::mass_system::{MassSystem, follow};
-#[cfg(feature = "lanes")]
-use crate::derivatives::loads::side_by_side::HubGroup;
-use crate::derivatives::loads::side_by_side::{Six, TOGETHER};
+use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
+use crate::derivatives::loads::load_columns::{
+    EachDevice, JointColumns, LoadColumns, LoadsWorkspace, Moving,
+};
+use crate::derivatives::loads::mass_system::MassSystem;
+use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -32,10 +33,10 @@ use crate::solve::state::{Accelerations, State};
 
 /// The derivatives of the loads at a state, and the mass matrix.
 #[derive(Debug)]
-pub(crate) struct ByLoads<T> {
+pub(crate) struct ByLoads<'a, T> {
     by: Arithmetic,
-    /// Groups with the hub's accelerations for the right side of its equations.
-    devices: LoadColumns<T>,
+    /// Of the joints, with the hub's accelerations for the right side of its equations.
+    devices: &'a LoadColumns<T>,
     system: MassSystem<T>,
     hub: HubConstants<T>,
     omega: Vec3<T>,
@@ -44,7 +45,7 @@ pub(crate) struct ByLoads<T> {
     hub_is_free: bool,
 }
 
-impl<T: Scalar> ByLoads<T> {
+impl<'a, T: Scalar> ByLoads<'a, T> {
     /// At a state with its accelerations; none where what acts has no emitted derivatives: a flexible structure,
     /// platforms, lumped imbalance, wrenches on bodies, a central field.
     pub(crate) fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
@@ -52,6 +53,7 @@ impl<T: Scalar> ByLoads<T> {
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
+        workspace: &'a mut LoadsWorkspace<T>,
     ) -> Option<Self> {
         let central = matches!(inputs.gravity, Gravity::Central { .. });
         let deforms = S::modes(craft) > 0 || S::mounts(craft) > 0;
@@ -64,22 +66,19 @@ impl<T: Scalar> ByLoads<T> {
             r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), gravity),
             omega_dot: components(&accelerations.omega_dot),
         };
-        let mut each = {
-            let joints = accelerations.devices.values().count();
-            EachDevice::new(craft.arithmetic, omega, hub, joints)
-        };
+        let (by, joints) = (craft.arithmetic, accelerations.devices.values().count());
+        let mut each = EachDevice::new(by, (omega, hub), joints, workspace);
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
-        let mut devices = each.found;
-        let system = MassSystem::new(&craft.hub, craft.mass(), &devices.matrix, hub_is_free);
-        let by = craft.arithmetic;
+        let devices = &mut workspace.columns;
+        let system = MassSystem::new(&craft.hub, craft.mass(), &devices.matrix(), hub_is_free);
         match by {
             #[cfg(feature = "lanes")]
             Arithmetic::Dispatched(cpu) => {
-                cpu.dispatch(DispatchedHub { system: &system, groups: &mut devices.groups });
+                cpu.dispatch(DispatchedHub { system: &system, joints: &mut devices.joints });
             }
-            Arithmetic::Portable => system.hub_of_groups(&mut devices.groups),
+            Arithmetic::Portable => hub_of_joints(&system, &mut devices.joints),
         }
         Some(Self { by, devices, system, hub: craft.hub, omega, gravity, hub_is_free })
     }
@@ -112,24 +111,27 @@ impl<T: Scalar> ByLoads<T> {
     /// Whether all of them are finite.
     #[inline(always)]
     fn fill(&self, variables: &[Variable], rows: usize, into: &mut [T]) -> bool {
-        let gains = self.devices.gains.rows();
+        let mut all = Finiteness::of_none();
         for (variable, column) in variables.iter().zip(into.chunks_exact_mut(rows)) {
             let Some((hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
             let Some(Change { base, field, own }) = self.change(*variable) else {
                 column.fill(zero());
                 continue;
             };
-            follow(gains, &base, joints);
+            let mut finite = Finiteness::of_none();
+            self.devices.gains.follow(&base, joints, &mut finite);
             *hub = base;
             match own {
-                Own::Device { first, less } => {
-                    let own = joints.get_mut(first..).unwrap_or_default();
-                    own.iter_mut().zip(less.get()).for_each(|(to, less)| *to = *to - less);
+                Own::Device { of, place } => {
+                    let last = of.first.wrapping_add(of.count);
+                    let own = joints.get_mut(of.first..last).unwrap_or_default();
+                    let less = of.less.iter().map(|line| line[place % TOGETHER]);
+                    own.iter_mut().zip(less).for_each(|(to, less)| *to = *to - less);
+                    own.chunks(TOGETHER).for_each(|own| finite.see_each(own));
                 }
                 Own::All(axis) => {
-                    for (to, less) in joints.iter_mut().zip(&self.devices.joints_by_omega) {
-                        *to = *to - axis.of(*less);
-                    }
+                    self.devices.gains.subtract_by_omega(axis as usize, joints);
+                    joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
                 }
                 Own::None => {}
             }
@@ -137,8 +139,12 @@ impl<T: Scalar> ByLoads<T> {
                 let [a, b, c, d, e, f] = base;
                 *hub = [a + x, b + y, c + z, d, e, f];
             }
+            let [a, b, c, d, rest @ ..] = *hub;
+            finite.see(&[a, b, c, d]);
+            finite.see_each(&rest);
+            all.merge(&finite);
         }
-        are_finite(into)
+        all.holds()
     }
 
     /// What changes with one variable; none where nothing does.
@@ -148,11 +154,11 @@ impl<T: Scalar> ByLoads<T> {
         let (still, zeros) = ([zero(); 6], [zero(); 3]);
         let place = |axis: Axis| axis as usize;
         let base = match by {
-            Variable::Coordinate(joint) => return self.by_joint(joint, 0),
-            Variable::Rate(joint) => return self.by_joint(joint, 1),
-            Variable::Motor(joint) if self.is_free(joint) => return self.by_joint(joint, 2),
+            Variable::Coordinate(joint) => return self.by_joint(joint, COORDINATE),
+            Variable::Rate(joint) => return self.by_joint(joint, RATE),
+            Variable::Motor(joint) if self.is_free(joint) => return self.by_joint(joint, DRIVE),
             Variable::Acceleration(joint) if !self.is_free(joint) => {
-                return self.by_joint(joint, 2);
+                return self.by_joint(joint, DRIVE);
             }
             Variable::Attitude(axis) if self.gravity.iter().any(|field| !field.vanishes()) => {
                 // [BN] g changes by its product with the small rotation.
@@ -164,9 +170,8 @@ impl<T: Scalar> ByLoads<T> {
             Variable::Omega(axis) => {
                 let own = of_both(self.hub.loads_by_omega(self.omega, unit(axis)));
                 let mut right = still;
-                let devices = self.devices.omega.get(place(axis)).into_iter().flatten();
-                for ((to, own), devices) in right.iter_mut().zip(own).zip(devices) {
-                    *to = *devices - own;
+                for ((to, own), devices) in right.iter_mut().zip(own).zip(&self.devices.omega) {
+                    *to = devices[place(axis)] - own;
                 }
                 let base = self.system.hub(&right, still);
                 return Some(Change { base, field: None, own: Own::All(axis) });
@@ -182,23 +187,21 @@ impl<T: Scalar> ByLoads<T> {
 
     /// By the coordinate of a joint, by its rate, or by what drives it.
     #[inline(always)]
-    fn by_joint(&self, joint: usize, which: usize) -> Option<Change<'_, T>> {
-        let Place { first, count, group, line, .. } = *self.devices.places.get(joint)?;
-        let own = joint.wrapping_sub(first).wrapping_add(which.wrapping_mul(count));
-        let (of_device, place) = (own / TOGETHER, own % TOGETHER);
-        let [a, b, c, d, e, f] = self.devices.groups.get(group.wrapping_add(of_device))?;
-        let line = line.wrapping_add(of_device.wrapping_mul(count));
-        let lines = self.devices.lines.get(line..)?.get(..count)?;
-        Some(Change {
-            base: [a[place], b[place], c[place], d[place], e[place], f[place]],
-            field: None,
-            own: Own::Device { first, less: Less { lines, place } },
-        })
+    fn by_joint(&self, joint: usize, place: usize) -> Option<Change<'_, T>> {
+        let of = self.devices.joints.get(joint)?;
+        let base = of.hub.map(|row| row[place % TOGETHER]);
+        Some(Change { base, field: None, own: Own::Device { of, place } })
     }
 
     fn is_free(&self, joint: usize) -> bool {
-        self.devices.places.get(joint).is_some_and(|place| place.free)
+        self.devices.joints.get(joint).is_some_and(|of| of.free)
     }
+}
+
+/// The hub's accelerations for the right sides of all joints.
+#[inline(always)]
+fn hub_of_joints<T: Scalar>(system: &MassSystem<T>, joints: &mut [JointColumns<T>]) {
+    joints.iter_mut().for_each(|joint| system.hub_of_group(&mut joint.hub));
 }
 
 /// What changes with a variable.
@@ -213,32 +216,19 @@ struct Change<'a, T> {
 /// By how much less joints accelerate than those that follow the hub.
 enum Own<'a, T> {
     None,
-    /// Those of a device, from its first on.
+    /// Those of a joint's device, by the variable in this place.
     Device {
-        first: usize,
-        less: Less<'a, T>,
+        of: &'a JointColumns<T>,
+        place: usize,
     },
     /// All, by the angular velocity about an axis.
     All(Axis),
 }
 
-/// A place in each line.
-struct Less<'a, T> {
-    lines: &'a [[T; TOGETHER]],
-    place: usize,
-}
-
-impl<T: Scalar> Less<'_, T> {
-    #[inline(always)]
-    fn get(&self) -> impl Iterator<Item = T> {
-        self.lines.iter().map(|line| line[self.place % TOGETHER])
-    }
-}
-
 /// Columns by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 struct Dispatched<'a, T> {
-    loads: &'a ByLoads<T>,
+    loads: &'a ByLoads<'a, T>,
     variables: &'a [Variable],
     rows: usize,
     into: &'a mut DMatrix<T>,
@@ -254,11 +244,11 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
     }
 }
 
-/// The hub's accelerations of groups by the instructions of this CPU.
+/// The hub's accelerations by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 struct DispatchedHub<'a, T> {
     system: &'a MassSystem<T>,
-    groups: &'a mut [HubGroup<T>],
+    joints: &'a mut [JointColumns<T>],
 }
 
 #[cfg(feature = "lanes")]
@@ -267,21 +257,18 @@ impl<T: Scalar> pulp::WithSimd for DispatchedHub<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.system.hub_of_groups(self.groups);
+        hub_of_joints(self.system, self.joints);
     }
 }
 
 /// Whether all numbers are finite: zero times each, summed side by side, is.
 #[inline(always)]
 pub(crate) fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
-    let (fours, rest) = numbers.as_chunks::<4>();
-    let mut sums = [zero::<T>(); 4];
-    for four in fours {
-        for (sum, number) in sums.iter_mut().zip(four) {
-            *sum = *sum + *number * zero();
-        }
-    }
-    sums.iter().chain(rest).all(|number| number.is_finite())
+    let (fours, rest) = numbers.as_chunks::<TOGETHER>();
+    let mut finite = Finiteness::of_none();
+    fours.iter().for_each(|four| finite.see(four));
+    finite.see_each(rest);
+    finite.holds()
 }
 
 /// Force and moment about B.

@@ -2,6 +2,7 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+use crate::derivatives::loads::kernel_loads::DRIVE;
 use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER, add_product};
 use crate::model::joint_array::MAX_JOINTS;
 use crate::numbers::real::{Scalar, one, zero};
@@ -26,36 +27,13 @@ impl<T: Scalar, const N: usize> JointElimination<T, N> {
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "rows and columns as the formula has them")]
     pub(crate) fn new(mass: &[[T; N]; N], of_hub: &[Six<T>; N], free: [bool; MAX_JOINTS]) -> Self {
-        let mut factors = [[zero(); N]; N];
         let mut coupling = [[zero(); 6]; N];
         for row in 0..N {
-            for column in 0..=row {
-                factors[row][column] = match (free[row] && free[column], row == column) {
-                    (true, _) => mass[column][row],
-                    (false, true) => one(),
-                    (false, false) => zero(),
-                };
-            }
             if free[row] {
                 coupling[row] = of_hub[row];
             }
         }
-        for row in 0..N {
-            for column in 0..row {
-                let mut entry = factors[row][column];
-                for k in 0..column {
-                    entry = entry - factors[row][k] * factors[column][k];
-                }
-                factors[row][column] = entry;
-            }
-            let mut pivot = factors[row][row];
-            for k in 0..row {
-                let factor = factors[row][k] * factors[k][k];
-                pivot = pivot - factor * factors[row][k];
-                factors[row][k] = factor;
-            }
-            factors[row][row] = pivot.recip();
-        }
+        let factors = factors(mass, &free);
         let mut inverse = [[zero(); N]; N];
         for unit in 0..N {
             if free[unit] {
@@ -108,38 +86,43 @@ impl<T: Scalar, const N: usize> JointElimination<T, N> {
         (left, less)
     }
 
-    /// The same of some loads, side by side.
+    /// The same of some loads, side by side, those of the hub in place.
     #[inline(always)]
-    pub(crate) fn reduced_together(
+    pub(crate) fn reduce_together(
         &self,
-        hub: &HubGroup<T>,
+        hub: &mut HubGroup<T>,
         joints: &[[T; TOGETHER]; MAX_JOINTS],
-    ) -> (HubGroup<T>, [[T; TOGETHER]; N]) {
-        let (mut left, mut less) = (*hub, [[zero(); TOGETHER]; N]);
-        for load in left.as_flattened_mut() {
-            *load = -*load;
-        }
+    ) -> [[T; TOGETHER]; N] {
+        let mut less = [[zero(); TOGETHER]; N];
         for (column, loads) in self.inverse.iter().zip(joints) {
             for (to, entry) in less.iter_mut().zip(column) {
                 add_product(to, *entry, loads);
             }
         }
-        for (coupling, less) in self.coupling.iter().zip(&less) {
-            for (to, entry) in left.iter_mut().zip(coupling) {
-                add_product(to, *entry, less);
+        for (row, of_hub) in hub.iter_mut().enumerate() {
+            let mut left = of_hub.map(|load| -load);
+            for (coupling, less) in self.coupling.iter().zip(&less) {
+                add_product(&mut left, coupling[row], less);
             }
+            *of_hub = left;
         }
-        (left, less)
+        less
     }
 
     /// By the motor of a free joint, which takes one from the joint's load.
     #[inline(always)]
-    pub(crate) fn motor(&self, joint: usize) -> Reduced<T, N> {
-        let (mut hub, mut joints) = (self.gains[joint], self.inverse[joint]);
-        for number in hub.iter_mut().chain(&mut joints) {
-            *number = -*number;
+    pub(crate) fn motor(
+        &self,
+        joint: usize,
+        hub: &mut HubGroup<T>,
+        joints: &mut [[T; TOGETHER]; N],
+    ) {
+        for (to, gain) in hub.iter_mut().zip(&self.gains[joint]) {
+            to[DRIVE] = -*gain;
         }
-        (hub, joints)
+        for (to, entry) in joints.iter_mut().zip(&self.inverse[joint]) {
+            to[DRIVE] = -*entry;
+        }
     }
 
     /// Subtracts what the free joints take over from the hub's matrix.
@@ -153,6 +136,48 @@ impl<T: Scalar, const N: usize> JointElimination<T, N> {
             }
         }
     }
+}
+
+/// `L D Lᵀ` of a symmetric matrix, of which the elements with a first index that is not above the second are read, with
+/// reciprocal pivots on the diagonal; of what is not free a unit matrix.
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "rows and columns as the formula has them")]
+fn factors<T: Scalar, const N: usize>(matrix: &[[T; N]; N], free: &[bool]) -> [[T; N]; N] {
+    let mut factors = [[zero(); N]; N];
+    for row in 0..N {
+        for column in 0..=row {
+            factors[row][column] = match (free[row] && free[column], row == column) {
+                (true, _) => matrix[column][row],
+                (false, true) => one(),
+                (false, false) => zero(),
+            };
+        }
+        for column in 0..row {
+            let mut entry = factors[row][column];
+            for k in 0..column {
+                entry = entry - factors[row][k] * factors[column][k];
+            }
+            factors[row][column] = entry;
+        }
+        let mut pivot = factors[row][row];
+        for k in 0..row {
+            let factor = factors[row][k] * factors[k][k];
+            pivot = pivot - factor * factors[row][k];
+            factors[row][k] = factor;
+        }
+        factors[row][row] = pivot.recip();
+    }
+    factors
+}
+
+/// The inverse of a symmetric matrix, of which the elements with a first index that is not above the second are read.
+pub(crate) fn inverse<T: Scalar, const N: usize>(matrix: &[[T; N]; N]) -> [[T; N]; N] {
+    let factors = factors(matrix, &[true; N]);
+    let mut inverse = [[zero(); N]; N];
+    for (unit, column) in inverse.iter_mut().enumerate() {
+        *column = unit_solved(&factors, unit);
+    }
+    inverse
 }
 
 /// A column of the inverse: `L D Lᵀ v` is a column of the unit matrix, with reciprocal pivots on the diagonal.

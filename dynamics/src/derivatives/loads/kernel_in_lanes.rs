@@ -88,7 +88,6 @@ fn write<K: Kind, T: Number, const WIDTH: usize>(
     let loads = loads.first_chunk_mut::<WIDTH>()?;
     show(
         found,
-        K::JOINTS.len(),
         #[inline(always)]
         |place, number: T| {
             let Block(lanes) = number.store();

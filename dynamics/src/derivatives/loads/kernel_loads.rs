@@ -3,23 +3,27 @@
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::derivatives::loads::kernel::{NotEmitted, load_derivatives};
-use crate::derivatives::loads::side_by_side::{LoadGroup, Six, TOGETHER, turned};
+use crate::derivatives::loads::side_by_side::LoadGroup;
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::device::Device;
 use crate::equations::load_sums::HubAccelerations;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kernels, Kind, LoadColumn, LoadDerivatives};
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Real, Scalar, zero};
-use crate::numbers::vec3::{Columns, Vec3, components};
+use crate::numbers::real::{Real, Scalar};
+use crate::numbers::vec3::{Vec3, components};
 
-/// Groups of variables: coordinates and then rates of the joints; their accelerations; the hub's angular velocity and its
+/// Groups of variables: of each joint its coordinate, rate and acceleration; the hub's angular velocity and its
 /// derivative.
-const STATES: usize = 0;
-const ACCELERATIONS: usize = STATES + (2 * MAX_JOINTS).div_ceil(TOGETHER);
-const OMEGA: usize = ACCELERATIONS + MAX_JOINTS.div_ceil(TOGETHER);
+const OMEGA: usize = MAX_JOINTS;
 const OMEGA_DOT: usize = OMEGA + 1;
 const GROUPS: usize = OMEGA_DOT + 1;
+
+/// Places in the group of a joint.
+pub(crate) const COORDINATE: usize = 0;
+pub(crate) const RATE: usize = 1;
+/// Its acceleration; where joints are eliminated, what drives it.
+pub(crate) const DRIVE: usize = 2;
 
 /// What the kernel of a device is called with.
 pub(crate) struct KernelInputs<'a, K: Kind> {
@@ -61,7 +65,6 @@ impl<T: Scalar> KernelLoads<T> {
         let found = load_derivatives(device, joints, accelerations, (*omega, hub))?;
         show(
             &found,
-            K::JOINTS.len(),
             #[inline(always)]
             |place, number| self.put(place, number),
         );
@@ -86,23 +89,19 @@ impl<T: Scalar> KernelLoads<T> {
         device: &Device<K>,
         joints: &K::Joints<T>,
     ) {
-        let count = K::JOINTS.len();
         let passive = joints.states().zip(device.passive.values());
-        for (joint, ([_, rate], of)) in passive.enumerate() {
-            let slopes = [(joint, of.stiffness), (joint.wrapping_add(count), of.damping(rate))];
-            for (place, slope) in slopes {
-                let group = self.groups.get_mut(STATES.wrapping_add(place / TOGETHER));
-                let row = group.and_then(|group| group.joints.get_mut(joint));
-                if let Some(to) = row.and_then(|row| row.get_mut(place % TOGETHER)) {
-                    *to = *to + slope;
-                }
-            }
+        for (joint, (([_, rate], of), group)) in passive.zip(&mut self.groups).enumerate() {
+            let Some(own) = group.joints.get_mut(joint) else { continue };
+            own[COORDINATE] = own[COORDINATE] + of.stiffness;
+            own[RATE] = own[RATE] + of.damping(rate);
         }
     }
 
-    /// By the joints' coordinates and then by their rates.
-    pub(crate) fn states(&self) -> &[LoadGroup<T>] {
-        self.groups.get(STATES..ACCELERATIONS).unwrap_or_default()
+    /// By coordinate, rate and acceleration of each joint, and of joints that the device does not have.
+    #[inline(always)]
+    pub(crate) fn joints(&self) -> &[LoadGroup<T>; MAX_JOINTS] {
+        let [joints @ .., _, _] = &self.groups;
+        joints
     }
 
     /// By the hub's angular velocity, along the axes of the device.
@@ -114,36 +113,12 @@ impl<T: Scalar> KernelLoads<T> {
     pub(crate) fn omega_dot(&self) -> &LoadGroup<T> {
         &self.groups[OMEGA_DOT]
     }
-
-    /// By the joints' accelerations: the loads of the joints, and those of the hub, B axes.
-    #[inline(always)]
-    pub(crate) fn by_accelerations<const N: usize>(
-        &self,
-        mount: &Columns<T>,
-    ) -> ([[T; N]; N], [Six<T>; N]) {
-        let (mut mass, mut coupling) = ([[zero(); N]; N], [[zero(); 6]; N]);
-        let by_joint = mass.chunks_mut(TOGETHER).zip(coupling.chunks_mut(TOGETHER));
-        let groups = self.groups.get(ACCELERATIONS..OMEGA).unwrap_or_default();
-        for (group, (mass, coupling)) in groups.iter().zip(by_joint) {
-            let hub = turned(&group.hub, mount);
-            for (place, (mass, coupling)) in mass.iter_mut().zip(coupling).enumerate() {
-                for (to, from) in mass.iter_mut().zip(&group.joints) {
-                    *to = from[place % TOGETHER];
-                }
-                for (to, from) in coupling.iter_mut().zip(&hub) {
-                    *to = from[place % TOGETHER];
-                }
-            }
-        }
-        (mass, coupling)
-    }
 }
 
-/// Shows each number of a device of so many joints with its group, row (of the hub's load, then of the joints') and place.
+/// Shows each number of a device with its group, row (of the hub's load, then of the joints') and place.
 #[inline(always)]
 pub(crate) fn show<K: Kernels, T: Real>(
     found: &LoadDerivatives<K, T>,
-    count: usize,
     mut put: impl FnMut([usize; 3], T),
 ) {
     let mut joint = 0;
@@ -152,8 +127,8 @@ pub(crate) fn show<K: Kernels, T: Real>(
         &found.rates,
         #[inline(always)]
         |by_coordinate, by_rate| {
-            show_column::<K, T>([STATES, joint], &by_coordinate, &mut put);
-            show_column::<K, T>([STATES, count.wrapping_add(joint)], &by_rate, &mut put);
+            show_column::<K, T>([joint, COORDINATE], &by_coordinate, &mut put);
+            show_column::<K, T>([joint, RATE], &by_rate, &mut put);
             joint = joint.wrapping_add(1);
         },
     );
@@ -163,7 +138,7 @@ pub(crate) fn show<K: Kernels, T: Real>(
         &found.accelerations,
         #[inline(always)]
         |column, _| {
-            show_column::<K, T>([ACCELERATIONS, joint], &column, &mut put);
+            show_column::<K, T>([joint, DRIVE], &column, &mut put);
             joint = joint.wrapping_add(1);
         },
     );
@@ -176,14 +151,13 @@ pub(crate) fn show<K: Kernels, T: Real>(
     show_column::<K, T>([OMEGA_DOT, 2], f, &mut put);
 }
 
-/// The same of one column, whose place counts from the first of some groups on.
+/// The same of one column.
 #[inline(always)]
 fn show_column<K: Kernels, T: Real>(
-    [first, place]: [usize; 2],
+    [group, place]: [usize; 2],
     of: &LoadColumn<K, T>,
     put: &mut impl FnMut([usize; 3], T),
 ) {
-    let (group, place) = (first.wrapping_add(place / TOGETHER), place % TOGETHER);
     let ([a, b, c], [d, e, f]) = (components(&of.hub.force), components(&of.hub.moment));
     put([group, 0, place], a);
     put([group, 1, place], b);

@@ -2,14 +2,13 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::derivatives::loads::joint_elimination::JointElimination;
 use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled};
 #[cfg(feature = "lanes")]
 use crate::derivatives::loads::kernel_in_lanes::GroupKernel;
-use crate::derivatives::loads::kernel_loads::{KernelInputs, KernelLoads};
+use crate::derivatives::loads::kernel_loads::{DRIVE, KernelInputs, KernelLoads};
 use crate::derivatives::loads::mass_system::Gains;
 use crate::derivatives::loads::side_by_side::{HubGroup, LoadGroup, Six, TOGETHER, by_b, turned};
 use crate::equations::arithmetic::Arithmetic;
@@ -35,18 +34,25 @@ use crate::sets::per_device as data;
 #[cfg(feature = "lanes")]
 use crate::solve::rows::members;
 
-/// A joint's device.
+/// By coordinate, rate and drive of a joint: what is left for the hub's equations, on their right side, and by how much less
+/// the joints of its device accelerate, a line for each. What drives it is the motor of a free joint, the acceleration of
+/// one whose acceleration is given.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    /// The device's first joint, of all.
+pub(crate) struct JointColumns<T> {
+    /// The first joint of its device, of all, and the number of them.
     pub(crate) first: usize,
-    /// The number of its joints.
     pub(crate) count: usize,
-    /// The number of its first group of [`LoadColumns::groups`], and of the first line of [`LoadColumns::lines`].
-    pub(crate) group: usize,
-    pub(crate) line: usize,
     /// Whether the joint's acceleration is not given.
     pub(crate) free: bool,
+    pub(crate) hub: HubGroup<T>,
+    pub(crate) less: [[T; TOGETHER]; MAX_JOINTS],
+}
+
+impl<T: Scalar> JointColumns<T> {
+    fn none() -> Self {
+        let (hub, less) = ([[zero(); TOGETHER]; 6], [[zero(); TOGETHER]; MAX_JOINTS]);
+        Self { first: 0, count: 0, free: false, hub, less }
+    }
 }
 
 /// The number of joints of a device, and these eliminated.
@@ -55,66 +61,95 @@ type Kept<T> = (usize, JointElimination<T, MAX_JOINTS>);
 /// Those of all devices with their joints eliminated.
 #[derive(Debug)]
 pub(crate) struct LoadColumns<T> {
-    /// Of each joint.
-    pub(crate) places: Vec<Place>,
-    /// By the coordinates of the joints of a device, by their rates and by what drives them (the motor of a free joint, the
-    /// acceleration of one whose acceleration is given), some side by side, device by device: what is left for the hub's
-    /// equations, on their right side.
-    pub(crate) groups: Vec<HubGroup<T>>,
-    /// The same, by how much less the device's joints accelerate: a line for each joint, group by group.
-    pub(crate) lines: Vec<[T; TOGETHER]>,
+    pub(crate) joints: Vec<JointColumns<T>>,
+    /// The joint that comes next.
+    next: usize,
     /// By the angular velocity of the hub, B axes: what is left for the hub, of all devices.
-    pub(crate) omega: [Six<T>; 3],
-    /// The same, of each joint.
-    pub(crate) joints_by_omega: Vec<Vec3<T>>,
+    pub(crate) omega: HubGroup<T>,
+    /// By how much less the joints accelerate.
     pub(crate) gains: Gains<T>,
     /// Of each device, where it is kept.
     pub(crate) eliminated: Option<Vec<Kept<T>>>,
-    /// What the devices add to the hub's matrix, by columns.
-    pub(crate) matrix: [Six<T>; 6],
+    /// What the devices add to the hub's matrix, by columns: what their free joints take over, and by the angular
+    /// acceleration.
+    matrix: [Six<T>; 6],
+    by_omega_dot: HubGroup<T>,
 }
 
 impl<T: Scalar> LoadColumns<T> {
-    /// Of no device; `joints` are expected.
-    fn new(joints: usize) -> Self {
+    fn none() -> Self {
         Self {
-            places: Vec::with_capacity(joints),
-            // Of devices of one joint, which have most groups.
-            groups: Vec::with_capacity(joints),
-            // Of devices of three.
-            lines: Vec::with_capacity(joints.saturating_mul(3)),
-            omega: [[zero(); 6]; 3],
-            joints_by_omega: Vec::with_capacity(joints),
-            gains: Gains::new(joints),
+            joints: Vec::new(),
+            next: 0,
+            omega: [[zero(); TOGETHER]; 6],
+            gains: Gains::none(),
             eliminated: None,
             matrix: [[zero(); 6]; 6],
+            by_omega_dot: [[zero(); TOGETHER]; 6],
         }
+    }
+
+    /// Of no device; so many joints are expected. What room there is stays.
+    fn begin(&mut self, joints: usize) {
+        let nothing = [[zero(); TOGETHER]; 6];
+        (self.next, self.omega, self.by_omega_dot) = (0, nothing, nothing);
+        self.matrix = [[zero(); 6]; 6];
+        self.joints.resize(joints, JointColumns::none());
+        self.gains.resize(joints);
+    }
+
+    /// What the devices add to the hub's matrix, by columns.
+    pub(crate) fn matrix(&self) -> [Six<T>; 6] {
+        let mut matrix = self.matrix;
+        for (row, by_axes) in self.by_omega_dot.iter().enumerate() {
+            for (column, entry) in matrix.iter_mut().skip(3).zip(by_axes) {
+                column[row] = column[row] + *entry;
+            }
+        }
+        matrix
     }
 }
 
-/// Evaluates the kernel of each device.
-pub(crate) struct EachDevice<T> {
-    by: Arithmetic,
-    omega: Vec3<T>,
-    /// As seen from a frame that falls with the field.
-    hub: HubAccelerations<T>,
-    pub(crate) found: LoadColumns<T>,
+/// Where the columns of all devices are written. Kept from one state to the next, it is allocated once.
+#[derive(Debug)]
+pub(crate) struct LoadsWorkspace<T> {
+    pub(crate) columns: LoadColumns<T>,
     /// Of a device, or of those side by side.
     loads: Vec<KernelLoads<T>>,
 }
 
-impl<T: Scalar> EachDevice<T> {
+impl<T: Scalar> LoadsWorkspace<T> {
+    pub(crate) fn new() -> Self {
+        Self { columns: LoadColumns::none(), loads: Vec::new() }
+    }
+}
+
+/// Evaluates the kernel of each device.
+pub(crate) struct EachDevice<'a, T> {
+    by: Arithmetic,
+    omega: Vec3<T>,
+    /// As seen from a frame that falls with the field.
+    hub: HubAccelerations<T>,
+    found: &'a mut LoadColumns<T>,
+    loads: &'a mut Vec<KernelLoads<T>>,
+}
+
+impl<'a, T: Scalar> EachDevice<'a, T> {
     pub(crate) fn new(
         by: Arithmetic,
-        omega: Vec3<T>,
-        hub: HubAccelerations<T>,
+        (omega, hub): (Vec3<T>, HubAccelerations<T>),
         joints: usize,
+        LoadsWorkspace { columns: found, loads }: &'a mut LoadsWorkspace<T>,
     ) -> Self {
-        Self { by, omega, hub, found: LoadColumns::new(joints), loads: vec![KernelLoads::none()] }
+        found.begin(joints);
+        if loads.is_empty() {
+            loads.push(KernelLoads::none());
+        }
+        Self { by, omega, hub, found, loads }
     }
 
     /// Keeps the elimination of each device.
-    pub(crate) fn keeping_eliminations(mut self) -> Self {
+    pub(crate) fn keeping_eliminations(self) -> Self {
         self.found.eliminated = Some(Vec::new());
         self
     }
@@ -208,74 +243,57 @@ impl<T: Scalar> LoadColumns<T> {
     #[inline(always)]
     fn add_joints<const N: usize>(&mut self, given: &GivenJoints<'_, T>, loads: &KernelLoads<T>) {
         let GivenJoints { mount, free, accelerated, .. } = given;
-        let (mass, coupling) = loads.by_accelerations::<N>(mount);
+        let first = self.next;
+        let own = self.joints.get_mut(first..).and_then(|of| of.first_chunk_mut::<N>());
+        let Some(own) = own else { return };
+        let (mut mass, mut coupling) = ([[zero(); N]; N], [[zero(); 6]; N]);
+        for (joint, (to, of)) in own.iter_mut().zip(loads.joints()).enumerate() {
+            to.hub = turned(&of.hub, mount);
+            mass[joint] = core::array::from_fn(|row| of.joints[row][DRIVE]);
+            coupling[joint] = to.hub.map(|row| row[DRIVE]);
+        }
         let eliminated = JointElimination::new(&mass, &coupling, *free);
         eliminated.reduce(&mut self.matrix);
-        let (first, group, line) = (self.places.len(), self.groups.len(), self.lines.len());
-        for (gains, free) in eliminated.gains.iter().zip(free) {
-            self.gains.push(gains);
-            self.places.push(Place { first, count: N, group, line, free: *free });
-        }
-        for number in 0..(3 * N).div_ceil(TOGETHER) {
-            let (mut hub, mut lines) = match loads.states().get(number) {
-                Some(LoadGroup { hub, joints }) if number < (2 * N).div_ceil(TOGETHER) => {
-                    eliminated.reduced_together(&turned(hub, mount), joints)
-                }
-                _ => ([[zero(); TOGETHER]; 6], [[zero(); TOGETHER]; N]),
-            };
-            for place in 0..TOGETHER {
-                let joint = (number * TOGETHER + place).wrapping_sub(2 * N);
-                if joint >= N {
-                    continue;
-                }
-                let (of_hub, of_joints) = match (free[joint], accelerated[joint]) {
-                    (true, _) => eliminated.motor(joint),
-                    (_, true) => {
-                        let mut reduced = eliminated.reduced(&coupling[joint], &mass[joint]);
-                        reduced.1[joint] = -one::<T>();
-                        reduced
-                    }
-                    _ => ([zero(); 6], [zero(); N]),
-                };
-                hub.iter_mut().zip(of_hub).for_each(|(to, from)| to[place] = from);
-                lines.iter_mut().zip(of_joints).for_each(|(to, from)| to[place] = from);
+        for (joint, (to, of)) in own.iter_mut().zip(loads.joints()).enumerate() {
+            (to.first, to.count, to.free) = (first, N, free[joint]);
+            let mut less = eliminated.reduce_together(&mut to.hub, &of.joints);
+            if free[joint] {
+                eliminated.motor(joint, &mut to.hub, &mut less);
+            } else if accelerated[joint] {
+                less[joint][DRIVE] = -one::<T>();
+            } else {
+                to.hub.iter_mut().chain(&mut less).for_each(|row| row[DRIVE] = zero());
             }
-            self.groups.push(hub);
-            self.lines.extend_from_slice(&lines);
+            to.less.iter_mut().zip(less).for_each(|(to, from)| *to = from);
         }
-        self.add_hub_rate(&loads.omega().by_b(mount), mount, &eliminated);
+        let LoadGroup { hub, joints } = loads.omega();
+        let mut by_omega = turned(&by_b(hub, mount), mount);
+        let mut loads_of = [[zero(); TOGETHER]; MAX_JOINTS];
+        for (to, from) in loads_of.iter_mut().zip(joints).take(N) {
+            [*to] = by_b(&[*from], mount);
+        }
+        let by_omega_of_joints = eliminated.reduce_together(&mut by_omega, &loads_of);
+        add(&mut self.omega, &by_omega);
+        for (joint, by_omega) in by_omega_of_joints.iter().enumerate() {
+            self.gains.set(first.wrapping_add(joint), &eliminated.gains[joint], by_omega);
+        }
         if let Some(list) = &mut self.eliminated {
             list.push((N, eliminated.padded()));
         }
-        let by_omega_dot = turned(&by_b(&loads.omega_dot().hub, mount), mount);
-        for (row, by_axes) in by_omega_dot.iter().enumerate() {
-            for (column, entry) in self.matrix.iter_mut().skip(3).zip(by_axes) {
-                column[row] = column[row] + *entry;
-            }
-        }
+        add(&mut self.by_omega_dot, &turned(&by_b(&loads.omega_dot().hub, mount), mount));
+        self.next = first.wrapping_add(N);
     }
+}
 
-    /// By the angular velocity of the hub.
-    #[inline(always)]
-    fn add_hub_rate<const N: usize>(
-        &mut self,
-        LoadGroup { hub, joints }: &LoadGroup<T>,
-        mount: &Columns<T>,
-        eliminated: &JointElimination<T, N>,
-    ) {
-        let (hub, joints) = eliminated.reduced_together(&turned(hub, mount), joints);
-        for (row, by_axes) in hub.iter().enumerate() {
-            for (sum, entry) in self.omega.iter_mut().zip(by_axes) {
-                sum[row] = sum[row] + *entry;
-            }
-        }
-        self.joints_by_omega.extend(joints.iter().map(|[x, y, z, _]| [*x, *y, *z]));
-    }
+#[inline(always)]
+fn add<T: Scalar>(to: &mut HubGroup<T>, of: &HubGroup<T>) {
+    let numbers = to.as_flattened_mut().iter_mut().zip(of.as_flattened());
+    numbers.for_each(|(to, from)| *to = *to + *from);
 }
 
 /// Devices of a group side by side.
 #[cfg(feature = "lanes")]
-impl<T: Scalar> EachDevice<T> {
+impl<T: Scalar> EachDevice<'_, T> {
     /// Adds them; none, and nothing added, where lanes do not support them.
     fn group<K: Kind<Scalar = T>, W: DeviceSet<Scalar = T>>(
         &mut self,
@@ -313,13 +331,13 @@ impl<T: Scalar> EachDevice<T> {
             devices.iter().zip(members).zip(lanes).take(group.devices)
         {
             loads.add_passive(device, joints);
-            eliminate(self.by, &GivenJoints::of(device, modes), loads, &mut self.found);
+            eliminate(self.by, &GivenJoints::of(device, modes), loads, self.found);
         }
         Some(())
     }
 }
 
-impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
+impl<T: Scalar> Visit<T, Moving> for EachDevice<'_, T> {
     type Error = NotEmitted;
 
     fn visit<K: Kind<Scalar = T>>(
@@ -333,7 +351,7 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<T> {
         let inputs = KernelInputs { device, joints, accelerations, omega, hub };
         let [loads, ..] = self.loads.as_mut_slice() else { return Ok(()) };
         loads.evaluate(self.by, &inputs)?;
-        eliminate(self.by, &GivenJoints::of(device, given.modes), loads, &mut self.found);
+        eliminate(self.by, &GivenJoints::of(device, given.modes), loads, self.found);
         Ok(())
     }
 

@@ -7,8 +7,7 @@ use std::vec::Vec;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::load_columns::{EachDevice, Moving, Place};
-use super::side_by_side::TOGETHER;
+use super::load_columns::{EachDevice, LoadsWorkspace, Moving};
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::side_by_side::fallbacks::FALLBACKS;
 use crate::equations::side_by_side::registers::Registers;
@@ -90,20 +89,11 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
     };
     let omega = components(&state.omega);
     let joints = craft.joints().count();
-    let mut each = EachDevice::new(craft.arithmetic, omega, hub, joints).keeping_eliminations();
+    let mut workspace = LoadsWorkspace::new();
+    let each = EachDevice::new(craft.arithmetic, (omega, hub), joints, &mut workspace);
     let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
-    D::visit::<Moving, _>(&craft.devices, data, &mut each).unwrap();
-    let mut found = each.found;
-    // Behind the variables of a device, places that nothing reads keep numbers of other devices.
-    for Place { count, group, line, .. } in &found.places {
-        let last = (3 * count).div_ceil(TOGETHER) - 1;
-        let used = 3 * count - last * TOGETHER;
-        let lines = found.lines[line + last * count..][..*count].iter_mut();
-        for places in found.groups[group + last].iter_mut().chain(lines) {
-            places[used..].fill(0.0);
-        }
-    }
-    format!("{found:?}")
+    D::visit::<Moving, _>(&craft.devices, data, &mut each.keeping_eliminations()).unwrap();
+    format!("{:?}", workspace.columns)
 }
 
 fn compare<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2]) {

@@ -5,54 +5,78 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
+use crate::derivatives::loads::joint_elimination::inverse;
+use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER, add_product};
 use crate::equations::hub::HubConstants;
 use crate::equations::system::System;
-use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::symmetric::Symmetric;
+use crate::numbers::real::{Scalar, zero};
 
-/// `M_jj⁻¹ M_jh` of all joints, one hub acceleration after another: by how much less a free joint accelerates where the hub
-/// does.
+/// Of some joints in a row.
+type Block<T> = [[T; TOGETHER]; 9];
+
+/// By how much less free joints accelerate: `M_jj⁻¹ M_jh` by each acceleration of the hub, then by each component of its
+/// angular velocity. Some joints after one another side by side.
 #[derive(Debug)]
 pub(crate) struct Gains<T> {
-    numbers: Vec<T>,
-    joints: usize,
-    /// The joint that comes next.
-    next: usize,
+    blocks: Vec<Block<T>>,
 }
 
 impl<T: Scalar> Gains<T> {
-    /// Of so many joints.
-    pub(crate) fn new(joints: usize) -> Self {
-        Self { numbers: vec![zero(); joints.saturating_mul(6)], joints, next: 0 }
+    pub(crate) const fn none() -> Self {
+        Self { blocks: Vec::new() }
     }
 
-    /// Those of the next joint.
+    /// Room for so many joints.
+    pub(crate) fn resize(&mut self, joints: usize) {
+        self.blocks.resize(joints.div_ceil(TOGETHER), [[zero(); TOGETHER]; 9]);
+    }
+
+    /// Sets those of a joint: by the hub's accelerations, by its angular velocity.
     #[inline(always)]
-    pub(crate) fn push(&mut self, of: &Six<T>) {
-        let places = self.numbers.iter_mut().skip(self.next).step_by(self.joints.max(1));
-        places.zip(of).for_each(|(to, gain)| *to = *gain);
-        self.next = self.next.saturating_add(1);
+    pub(crate) fn set(&mut self, joint: usize, of: &Six<T>, by_omega: &[T; TOGETHER]) {
+        let Some(block) = self.blocks.get_mut(joint / TOGETHER) else { return };
+        for (line, gain) in block.iter_mut().zip(of.iter().chain(by_omega)) {
+            line[joint % TOGETHER] = *gain;
+        }
     }
 
-    /// Those of all joints by each hub acceleration.
-    pub(crate) fn rows(&self) -> [&[T]; 6] {
-        let mut rows = self.numbers.chunks_exact(self.joints.max(1));
-        [(); 6].map(|()| rows.next().unwrap_or_default())
+    /// What the joints' accelerations are where the hub has these: of joints that nothing moves minus zero. Sees all of
+    /// them: a loop with a sum is not vectorised across blocks, which would gather their numbers.
+    #[inline(always)]
+    pub(crate) fn follow(&self, base: &Six<T>, out: &mut [T], finite: &mut Finiteness<T>) {
+        let (fours, last) = out.as_chunks_mut::<TOGETHER>();
+        let mut blocks = self.blocks.iter();
+        for (to, block) in fours.iter_mut().zip(&mut blocks) {
+            *to = followed(block, base);
+            finite.see(to);
+        }
+        if let Some(block) = blocks.next() {
+            last.iter_mut().zip(followed(block, base)).for_each(|(to, from)| *to = from);
+            finite.see_each(last);
+        }
+    }
+
+    /// Takes what they accelerate less by the angular velocity about an axis.
+    #[inline(always)]
+    pub(crate) fn subtract_by_omega(&self, axis: usize, out: &mut [T]) {
+        for (to, block) in out.chunks_mut(TOGETHER).zip(&self.blocks) {
+            let line = block.get(axis.wrapping_add(6)).into_iter().flatten();
+            to.iter_mut().zip(line).for_each(|(to, less)| *to = *to - *less);
+        }
     }
 }
 
-/// What the joints' accelerations are where the hub has these: of joints that nothing moves minus zero.
+/// What some joints' accelerations are where the hub has these.
 #[inline(always)]
-pub(crate) fn follow<T: Scalar>([a, b, c, d, e, f]: [&[T]; 6], base: &Six<T>, out: &mut [T]) {
-    let linear = out.iter_mut().zip(a).zip(b).zip(c);
-    for ((((((to, a), b), c), d), e), f) in linear.zip(d).zip(e).zip(f) {
-        let linear = -(*a * base[0]) - *b * base[1] - *c * base[2];
-        *to = linear - *d * base[3] - *e * base[4] - *f * base[5];
+fn followed<T: Scalar>(block: &Block<T>, base: &Six<T>) -> [T; TOGETHER] {
+    let ([a, b, c, d, e, f, ..], mut found) = (block, [zero(); TOGETHER]);
+    for (k, to) in found.iter_mut().enumerate() {
+        let linear = -(a[k] * base[0]) - b[k] * base[1] - c[k] * base[2];
+        *to = linear - d[k] * base[3] - e[k] * base[4] - f[k] * base[5];
     }
+    found
 }
 
 /// The hub's equations with the joints of all devices eliminated.
@@ -86,24 +110,16 @@ impl<T: Scalar> MassSystem<T> {
         base
     }
 
-    /// The same in place of groups of right sides.
+    /// The same in place of a group of right sides; zero where they are given.
     #[inline(always)]
-    pub(crate) fn hub_of_groups(&self, groups: &mut [HubGroup<T>]) {
-        let Some(inverse) = &self.inverse else {
-            groups.as_flattened_mut().fill([zero(); TOGETHER]);
-            return;
-        };
-        for group in groups {
-            let mut base = [[zero(); TOGETHER]; 6];
-            for (column, loads) in inverse.iter().zip(&*group) {
-                for (to, entry) in base.iter_mut().zip(column) {
-                    for (to, load) in to.iter_mut().zip(loads) {
-                        *to = *to + *entry * *load;
-                    }
-                }
+    pub(crate) fn hub_of_group(&self, group: &mut HubGroup<T>) {
+        let mut base = [[zero(); TOGETHER]; 6];
+        for (column, loads) in self.inverse.iter().flatten().zip(&*group) {
+            for (to, entry) in base.iter_mut().zip(column) {
+                add_product(to, *entry, loads);
             }
-            *group = base;
         }
+        *group = base;
     }
 
     /// The same for a unit of the right side.
@@ -114,7 +130,7 @@ impl<T: Scalar> MassSystem<T> {
     }
 }
 
-/// The hub's six equations with everything that it carries, by columns.
+/// The hub's six equations with everything that it carries, by rows: above the diagonal, and it.
 fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[Six<T>; 6]) -> [Six<T>; 6] {
     let System { m_vw, m_ww, .. } = hub.system([zero(); 3], [zero(); 3], [zero(); 3]);
     let mut matrix = *devices;
@@ -124,31 +140,11 @@ fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[Six<T>; 6]) -> [S
         let column = matrix[axis.wrapping_add(3)].iter_mut().zip(own);
         column.for_each(|(to, from)| *to = *to + *from);
     }
-    matrix
-}
-
-/// The inverse of a symmetric matrix, by columns.
-fn inverse<T: Scalar>(m: &[Six<T>; 6]) -> [Six<T>; 6] {
-    let [a, b, c, d, e, f] = m;
-    let block = |x: &[T], y: &[T], z: &[T]| Symmetric {
-        xx: x[0],
-        xy: y[0],
-        xz: z[0],
-        yy: y[1],
-        yz: z[1],
-        zz: z[2],
-    };
-    let unit = |place: usize| [0, 1, 2].map(|own| if own == place { one() } else { zero() });
-    [0, 1, 2, 3, 4, 5].map(|place| {
-        let system = System {
-            m_vv: block(&a[..3], &b[..3], &c[..3]),
-            m_vw: [[d[0], d[1], d[2]], [e[0], e[1], e[2]], [f[0], f[1], f[2]]],
-            m_ww: block(&d[3..], &e[3..], &f[3..]),
-            h_v: unit(place),
-            h_w: unit(place.wrapping_sub(3)),
-        };
-        let (found, _) = system.solved();
-        let ([a, b, c], [d, e, f]) = (found.r_b_n_ddot, found.omega_dot);
-        [a, b, c, d, e, f]
-    })
+    let mut rows = matrix;
+    for (row, line) in rows.iter_mut().enumerate() {
+        for (to, column) in line.iter_mut().zip(&matrix) {
+            *to = column[row];
+        }
+    }
+    rows
 }

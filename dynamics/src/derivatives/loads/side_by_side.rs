@@ -3,7 +3,7 @@
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
 use crate::model::joint_array::MAX_JOINTS;
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::Columns;
 
 /// How many variables or joints are computed side by side.
@@ -41,12 +41,6 @@ impl<T: Scalar> LoadGroup<T> {
     pub(crate) fn none() -> Self {
         Self { hub: [[zero(); TOGETHER]; 6], joints: [[zero(); TOGETHER]; MAX_JOINTS] }
     }
-
-    /// By components along B, of loads by those along the axes of a device of this mount.
-    #[inline(always)]
-    pub(crate) fn by_b(&self, mount: &Columns<T>) -> Self {
-        Self { hub: by_b(&self.hub, mount), joints: by_b(&self.joints, mount) }
-    }
 }
 
 /// Loads of the hub expressed in B, of those in the axes of a device of this mount.
@@ -81,6 +75,43 @@ pub(crate) fn by_b<T: Scalar, const N: usize>(
         }
     }
     found
+}
+
+/// Whether all numbers seen are finite: zero times each, summed side by side, is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Finiteness<T> {
+    sums: [T; TOGETHER],
+}
+
+impl<T: Scalar> Finiteness<T> {
+    #[inline(always)]
+    pub(crate) fn of_none() -> Self {
+        Self { sums: [zero(); TOGETHER] }
+    }
+
+    #[inline(always)]
+    pub(crate) fn see(&mut self, numbers: &[T; TOGETHER]) {
+        add_product(&mut self.sums, zero(), numbers);
+    }
+
+    /// Fewer numbers.
+    #[inline(always)]
+    pub(crate) fn see_each(&mut self, numbers: &[T]) {
+        for (sum, number) in self.sums.iter_mut().zip(numbers) {
+            *sum = *sum + *number * zero();
+        }
+    }
+
+    /// And what another has seen.
+    #[inline(always)]
+    pub(crate) fn merge(&mut self, other: &Self) {
+        add_product(&mut self.sums, one(), &other.sums);
+    }
+
+    #[inline(always)]
+    pub(crate) fn holds(&self) -> bool {
+        self.sums.iter().all(|sum| sum.is_finite())
+    }
 }
 
 /// Adds a multiple of numbers, side by side.

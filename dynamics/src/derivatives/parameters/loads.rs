@@ -9,9 +9,9 @@ use alloc::vec::Vec;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::dual::column::Column;
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, Moving};
-use crate::derivatives::loads::mass_system::{MassSystem, follow};
-use crate::derivatives::loads::side_by_side::{Load, Six};
+use crate::derivatives::loads::load_columns::{EachDevice, LoadColumns, LoadsWorkspace, Moving};
+use crate::derivatives::loads::mass_system::MassSystem;
+use crate::derivatives::loads::side_by_side::{Finiteness, Load, Six};
 use crate::derivatives::parameters::change::{add_change, add_hub_change, unit};
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::parameters::device_motion::{DeviceMotion, GivenJoint, LoadChange};
@@ -81,15 +81,12 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         };
         let Motion { omega, omega_dot, acceleration: r_b_n_ddot, .. } = motion;
         let falling = HubAccelerations { r_b_n_ddot, omega_dot };
-        let mut each = EachDevice::new(
-            craft.arithmetic,
-            omega,
-            falling,
-            accelerations.devices.values().count(),
-        )
-        .keeping_eliminations();
+        let (by, joints) = (craft.arithmetic, accelerations.devices.values().count());
+        let mut workspace = LoadsWorkspace::new();
+        let each = EachDevice::new(by, (omega, falling), joints, &mut workspace);
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
-        D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
+        D::visit::<Moving, _>(&craft.devices, data, &mut each.keeping_eliminations()).ok()?;
+        let LoadsWorkspace { columns: loads, .. } = workspace;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
         Some(Self {
             hub: RigidBody::of_hub(hub),
@@ -101,10 +98,10 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
                 bodies: inputs.bodies.as_ref(),
             },
             device: (DeviceMotion::none(), None),
-            system: MassSystem::new(&craft.hub, craft.mass(), &each.found.matrix, hub_is_free),
-            columns: each.found,
+            system: MassSystem::new(&craft.hub, craft.mass(), &loads.matrix(), hub_is_free),
+            columns: loads,
             bn: columns(&state.attitude.dcm()),
-            accelerations: vec![zero(); accelerations.devices.values().count()],
+            accelerations: vec![zero(); joints],
             column: Column {
                 accelerations: craft.no_accelerations(),
                 r_b_n_ddot_n: vector(zeros()),
@@ -176,7 +173,8 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
             |(_, of)| of.reduced(&load.hub, &load.joints),
         );
         let base = self.system.hub(&hub, [zero(); 6]);
-        follow(self.columns.gains.rows(), &base, &mut self.accelerations);
+        let finite = &mut Finiteness::of_none();
+        self.columns.gains.follow(&base, &mut self.accelerations, finite);
         let own = self.accelerations.iter_mut().skip(first);
         let count = eliminated.map_or(0, |(count, _)| *count);
         own.zip(joints).take(count).for_each(|(to, less)| *to = *to - less);

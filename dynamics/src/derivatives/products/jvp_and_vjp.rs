@@ -23,6 +23,8 @@ use crate::derivatives::products::load_products::{
 use crate::derivatives::structure::StructureDerivatives;
 #[cfg(feature = "alloc")]
 use crate::derivatives::variable::Variable;
+#[cfg(feature = "alloc")]
+use crate::derivatives::workspace::Workspace;
 use crate::equations::gravity::Gravity;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
@@ -151,8 +153,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let matrix = |columns: &[Variable]| DMatrix::from_element(height, columns.len(), zero());
         let (mut c, mut d) = (matrix(&states), matrix(&acting));
         let (at, lists) = ((state, inputs), (states.as_slice(), acting.as_slice()));
-        let into = [&mut c, &mut d];
-        self.output_columns(at, accelerations, &Outputs::accelerations(), lists, into)?;
+        let (into, outputs) = ([&mut c, &mut d], Outputs::accelerations());
+        self.output_columns(at, accelerations, &outputs, lists, into, &mut Workspace::new())?;
         let gradients = [(by_states, c), (by_inputs, d)];
         for (gradient, mut matrix) in gradients {
             for (to, column) in gradient.iter_mut().zip(columns_of(&mut matrix)) {

@@ -17,6 +17,7 @@ use crate::derivatives::slopes::Slopes;
 use crate::derivatives::step::stage_chain::{StageChain, StageDerivatives, numbers};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::Variable;
+use crate::derivatives::workspace::Workspace;
 use crate::model::mode::HubMode;
 use crate::model::parameters::Hub;
 use crate::numbers::vec3::components;
@@ -82,8 +83,9 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
         let none = Outputs::accelerations();
         let lists = (states.as_slice(), by_inputs.as_slice());
+        let mut workspace = Workspace::new();
         let mut derivatives = |stage: &_, found: &_, into: [&mut DMatrix<f64>; 2]| {
-            self.output_columns((stage, inputs), found, &none, lists, into)
+            self.output_columns((stage, inputs), found, &none, lists, into, &mut workspace)
         };
         let into = [&mut a, &mut b];
         let state = self.chained((state, inputs), (dt, None), into, &mut derivatives)?;
@@ -99,7 +101,7 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         [a, b]: [&mut DMatrix<f64>; 2],
         derivatives: ByHeld<'_, D, S>,
     ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
-        let mut stages = Vec::with_capacity(4);
+        let (mut stages, mut moving) = (Vec::with_capacity(4), Vec::new());
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)?;
             stages.push((weight, stage.clone(), found.clone()));
@@ -120,7 +122,7 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
         for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
             derivatives(stage, found, [&mut by_states, &mut by_held])?;
-            let slopes = Slopes::new(self, stage, inputs, found);
+            let slopes = Slopes::new(self, stage, inputs, found, &mut moving);
             let at = StageDerivatives {
                 attitude: stage.attitude,
                 slopes,
@@ -159,13 +161,14 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         let states: Vec<_> = craft.state_variables(inputs).collect();
         let (mut a, mut b) =
             (DMatrix::zeros(states.len(), 0), DMatrix::zeros(states.len(), variables.len()));
-        let none = Outputs::accelerations();
+        let (none, mut workspace) = (Outputs::accelerations(), Workspace::new());
         let mut derivatives =
             |stage: &_, found: &_, [by_states, by_held]: [&mut DMatrix<f64>; 2]| {
                 let at = (stage, inputs);
                 let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
                 let into = [by_states, &mut no_inputs];
-                let by_states = craft.output_columns(at, found, &none, (&states, &[]), into);
+                let lists = (states.as_slice(), [].as_slice());
+                let by_states = craft.output_columns(at, found, &none, lists, into, &mut workspace);
                 by_states.map_err(of_first_variable)?;
                 let by = variables.iter().copied();
                 let mut columns = by_held.column_iter_mut();

@@ -47,7 +47,7 @@ pub(crate) struct StageChain {
 /// Derivatives of the accelerations at a stage.
 pub(crate) struct StageDerivatives<'a> {
     pub(crate) attitude: Quaternion,
-    pub(crate) slopes: Slopes<f64>,
+    pub(crate) slopes: Slopes<'a, f64>,
     /// By the states.
     pub(crate) by_states: &'a DMatrix<f64>,
     /// By what is held: of the last columns.
@@ -124,7 +124,7 @@ impl StageChain {
     }
 
     /// The hub's rows.
-    fn hub(&mut self, slopes: &Slopes<f64>, q: Numbers, by: [f64; 2]) {
+    fn hub(&mut self, slopes: &Slopes<'_, f64>, q: Numbers, by: [f64; 2]) {
         let Self { width, states, turns, accelerations, .. } = self;
         let width = *width;
         let none = || [0.0; 3];
@@ -151,7 +151,7 @@ impl StageChain {
     }
 
     /// The rows of joints and modes.
-    fn joints(&mut self, slopes: &Slopes<f64>, by: [f64; 2]) {
+    fn joints(&mut self, slopes: &Slopes<'_, f64>, by: [f64; 2]) {
         let Self { width, states, accelerations, .. } = self;
         let width = *width;
         let place = |row: usize| row.saturating_mul(width);
@@ -161,7 +161,7 @@ impl StageChain {
         let modal_rates = modes.saturating_add(slopes.modes);
         let moving = place(slopes.moving.len());
         states.follow_rates([place(coordinates), place(rates)], moving, by);
-        for (row, joint) in (rates..).zip(&slopes.moving) {
+        for (row, joint) in (rates..).zip(slopes.moving) {
             let line = lines(accelerations, width, joint.saturating_add(6), 1).unwrap_or_default();
             states.follow(place(row), line, by);
         }

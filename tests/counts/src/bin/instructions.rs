@@ -5,13 +5,15 @@
 //! instructions accelerations/4 1000    # a thousand calls
 //! ```
 
+use std::cell::RefCell;
 use std::hint::black_box;
 use std::process::ExitCode;
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Kind;
+use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
-    Angle, BuiltIn, Devices, Dgvscmg, Servo, Steered, SteeringLaw, SteeringTerms,
+    Angle, BuiltIn, Dgvscmg, Outputs, Servo, Steered, SteeringLaw, SteeringTerms,
 };
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
 
@@ -76,6 +78,9 @@ impl Cases {
         self.cases("1", &[dgvscmg(); 1]);
         self.cases("4", &[dgvscmg(); 4]);
         self.cases("16", &[dgvscmg(); 16]);
+        self.products("1", &[dgvscmg(); 1]);
+        self.products("4", &[dgvscmg(); 4]);
+        self.products("16", &[dgvscmg(); 16]);
         self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
         each_kind(self);
         self.steering();
@@ -113,7 +118,7 @@ impl Cases {
         });
     }
 
-    fn cases<D: Devices<Scalar = f64>>(&mut self, name: &str, devices: &D) {
+    fn cases<D: WithNumbers<Scalar = f64>>(&mut self, name: &str, devices: &D) {
         self.case(&format!("accelerations/{name}"), || {
             let Measured { craft, state, inputs } = Measured::new(devices);
             move || {
@@ -124,6 +129,45 @@ impl Cases {
             let Measured { craft, state, inputs } = Measured::new(devices);
             move || {
                 let _ = black_box(craft.step(black_box(&state), black_box(&inputs), STEP));
+            }
+        });
+        self.case(&format!("linearize_into/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let outputs = Outputs::accelerations();
+            let kept = RefCell::new(craft.linearize(&state, &inputs, &outputs).ok());
+            move || {
+                if let Some(kept) = kept.borrow_mut().as_mut() {
+                    let (state, inputs) = (black_box(&state), black_box(&inputs));
+                    let _ = black_box(craft.linearize_into(state, inputs, &outputs, kept));
+                }
+            }
+        });
+    }
+
+    /// The products of derivatives with a direction and with weights.
+    fn products<D: WithNumbers<Scalar = f64>>(&mut self, name: &str, devices: &D) {
+        self.case(&format!("jvp/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let of_state = vec![0.25; craft.state_variables(&inputs).count()];
+            let of_inputs = vec![0.5; craft.input_variables(&inputs).count()];
+            move || {
+                let direction = (black_box(of_state.as_slice()), of_inputs.as_slice());
+                let _ = black_box(craft.jvp(black_box(&state), black_box(&inputs), direction));
+            }
+        });
+        self.case(&format!("vjp/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let weights = craft.accelerations(&state, &inputs).ok();
+            let by_states = vec![0.0; craft.state_variables(&inputs).count()];
+            let by_inputs = vec![0.0; craft.input_variables(&inputs).count()];
+            let gradient = RefCell::new((by_states, by_inputs));
+            move || {
+                if let Some(weights) = &weights {
+                    let mut gradient = gradient.borrow_mut();
+                    let (by_states, by_inputs) = &mut *gradient;
+                    let (state, inputs) = (black_box(&state), black_box(&inputs));
+                    let _ = black_box(craft.vjp(state, inputs, weights, (by_states, by_inputs)));
+                }
             }
         });
     }

@@ -1,0 +1,32 @@
+//! [`Workspace`]: what a linearisation writes besides its results, kept so that it is allocated once.
+
+use alloc::vec::Vec;
+
+use crate::derivatives::loads::load_columns::LoadsWorkspace;
+use crate::numbers::real::Scalar;
+
+/// No part of a result: all are equal, and a copy has none of it yet.
+#[derive(Debug)]
+pub(crate) struct Workspace<T> {
+    pub(crate) loads: LoadsWorkspace<T>,
+    /// The joints that are not locked.
+    pub(crate) moving: Vec<usize>,
+}
+
+impl<T: Scalar> Workspace<T> {
+    pub(crate) fn new() -> Self {
+        Self { loads: LoadsWorkspace::new(), moving: Vec::new() }
+    }
+}
+
+impl<T: Scalar> Clone for Workspace<T> {
+    fn clone(&self) -> Self {
+        Self::new()
+    }
+}
+
+impl<T> PartialEq for Workspace<T> {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
