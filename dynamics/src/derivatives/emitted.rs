@@ -3,8 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::loads::by_joints::Both;
 use crate::derivatives::loads::by_loads::ByLoads;
 use crate::derivatives::loads::load_columns::LoadsWorkspace;
+use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree::by_tree::ByTree;
 use crate::derivatives::variable::Variable;
@@ -33,6 +35,19 @@ impl<'a, T: Scalar> Emitted<'a, T> {
     ) -> Option<Self> {
         let on_hub = ByLoads::new(craft, state, inputs, accelerations, workspace).map(Self::OnHub);
         on_hub.or_else(|| ByTree::new(craft, state, inputs, accelerations).map(Self::OfTree))
+    }
+
+    /// All four matrices, whole; false where that has to be done column by column.
+    pub(crate) fn fill_matrices(
+        &self,
+        slopes: &Slopes<'_, T>,
+        lists: (&[Variable], &[Variable]),
+        into: [Both<'_, T>; 2],
+    ) -> bool {
+        match self {
+            Self::OnHub(found) => found.fill_matrices(slopes, lists, into),
+            Self::OfTree(_) => false,
+        }
     }
 
     /// The accelerations' derivatives by these variables into the columns of a matrix; the first of the variables of which

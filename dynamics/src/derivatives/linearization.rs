@@ -8,6 +8,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::dual::column::{Column, Outputs};
 use crate::derivatives::emitted::Emitted;
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::loads::load_columns::LoadsWorkspace;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
@@ -155,9 +156,15 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             accelerations, states, inputs: by_inputs, a, b, c, d, workspace, ..
         } = into;
         let lists = (states.as_slice(), by_inputs.as_slice());
-        let (at, into) = ((state, inputs), [&mut *c, &mut *d]);
-        self.output_columns(at, accelerations, outputs, lists, into, workspace)?;
-        let rows = Slopes::new(self, state, inputs, accelerations, &mut workspace.moving);
+        let (at, Workspace { loads, moving }) = ((state, inputs), workspace);
+        let rows = Slopes::new(self, state, inputs, accelerations, moving);
+        let emitted = self.emitted(at, accelerations, outputs, loads);
+        if let Some(emitted) = &emitted
+            && emitted.fill_matrices(&rows, lists, [[&mut *c, &mut *a], [&mut *d, &mut *b]])
+        {
+            return Ok(());
+        }
+        self.columns_by(emitted, at, outputs, lists, [&mut *c, &mut *d])?;
         let not_finite = |variable| DerivativeError::NotFinite { variable };
         rows.fill(states, c, a).map_err(not_finite)?;
         let others = rows.fill(by_inputs, d, b);
@@ -167,18 +174,41 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     /// The derivatives of the outputs by states and inputs into their columns.
     pub(crate) fn output_columns<A: Attitude<D::Scalar>>(
         &self,
-        (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
+        at: (&State<D, A, S>, &Inputs<D, S>),
         accelerations: &Accelerations<D, S>,
         outputs: &Outputs<D::Scalar>,
-        (states, by_inputs): (&[Variable], &[Variable]),
+        lists: (&[Variable], &[Variable]),
         into: [&mut DMatrix<D::Scalar>; 2],
         workspace: &mut Workspace<D::Scalar>,
     ) -> Result<(), DerivativeError<D::Scalar>> {
-        let emitted = if *outputs == Outputs::accelerations() {
-            Emitted::new(self, state, inputs, accelerations, &mut workspace.loads)
+        let emitted = self.emitted(at, accelerations, outputs, &mut workspace.loads);
+        self.columns_by(emitted, at, outputs, lists, into)
+    }
+
+    /// Emitted derivatives, where there are any of these outputs.
+    fn emitted<'a, A: Attitude<D::Scalar>>(
+        &self,
+        (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
+        accelerations: &Accelerations<D, S>,
+        outputs: &Outputs<D::Scalar>,
+        workspace: &'a mut LoadsWorkspace<D::Scalar>,
+    ) -> Option<Emitted<'a, D::Scalar>> {
+        if *outputs == Outputs::accelerations() {
+            Emitted::new(self, state, inputs, accelerations, workspace)
         } else {
             None
-        };
+        }
+    }
+
+    /// Columns by emitted derivatives; without, by dual numbers.
+    fn columns_by<A: Attitude<D::Scalar>>(
+        &self,
+        emitted: Option<Emitted<'_, D::Scalar>>,
+        (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
+        outputs: &Outputs<D::Scalar>,
+        (states, by_inputs): (&[Variable], &[Variable]),
+        into: [&mut DMatrix<D::Scalar>; 2],
+    ) -> Result<(), DerivativeError<D::Scalar>> {
         let Some(emitted) = emitted else {
             let variables = states.iter().chain(by_inputs).copied();
             let mut columns = into.into_iter().flat_map(columns_of);

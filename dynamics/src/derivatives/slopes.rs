@@ -10,7 +10,6 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::linearization::columns_of;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -30,7 +29,7 @@ pub(crate) const OF_HUB: usize = 12;
 #[derive(Debug)]
 pub(crate) struct Slopes<'a, T> {
     by: Arithmetic,
-    bn: Columns<T>,
+    pub(crate) bn: Columns<T>,
     pub(crate) omega: Vec3<T>,
     r_b_n_ddot: Vec3<T>,
     /// Whether the hub moves: its rows are before those of the joints.
@@ -95,9 +94,26 @@ impl<'a, T: Scalar> Slopes<'a, T> {
             Arithmetic::Dispatched(cpu) => {
                 cpu.dispatch(Dispatched { of: self, accelerations, slopes: &mut *slopes })
             }
-            Arithmetic::Portable => self.of_all_accelerations(accelerations, slopes),
+            Arithmetic::Portable => {
+                let accelerations = (accelerations.as_slice(), accelerations.nrows());
+                let rows = slopes.nrows();
+                self.of_all_accelerations(accelerations, (slopes.as_mut_slice(), rows))
+            }
         };
-        for (number, (variable, to)) in by.iter().zip(columns_of(slopes)).enumerate() {
+        self.of_variables(by, slopes.nrows(), slopes.as_mut_slice(), finite)
+    }
+
+    /// Adds what the variables change slopes by at given accelerations; the first of which the hub's are not finite.
+    #[inline(always)]
+    pub(crate) fn of_variables(
+        &self,
+        by: &[Variable],
+        rows: usize,
+        slopes: &mut [T],
+        finite: bool,
+    ) -> Result<(), usize> {
+        let columns = slopes.chunks_exact_mut(rows.max(1));
+        for (number, (variable, to)) in by.iter().zip(columns).enumerate() {
             let turned = self.of_variable(*variable, to);
             if !turned || !finite {
                 let hub = self.hub_rows(to);
@@ -111,10 +127,14 @@ impl<'a, T: Scalar> Slopes<'a, T> {
 
     /// What the accelerations of all columns change slopes by, and zeros; whether those of B in N are finite.
     #[inline(always)]
-    fn of_all_accelerations(&self, accelerations: &DMatrix<T>, slopes: &mut DMatrix<T>) -> bool {
-        let from = accelerations.as_slice().chunks_exact(accelerations.nrows().max(1));
+    fn of_all_accelerations(
+        &self,
+        (accelerations, height): (&[T], usize),
+        (slopes, rows): (&mut [T], usize),
+    ) -> bool {
+        let from = accelerations.chunks_exact(height.max(1));
         let mut finite = true;
-        for (from, to) in from.zip(columns_of(slopes)) {
+        for (from, to) in from.zip(slopes.chunks_exact_mut(rows.max(1))) {
             finite &= self.of_accelerations(from, to);
         }
         finite
@@ -205,6 +225,8 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> bool {
-        self.of.of_all_accelerations(self.accelerations, self.slopes)
+        let accelerations = (self.accelerations.as_slice(), self.accelerations.nrows());
+        let rows = self.slopes.nrows();
+        self.of.of_all_accelerations(accelerations, (self.slopes.as_mut_slice(), rows))
     }
 }

@@ -3,9 +3,9 @@
 use core::convert::Infallible;
 
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::kernel::NotEmitted;
+use crate::derivatives::loads::each_device::Moving;
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::load_columns::Moving;
+use crate::derivatives::loads::kernel::NotEmitted;
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::StructureDerivatives;

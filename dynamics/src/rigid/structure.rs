@@ -2,9 +2,9 @@
 
 use crate::attitude::parameterisation::Attitude;
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::kernel::NotEmitted;
+use crate::derivatives::loads::each_device::Moving;
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::load_columns::Moving;
+use crate::derivatives::loads::kernel::NotEmitted;
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::{Structure, StructureDerivatives};

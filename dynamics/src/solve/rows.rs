@@ -161,7 +161,7 @@ impl<T: Scalar, E: Eliminate<T>, W: DeviceSet<Scalar = T>> Row<'_, '_, '_, T, E,
 
 /// Copies of the data of devices in a row in the structures of their kind; none where they are of another.
 #[inline(always)]
-fn copy<K, N, F, W>(of: &W::Per<F>, first: usize, to: &mut [F::Of<K>]) -> Option<()>
+pub(crate) fn copy<K, N, F, W>(of: &W::Per<F>, first: usize, to: &mut [F::Of<K>]) -> Option<()>
 where
     K: Variant<N>,
     N: DeviceEnum,

@@ -9,10 +9,9 @@
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::loads::each_device::{EachDevice, Moving};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
-use crate::derivatives::loads::load_columns::{
-    EachDevice, JointColumns, LoadColumns, LoadsWorkspace, Moving,
-};
+use crate::derivatives::loads::load_columns::{JointColumns, LoadColumns, LoadsWorkspace};
 use crate::derivatives::loads::mass_system::MassSystem;
 use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
@@ -34,9 +33,9 @@ use crate::solve::state::{Accelerations, State};
 /// The derivatives of the loads at a state, and the mass matrix.
 #[derive(Debug)]
 pub(crate) struct ByLoads<'a, T> {
-    by: Arithmetic,
+    pub(crate) by: Arithmetic,
     /// Of the joints, with the hub's accelerations for the right side of its equations.
-    devices: &'a LoadColumns<T>,
+    pub(crate) devices: &'a LoadColumns<T>,
     system: MassSystem<T>,
     hub: HubConstants<T>,
     omega: Vec3<T>,
@@ -108,7 +107,7 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         first.map_or(Ok(()), Err)
     }
 
-    /// Whether all of them are finite.
+    /// The columns of a matrix of so many rows; whether all of them are finite.
     #[inline(always)]
     fn fill(&self, variables: &[Variable], rows: usize, into: &mut [T]) -> bool {
         let mut all = Finiteness::of_none();
@@ -149,7 +148,7 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
 
     /// What changes with one variable; none where nothing does.
     #[inline(always)]
-    fn change(&self, by: Variable) -> Option<Change<'_, T>> {
+    pub(crate) fn change(&self, by: Variable) -> Option<Change<'_, T>> {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let (still, zeros) = ([zero(); 6], [zero(); 3]);
         let place = |axis: Axis| axis as usize;
@@ -205,16 +204,16 @@ fn hub_of_joints<T: Scalar>(system: &MassSystem<T>, joints: &mut [JointColumns<T
 }
 
 /// What changes with a variable.
-struct Change<'a, T> {
+pub(crate) struct Change<'a, T> {
     /// The hub's accelerations, as seen from what falls with the field.
-    base: Six<T>,
+    pub(crate) base: Six<T>,
     /// The field.
-    field: Option<Vec3<T>>,
-    own: Own<'a, T>,
+    pub(crate) field: Option<Vec3<T>>,
+    pub(crate) own: Own<'a, T>,
 }
 
 /// By how much less joints accelerate than those that follow the hub.
-enum Own<'a, T> {
+pub(crate) enum Own<'a, T> {
     None,
     /// Those of a joint's device, by the variable in this place.
     Device {

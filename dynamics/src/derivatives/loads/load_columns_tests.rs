@@ -7,7 +7,8 @@ use std::vec::Vec;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::load_columns::{EachDevice, LoadsWorkspace, Moving};
+use super::each_device::{EachDevice, Moving};
+use super::load_columns::LoadsWorkspace;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::side_by_side::fallbacks::FALLBACKS;
 use crate::equations::side_by_side::registers::Registers;
@@ -17,7 +18,8 @@ use crate::model::kind::{JointInfo, Kind, no_body};
 use crate::numbers::vec3::components;
 use crate::sets::devices::DeviceSet;
 use crate::{
-    Each as _, Hub, ImbalanceModel, Inputs, JointStates as _, Mode, Passive, Spacecraft, State,
+    BuiltIn, Each as _, Hub, ImbalanceModel, Inputs, JointStates as _, Mode, Passive, Spacecraft,
+    State,
 };
 
 /// Devices of a kind and wheels.
@@ -135,6 +137,68 @@ fn compare<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2]) {
         ];
         assert!(of_kind || of_wheels, "{}: nothing is side by side", K::NAME);
     }
+}
+
+/// Copies numbers of a set into one of another shape.
+fn copied(
+    from: &State<impl crate::Devices<Scalar = f64>>,
+    to: &mut State<impl crate::Devices<Scalar = f64>>,
+) {
+    to.omega = from.omega;
+    for ([coordinate, rate], [q, q_dot]) in to.devices.states_mut().zip(from.devices.states()) {
+        (*coordinate, *rate) = (q, q_dot);
+    }
+}
+
+/// A list of a kind and wheels, as of devices whose kinds are known when the program is compiled.
+fn compare_list<K: Kind<Scalar = f64> + Into<BuiltIn>>([first, wheels]: [usize; 2]) {
+    let numbers = &mut Numbers((first * 1000 + wheels) as u64);
+    let hub = Hub { m_b: 500.0, r_bc_b: numbers.vector(0.1), i_b_bc: Matrix3::identity() * 90.0 };
+    let typed: Set<K> = (
+        (0..first).map(|_| numbers.device()).collect(),
+        (0..wheels).map(|_| numbers.device()).collect(),
+    );
+    let of_kind = typed.0.iter().map(|device| device.clone().into());
+    let list: Vec<BuiltIn> = of_kind.chain(typed.1.iter().map(|wheel| (*wheel).into())).collect();
+    let (mut one_by_one, list) =
+        (Spacecraft::new(&hub, &typed).unwrap(), Spacecraft::new(&hub, &list).unwrap());
+    one_by_one.devices.0.iter_mut().for_each(|device| device.group = None);
+    one_by_one.devices.1.iter_mut().for_each(|device| device.group = None);
+    let (mut state, mut inputs) = (State::at_rest_for(&one_by_one), Inputs::none_for(&one_by_one));
+    state.omega = numbers.vector(0.5);
+    for [coordinate, rate] in state.devices.states_mut() {
+        (*coordinate, *rate) = (numbers.next(), 5.0 * numbers.next());
+    }
+    if let Some(mode) = inputs.modes.values_mut().next() {
+        *mode = Mode::Locked;
+    }
+    let (mut state_of_list, mut inputs_of_list) =
+        (State::at_rest_for(&list), Inputs::none_for(&list));
+    copied(&state, &mut state_of_list);
+    for (to, mode) in inputs_of_list.modes.values_mut().zip(inputs.modes.values()) {
+        *to = mode;
+    }
+    let seed = numbers.0;
+    FALLBACKS.set(0);
+    let of_list = found(&list, &state_of_list, &inputs_of_list, &mut Numbers(seed));
+    assert_eq!(FALLBACKS.get(), 0, "{} and wheels: {first}, {wheels}", K::NAME);
+    let of_typed = found(&one_by_one, &state, &inputs, &mut Numbers(seed));
+    assert!(of_list == of_typed, "{} and wheels: {first}, {wheels}", K::NAME);
+}
+
+#[test]
+fn lists_side_by_side_have_the_derivatives_of_one_after_another() {
+    macro_rules! each {
+        ($($kind:ident $module:ident $number:literal;)*) => {
+            $(
+                for count in 1..=9 {
+                    compare_list::<$kind>([count, 0]);
+                }
+                TWO_ROWS.into_iter().for_each(compare_list::<$kind>);
+            )*
+        };
+    }
+    every_kind!(each);
 }
 
 #[test]

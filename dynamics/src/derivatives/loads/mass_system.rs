@@ -58,6 +58,34 @@ impl<T: Scalar> Gains<T> {
         }
     }
 
+    /// The same, twice, and zeros.
+    #[inline(always)]
+    pub(crate) fn follow_twice(
+        &self,
+        base: &Six<T>,
+        [out, copy, zeros]: [&mut [T]; 3],
+        finite: &mut Finiteness<T>,
+    ) {
+        let (fours, last) = out.as_chunks_mut::<TOGETHER>();
+        let (copies, last_copy) = copy.as_chunks_mut::<TOGETHER>();
+        let (cleared, last_zeros) = zeros.as_chunks_mut::<TOGETHER>();
+        let mut blocks = self.blocks.iter();
+        for (((to, copy), zeros), block) in
+            fours.iter_mut().zip(copies).zip(cleared).zip(&mut blocks)
+        {
+            let found = followed(block, base);
+            (*to, *copy, *zeros) = (found, found, [zero(); TOGETHER]);
+            finite.see(&found);
+        }
+        if let Some(block) = blocks.next() {
+            let found = followed(block, base);
+            last.iter_mut().zip(found).for_each(|(to, from)| *to = from);
+            last_copy.iter_mut().zip(found).for_each(|(to, from)| *to = from);
+            last_zeros.fill(zero());
+            finite.see_each(last);
+        }
+    }
+
     /// Takes what they accelerate less by the angular velocity about an axis.
     #[inline(always)]
     pub(crate) fn subtract_by_omega(&self, axis: usize, out: &mut [T]) {

@@ -2,7 +2,11 @@
 //! and the mass matrix.
 
 #[cfg(feature = "alloc")]
+pub(crate) mod by_joints;
+#[cfg(feature = "alloc")]
 pub(crate) mod by_loads;
+#[cfg(feature = "alloc")]
+pub(crate) mod each_device;
 #[cfg(feature = "alloc")]
 pub(crate) mod joint_elimination;
 pub(crate) mod kernel;

@@ -4,8 +4,8 @@
 
 use alloc::vec::Vec;
 
+use crate::derivatives::loads::each_device::Moving;
 use crate::derivatives::loads::kernel::{NotEmitted, check_count};
-use crate::derivatives::loads::load_columns::Moving;
 use crate::derivatives::loads::side_by_side::Load;
 use crate::derivatives::tree::applied_columns::{Applied, by_wrenches};
 use crate::derivatives::tree::base_motion::{BaseMotion, Link, Moments, spatial};
