@@ -35,8 +35,7 @@ PrecessStateEffector::PrecessStateEffector()
 {
     static int count = 0;
     const std::string own = std::to_string(++count);
-    this->nameOfCoordinatesState = "precessCoordinates" + own;
-    this->nameOfRatesState = "precessRates" + own;
+    this->nameOfJointsState = "precessJoints" + own;
     this->effProps.IEffPrimePntB_B.setZero();
     this->effProps.mEffDot = 0.0;
 }
@@ -124,15 +123,16 @@ unsigned int PrecessStateEffector::jointCount(unsigned int device) const
 double PrecessStateEffector::coordinate(unsigned int device, unsigned int joint) const
 {
     const size_t index = this->indexOf(device, joint, "coordinate");
-    return this->coordinates ? this->coordinates->getStateReference()(static_cast<Eigen::Index>(index), 0)
+    return this->jointsState ? this->jointsState->getStateReference().data()[index]
                              : this->devices().joints[index].coordinate;
 }
 
 double PrecessStateEffector::rate(unsigned int device, unsigned int joint) const
 {
     const size_t index = this->indexOf(device, joint, "rate");
-    return this->rates ? this->rates->getStateReference()(static_cast<Eigen::Index>(index), 0)
-                       : this->devices().joints[index].rate;
+    const size_t count = this->devices().joints.size();
+    return this->jointsState ? this->jointsState->getStateReference().data()[count + index]
+                             : this->devices().joints[index].rate;
 }
 
 void PrecessStateEffector::Reset(uint64_t)
@@ -172,16 +172,16 @@ void PrecessStateEffector::registerStates(DynParamManager &states)
 {
     const std::vector<PrecessJoint> &joints = this->devices().joints;
     const auto count = static_cast<uint32_t>(joints.size());
-    this->coordinates = states.registerState(count, 1, this->nameOfCoordinatesState);
-    this->rates = states.registerState(count, 1, this->nameOfRatesState);
-    Eigen::MatrixXd at(count, 1), moving(count, 1);
+    this->jointsState = states.registerState(2 * count, 1, this->nameOfJointsState);
+    /* Angles and rates of wheels and gimbals have no common size. */
+    this->jointsState->perComponentErrorControl = true;
+    Eigen::MatrixXd at(2 * count, 1);
     for (uint32_t index = 0; index < count; index++) {
         at(index, 0) = joints[index].coordinate;
-        moving(index, 0) = joints[index].rate;
+        at(count + index, 0) = joints[index].rate;
     }
-    this->coordinates->setState(at);
-    this->rates->setState(moving);
-    this->derivative.resize(count, 1);
+    this->jointsState->setState(at);
+    this->derivative.resize(2 * count, 1);
 }
 
 void PrecessStateEffector::linkInStates(DynParamManager &states)
@@ -192,8 +192,8 @@ void PrecessStateEffector::linkInStates(DynParamManager &states)
 void PrecessStateEffector::copyJoints()
 {
     std::vector<PrecessJoint> &joints = this->devices().joints;
-    const double *at = this->coordinates->getStateReference().data();
-    const double *moving = this->rates->getStateReference().data();
+    const double *at = this->jointsState->getStateReference().data();
+    const double *moving = at + joints.size();
     for (PrecessJoint &of : joints) {
         of.coordinate = *at++;
         of.rate = *moving++;
@@ -249,10 +249,13 @@ void PrecessStateEffector::computeDerivatives(double, Eigen::Vector3d rDDot_BN_N
                                               Eigen::MRPd sigma_BN)
 {
     const Eigen::Vector3d a = sigma_BN.toRotationMatrix().transpose() * rDDot_BN_N - this->gravity_B;
-    this->checked(
-        [&] { this->devices().accelerations(a.data(), omegaDot_BN_B.data(), this->derivative.data()); });
-    this->rates->setDerivative(this->derivative);
-    this->coordinates->setDerivative(this->rates->getStateReference());
+    PrecessDevices &own = this->devices();
+    double *to = this->derivative.data();
+    for (const PrecessJoint &of : own.joints) {
+        *to++ = of.rate;
+    }
+    this->checked([&] { own.accelerations(a.data(), omegaDot_BN_B.data(), to); });
+    this->jointsState->setDerivative(this->derivative);
 }
 
 /* Kinetic energy and angular momentum about B, B at rest, as Basilisk's own effectors give them; potential energy of
@@ -268,8 +271,9 @@ void PrecessStateEffector::updateEnergyMomContributions(double, Eigen::Vector3d 
 
 void PrecessStateEffector::modifyStates(double)
 {
-    Eigen::MatrixXd at = this->coordinates->getStateReference();
-    if (at.cwiseAbs().maxCoeff() < LARGEST_ANGLE) {
+    const auto count = static_cast<Eigen::Index>(this->devices().joints.size());
+    Eigen::MatrixXd at = this->jointsState->getStateReference();
+    if (at.topRows(count).cwiseAbs().maxCoeff() < LARGEST_ANGLE) {
         return;
     }
     this->copyJoints();
@@ -278,7 +282,7 @@ void PrecessStateEffector::modifyStates(double)
     for (const PrecessJoint &of : this->devices().joints) {
         *to++ = of.coordinate;
     }
-    this->coordinates->setState(at);
+    this->jointsState->setState(at);
 }
 
 void PrecessStateEffector::writeOutputStateMessages(uint64_t integTimeNanos)
@@ -286,8 +290,8 @@ void PrecessStateEffector::writeOutputStateMessages(uint64_t integTimeNanos)
     RWSpeedMsgPayload wheels = this->speedOutMsg.zeroMsgPayload;
     VSCMGSpeedMsgPayload gyros = this->vscmgSpeedOutMsg.zeroMsgPayload;
     const PrecessDevices &own = this->devices();
-    const double *at = this->coordinates->getStateReference().data();
-    const double *moving = this->rates->getStateReference().data();
+    const double *at = this->jointsState->getStateReference().data();
+    const double *moving = at + own.joints.size();
     size_t wheel = 0, gyro = 0;
     for (size_t index = 0; index < own.joints.size(); index++) {
         const PrecessJoint &of = own.joints[index];

@@ -73,8 +73,7 @@ public:
     void modifyStates(double integTime) override;
     void writeOutputStateMessages(uint64_t integTimeNanos) override;
 
-    std::string nameOfCoordinatesState; //!< name of the state of all coordinates, in the order of devices and joints
-    std::string nameOfRatesState;       //!< name of the state of all rates
+    std::string nameOfJointsState; //!< of all coordinates, then all rates, each in the order of devices and joints
 
     ReadFunctor<ArrayMotorTorqueMsgPayload> motorTorqueInMsg; //!< [N m or N] of each driven joint, in order
     ReadFunctor<VSCMGArrayTorqueMsgPayload> vscmgTorqueInMsg; //!< [N m] of the gimbal and the wheel of each VSCMG
@@ -94,8 +93,8 @@ private:
     Eigen::Vector3d omegaOfFound = Eigen::Vector3d::Zero();
     Eigen::Vector3d gravity_B = Eigen::Vector3d::Zero();
     Eigen::MatrixXd derivative;
-    StateData *coordinates = nullptr;
-    StateData *rates = nullptr;
+    /* One state: each costs Basilisk's integrator as much as three wheels cost the library. */
+    StateData *jointsState = nullptr;
     StateData *hubOmega = nullptr;
 #endif
 };

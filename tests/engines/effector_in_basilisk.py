@@ -95,10 +95,11 @@ def difference_from(ours, table):
         run.until(round(at / STEP))
         for name, values in expected.items():
             errors[name] = max(errors[name], np.max(np.abs(run.read(name) - values[sample])))
-        turned = run.read(effector.nameOfCoordinatesState) - coordinates[sample]
+        found, found_rates = np.split(run.read(effector.nameOfJointsState), 2)
+        turned = found - coordinates[sample]
         # Angles of ours may be wrapped.
         turned = np.where(np.abs(turned) > 1.0, (turned + math.pi) % (2.0 * math.pi) - math.pi, turned)
-        moved = run.read(effector.nameOfRatesState) - rates[sample]
+        moved = found_rates - rates[sample]
         for names, x, x_dot in zip(ours.joints, turned, moved, strict=True):
             errors[names[0]] = max(errors[names[0]], abs(x))
             errors[names[1]] = max(errors[names[1]], abs(x_dot))
@@ -142,11 +143,12 @@ class Keep:
 def in_orbit(craft, table):
     run = in_orbit_run(craft, table)
     run.until(craft["steps"])
-    names = {"theta": "reactionWheelThetas", "spin": "reactionWheelOmegas"}
-    if table is not None:
-        own = run.effectors[0]
-        names = {"theta": own.nameOfCoordinatesState, "spin": own.nameOfRatesState}
-    return {"states": {name: run.read(of) for name, of in {**with_basilisk.HUB_STATES, **names}.items()}}
+    if table is None:
+        joints = [run.read("reactionWheelThetas"), run.read("reactionWheelOmegas")]
+    else:
+        joints = np.split(run.read(run.effectors[0].nameOfJointsState), 2)
+    hub = {name: run.read(of) for name, of in with_basilisk.HUB_STATES.items()}
+    return {"states": {**hub, "theta": joints[0], "spin": joints[1]}}
 
 
 def times(craft, table, repeats=7, steps=2000):
