@@ -39,7 +39,7 @@ def wheel(name, config):
     torque = float(config.u_current)
     lines += [f'torque = "{number(torque)} N m"'] if torque else []
     if config.cViscous > 0.0:
-        lines.append(f'viscous_friction = "{number(config.cViscous)} N m s"')
+        lines.append(f'damping = "{number(config.cViscous)} N m s"')
     return lines
 
 
@@ -59,7 +59,7 @@ def gyro(name, config):
     lines += [f'angle = "{number(config.gamma)} rad"', f'rate = "{number(config.gammaDot)} rad/s"']
     moments = (config.IW1, config.IW2, config.IW3)
     lines += rotor(config.massW, config.U_s, moments, config.U_d, config.Omega)
-    return [*lines, quantity("position", [config.l, 0.0, config.L], "m")]
+    return [*lines, quantity("origin", [config.l, 0.0, config.L], "m")]
 
 
 def device(name, kind, position, axes):

@@ -30,6 +30,7 @@ SCENARIOS = {"table1-printed-200": "10 s", "wheels-on-isolator": "10 s"}
 sys.path[:0] = [str(BUILT), str(ROOT / "flight" / "basilisk")]
 try:
     import effector_in_basilisk as basilisk
+    import gyros
     import numpy as np
     import wheels
     from runs import mounted
@@ -49,6 +50,7 @@ def main():
             as_ours(Path(folder), scenario, duration)
         craft = {**wheels.CRAFT, "wheels": [mounted(wheel) for wheel in wheels.CRAFT["wheels"]]}
         as_basilisk(Path(folder), craft)
+        from_configurations(Path(folder))
         beside_a_panel(Path(folder))
         refused(Path(folder))
 
@@ -89,6 +91,26 @@ def as_basilisk(folder, craft):
         f"a step of the spacecraft, the least of runs that take turns: {1e6 * hub:.1f} us without wheels, with three "
         f"{1e6 * theirs:.1f} us by Basilisk's effector, {1e6 * our:.1f} us by ours: {share:.2f} of its cost"
     )
+
+
+def from_configurations(folder):
+    """Wheels and gyros of Basilisk's configurations as a scenario, run by us, and in Basilisk by its own effectors."""
+    free = {"u_w": 0.0, "u_g": 0.0}
+    craft = {**wheels.CRAFT, "wheels": [{**mounted(of), **free} for of in wheels.CRAFT["wheels"]]}
+    craft["gyros"] = [{**mounted(of), **free} for of in gyros.CRAFT["gyros"]]
+    run, text = basilisk.of_configurations(craft)
+    path = folder / "configured.toml"
+    path.write_text(text, encoding="utf-8")
+    settings = ["run.integrator=rk4", "run.step=1 ms", "run.duration=2 s", "output.rate=100 Hz"]
+    options = [word for setting in [*settings, 'output.formats=["npz"]'] for word in ("--set", setting)]
+    precess("run", str(path), *options, "--no-report", "--out", str(folder))
+    ours = basilisk.Recorded(np.load(folder / "configured.npz"))
+    run.until(2000)
+    rates = {"reactionWheelOmegas": [f"rw{n}.spin" for n in (1, 2, 3)], "VSCMGOmegas": ["vscmg1.spin", "vscmg2.spin"]}
+    rates |= {"VSCMGGammas": ["vscmg1.gamma", "vscmg2.gamma"], "hubSigma": [f"sigma_{n}" for n in (1, 2, 3)]}
+    rates |= {"hubOmega": ["omega_x", "omega_y", "omega_z"]}
+    errors = {name: relative(ours.of(*columns)[-1], run.read(name)) for name, columns in rates.items()}
+    within("a scenario from Basilisk's configurations, 2 s", errors, AS_OURS)
 
 
 def beside_a_panel(folder):

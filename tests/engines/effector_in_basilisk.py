@@ -5,6 +5,7 @@ import struct
 import time
 from pathlib import Path
 
+import gyros_with_basilisk
 import numpy as np
 import with_basilisk
 from Basilisk.architecture import messaging
@@ -12,6 +13,7 @@ from Basilisk.simulation import gravityEffector, hingedRigidBodyStateEffector, s
 from Basilisk.utilities import SimulationBaseClass
 from parameter_table import reaction_wheel, write
 from precessStateEffector import PrecessStateEffector
+from scenario import scenario
 from with_basilisk import column
 
 EARTH = 3.986004415e14
@@ -151,7 +153,7 @@ def in_orbit(craft, table):
     return {"states": {**hub, "theta": joints[0], "spin": joints[1]}}
 
 
-def times(craft, table, repeats=7, steps=2000):
+def times(craft, table, repeats=60, steps=200):
     """Seconds a step of the spacecraft: alone, with Basilisk's wheels, with ours; the least of runs that take turns."""
     bare = with_basilisk.hub(craft)
     runs = {"hub": Run(bare, []), "basilisk": in_orbit_run(craft, None), "precess": in_orbit_run(craft, table)}
@@ -162,6 +164,17 @@ def times(craft, table, repeats=7, steps=2000):
             run.until(repeat * steps)
             least[name] = min(least[name], (time.perf_counter() - start) / steps)
     return least
+
+
+def of_configurations(craft):
+    """Wheels and gyros by Basilisk's own effectors, and the scenario of their configurations."""
+    made = with_basilisk.hub(craft)
+    made.hub.v_CN_NInit = column([0.0] * 3)
+    keep = [Keep(), Keep()]
+    own = [of.Run.attached(kept, craft) for of, kept in zip((with_basilisk, gyros_with_basilisk), keep, strict=True)]
+    run = Run(made, own)
+    run.keep = keep
+    return run, scenario("configured", made.hub, keep[0].configs, keep[1].configs)
 
 
 def drift_with_panel(table, seconds=10):
