@@ -200,7 +200,9 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
 /// The hub's accelerations for the right sides of all joints.
 #[inline(always)]
 fn hub_of_joints<T: Scalar>(system: &MassSystem<T>, joints: &mut [JointColumns<T>]) {
-    joints.iter_mut().for_each(|joint| system.hub_of_group(&mut joint.hub));
+    for joint in joints.iter_mut() {
+        system.hub_of_group(&mut joint.hub);
+    }
 }
 
 /// What changes with a variable.
@@ -265,7 +267,9 @@ impl<T: Scalar> pulp::WithSimd for DispatchedHub<'_, T> {
 pub(crate) fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
     let (fours, rest) = numbers.as_chunks::<TOGETHER>();
     let mut finite = Finiteness::of_none();
-    fours.iter().for_each(|four| finite.see(four));
+    for four in fours.iter() {
+        finite.see(four);
+    }
     finite.see_each(rest);
     finite.holds()
 }
