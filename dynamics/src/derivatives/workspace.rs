@@ -1,12 +1,12 @@
 //! [`Workspace`]: what a linearisation writes besides its results, kept so that it is allocated once.
 
 use alloc::vec::Vec;
+use core::fmt::{self, Debug, Formatter};
 
 use crate::derivatives::loads::load_columns::LoadsWorkspace;
 use crate::numbers::real::Scalar;
 
-/// No part of a result: all are equal, and a copy has none of it yet.
-#[derive(Debug)]
+/// No part of a result: all are equal and look alike, and a copy has none of it yet.
 pub(crate) struct Workspace<T> {
     pub(crate) loads: LoadsWorkspace<T>,
     /// The joints that are not locked.
@@ -28,5 +28,11 @@ impl<T: Scalar> Clone for Workspace<T> {
 impl<T> PartialEq for Workspace<T> {
     fn eq(&self, _: &Self) -> bool {
         true
+    }
+}
+
+impl<T> Debug for Workspace<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Workspace").finish_non_exhaustive()
     }
 }
