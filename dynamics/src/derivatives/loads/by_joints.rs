@@ -171,7 +171,7 @@ impl<T: Scalar> Columns<'_, T> {
         let [joints, rates] = self.follow(&base, &hub, [accelerations, slopes], &mut finite)?;
         if let Own::All(axis) = own {
             self.loads.devices.gains.subtract_by_omega(axis as usize, joints);
-            rates.copy_from_slice(joints);
+            rates.iter_mut().zip(&*joints).for_each(|(to, from)| *to = *from);
             joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
         }
         all.merge(&finite);

@@ -200,7 +200,7 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
 /// The hub's accelerations for the right sides of all joints.
 #[inline(always)]
 fn hub_of_joints<T: Scalar>(system: &MassSystem<T>, joints: &mut [JointColumns<T>]) {
-    for joint in joints.iter_mut() {
+    for joint in joints {
         system.hub_of_group(&mut joint.hub);
     }
 }
@@ -267,7 +267,7 @@ impl<T: Scalar> pulp::WithSimd for DispatchedHub<'_, T> {
 pub(crate) fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
     let (fours, rest) = numbers.as_chunks::<TOGETHER>();
     let mut finite = Finiteness::of_none();
-    for four in fours.iter() {
+    for four in fours {
         finite.see(four);
     }
     finite.see_each(rest);

@@ -25,7 +25,6 @@ pub(crate) struct JointElimination<T, const N: usize> {
 impl<T: Scalar, const N: usize> JointElimination<T, N> {
     /// With the loads by the joints' accelerations, of joints and hub.
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "rows and columns as the formula has them")]
     pub(crate) fn new(mass: &[[T; N]; N], of_hub: &[Six<T>; N], free: [bool; MAX_JOINTS]) -> Self {
         let mut coupling = [[zero(); 6]; N];
         for row in 0..N {

@@ -158,7 +158,7 @@ fn compare_list<K: Kind<Scalar = f64> + Into<BuiltIn>>([first, wheels]: [usize; 
         (0..first).map(|_| numbers.device()).collect(),
         (0..wheels).map(|_| numbers.device()).collect(),
     );
-    let of_kind = typed.0.iter().map(|device| device.clone().into());
+    let of_kind = typed.0.iter().map(|device| (*device).into());
     let list: Vec<BuiltIn> = of_kind.chain(typed.1.iter().map(|wheel| (*wheel).into())).collect();
     let (mut one_by_one, list) =
         (Spacecraft::new(&hub, &typed).unwrap(), Spacecraft::new(&hub, &list).unwrap());
