@@ -93,7 +93,7 @@ private:
     Eigen::Vector3d omegaOfFound = Eigen::Vector3d::Zero();
     Eigen::Vector3d gravity_B = Eigen::Vector3d::Zero();
     Eigen::MatrixXd derivative;
-    /* One state: each costs Basilisk's integrator as much as three wheels cost the library. */
+    /* One state: Basilisk's integrator looks each up by its name. */
     StateData *jointsState = nullptr;
     StateData *hubOmega = nullptr;
 #endif
