@@ -21,6 +21,7 @@ use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
 use crate::jitter::coupled::{Compared, compare};
 use crate::jitter::model::Contributor;
+use crate::jitter::noise::NoiseSweep;
 use crate::jitter::own_speeds::AtOwnSpeeds;
 use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
@@ -76,7 +77,7 @@ pub(super) struct Jitter {
     /// requirement without this option.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
     compare: Vec<f64>,
-    /// Close the loop of a controller of the scenario: lines through it, and their aliases, without coupled runs and sensitivities.
+    /// Close the loop of a controller of the scenario: lines and noise through it, with their aliases, and noise of its sensors; without coupled runs and sensitivities.
     #[arg(long, value_name = "NAME", conflicts_with = "compare")]
     controller: Option<String>,
     /// Run the coupled equations at no speed.
@@ -105,6 +106,8 @@ fn speed(text: &str) -> Result<f64, String> {
 /// Everything that is computed.
 struct JitterResults {
     sweep: Sweep,
+    /// The parts of the noise with a loop closed.
+    noise: Option<[NoiseSweep; 3]>,
     assessed: Vec<Assessed>,
     /// The same with each rotor at its own speed.
     at_own_speeds: Result<Vec<AtOwnSpeeds>, Fault>,
@@ -247,8 +250,11 @@ impl Jitter {
         if let Ok(bar) = bar.lock() {
             bar.finish_and_clear();
         }
+        let mut noise = None;
         if let Some(name) = &self.controller {
-            for text in closed(scenario, budget, name, &mut found)? {
+            let (texts, parts) = closed(scenario, budget, name, &mut found)?;
+            noise = Some(parts);
+            for text in texts {
                 note(&format!("warning: {text}"));
                 warnings.push(text);
             }
@@ -295,6 +301,7 @@ impl Jitter {
         Ok(JitterResults {
             sensitivities: ranked.map_err(|error| other(&error))?,
             sweep: found,
+            noise,
             assessed,
             at_own_speeds,
             campbell_speeds,
@@ -306,30 +313,27 @@ impl Jitter {
     }
 }
 
-/// Closes the loop of a controller; what is to be said of it.
+/// Closes the loop of a controller; what is to be said of it, and the parts of the noise.
 fn closed(
     scenario: &Scenario,
     budget: &Budget,
     name: &str,
     found: &mut Sweep,
-) -> Result<Vec<String>, CommandError> {
+) -> Result<(Vec<String>, [NoiseSweep; 3]), CommandError> {
     let other = |error: MarginsError| CommandError::Other(format!("{}: {error}", scenario.name));
     let of = chosen(scenario, Some(name)).map_err(other)?;
     let bar = progress_bar(found.speeds.len(), "speeds of the loop");
     let show = |done: usize| bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
-    let unstable = close(scenario, of, budget, found, &show).map_err(other)?;
+    let closed = close(scenario, of, budget, found, &show).map_err(other)?;
     bar.finish_and_clear();
     let mut texts: Vec<String> =
         notes(scenario, of).into_iter().map(|text| format!("loop of `{name}`: {text}")).collect();
-    if let Some(first) = unstable.first() {
+    if let Some(first) = closed.unstable.first() {
         texts.push(format!(
             "the loop of `{name}` is not stable at {} speeds, from {} on",
-            unstable.len(),
+            closed.unstable.len(),
             rpm(*first)
         ));
     }
-    if !found.noise.speeds.is_empty() {
-        texts.push(format!("broadband noise is without the loop of `{name}`"));
-    }
-    Ok(texts)
+    Ok((texts, closed.noise))
 }

@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::campbell::oscillations;
+use super::campbell::{Oscillation, oscillations};
 use super::intervals::{Density, NODES, intervals, nodes};
 use super::model::Model;
 use super::sources::MountNoise;
 use super::transfer::Transfer;
 use super::weight::Weight;
+use crate::structure::accelerance::ComplexMatrix;
 use crate::structure::{COORDINATES, Fault};
 
 /// Densities at one speed.
@@ -50,14 +51,14 @@ impl Model {
         if self.noises.is_empty() {
             return Ok(vec![0.0; self.outputs.len()]);
         }
-        Noises::new(self, speed).density(frequency)
+        let by_mounts = Transfer::new(self, speed).at(frequency)?;
+        Ok(Noises::new(self, speed).density(frequency / TAU, &by_mounts))
     }
 }
 
 /// The noises of a model at one speed.
-struct Noises<'a> {
+pub(crate) struct Noises<'a> {
     model: &'a Model,
-    transfer: Transfer<'a>,
     /// Of each noise by how much its amplitudes differ from those stated.
     factors: Vec<f64>,
     /// Of each noise the first one with the same densities: those of the devices of a layout.
@@ -65,7 +66,7 @@ struct Noises<'a> {
 }
 
 impl<'a> Noises<'a> {
-    fn new(model: &'a Model, speed: f64) -> Self {
+    pub(crate) fn new(model: &'a Model, speed: f64) -> Self {
         let factor = |noise: &MountNoise| {
             let rate = noise.rotor.and_then(|[device, rotor]| {
                 let (_, device) = model.devices.get(device)?;
@@ -82,16 +83,14 @@ impl<'a> Noises<'a> {
         };
         Self {
             model,
-            transfer: Transfer::new(model, speed),
             factors: model.noises.iter().map(factor).collect(),
             first_alike: model.noises.iter().map(alike).collect(),
         }
     }
 
-    fn density(&self, frequency: f64) -> Result<Vec<f64>, Fault> {
-        let mut sums = vec![0.0; self.model.outputs.len()];
-        let hertz = frequency / TAU;
-        let by_mounts = self.transfer.at(frequency)?;
+    /// Densities of outputs at a frequency, Hz, from what forces and moments on the mounts do to them, six columns for each mount.
+    pub(crate) fn density(&self, hertz: f64, by_mounts: &ComplexMatrix) -> Vec<f64> {
+        let mut sums = vec![0.0; by_mounts.nrows()];
         let mut independent = Vec::with_capacity(self.model.noises.len());
         for (number, noise) in self.model.noises.iter().enumerate() {
             let known = self.first_alike.get(number).and_then(|first| independent.get(*first));
@@ -111,7 +110,7 @@ impl<'a> Noises<'a> {
                 }
             }
         }
-        Ok(sums)
+        sums
     }
 }
 
@@ -183,11 +182,26 @@ impl Densities {
         let bands: Vec<[f64; 2]> = model.noises.iter().map(|noise| noise.density.band).collect();
         // The frequencies of tables are corners of the density.
         let corners = model.noises.iter().flat_map(|noise| noise.density.frequencies.clone());
-        let intervals = intervals(&bands, corners, &natural);
+        let (noises, transfer) = (Noises::new(model, speed), Transfer::new(model, speed));
+        let density = |hertz: f64| -> Result<Vec<f64>, Fault> {
+            Ok(noises.density(hertz, &transfer.at(TAU * hertz)?))
+        };
+        Self::over(speed, (&bands, corners), &natural, density)
+    }
+
+    /// Of a density by the frequency, Hz, within some bands, Hz, with corners, and short intervals at natural frequencies.
+    ///
+    /// # Errors
+    /// Those of the density.
+    pub(crate) fn over(
+        speed: f64,
+        (bands, corners): (&[[f64; 2]], impl Iterator<Item = f64>),
+        natural: &[Oscillation],
+        density: impl Fn(f64) -> Result<Vec<f64>, Fault>,
+    ) -> Result<Self, Fault> {
+        let intervals = intervals(bands, corners, natural);
         let frequencies: Vec<f64> = intervals.iter().copied().flat_map(nodes).collect();
-        let noises = Noises::new(model, speed);
-        let values: Result<Vec<_>, _> =
-            frequencies.iter().map(|frequency| noises.density(TAU * frequency)).collect();
+        let values: Result<Vec<_>, _> = frequencies.iter().map(|hertz| density(*hertz)).collect();
         Ok(Self { speed, intervals, frequencies, values: values? })
     }
 

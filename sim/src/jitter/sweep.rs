@@ -96,9 +96,11 @@ pub fn refined(mut speeds: Vec<f64>, [from, to]: [f64; 2], crossings: &[Crossing
 
 /// The speeds at which the density of noise is computed, about [`NOISE_SPEEDS`] of them; none without noise.
 fn noise_speeds(model: &Model, speeds: &[f64]) -> Vec<f64> {
-    if model.noises.is_empty() {
-        return Vec::new();
-    }
+    if model.noises.is_empty() { Vec::new() } else { some_of(speeds) }
+}
+
+/// About [`NOISE_SPEEDS`] of some speeds, first and last among them.
+pub(crate) fn some_of(speeds: &[f64]) -> Vec<f64> {
     let step = speeds.len().div_ceil(NOISE_SPEEDS).max(1);
     let mut some: Vec<f64> = speeds.iter().copied().step_by(step).collect();
     some.extend(speeds.last().filter(|last| Some(*last) != some.last()));

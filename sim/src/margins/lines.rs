@@ -8,9 +8,8 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, DVector};
 
 use super::analysis::{ControlLoop, alias};
-use super::sampled::{Forced, at};
 use crate::structure::Fault;
-use crate::structure::accelerance::complex;
+use crate::structure::accelerance::{ComplexMatrix, complex};
 
 /// A component that is slower than this share of the rate of the samples is constant: no motion that is seen.
 const CONSTANT: f64 = 1e-6;
@@ -105,32 +104,12 @@ impl ControlLoop {
 
     /// A load `exp(i w t)` on all coordinates through the loop; the servo knows that of an imbalance.
     fn line(&self, w: f64, load: &DVector<Complex<f64>>, known: bool) -> Result<ClosedLine, Fault> {
-        let states = self.plant.forced(w, load)?;
-        let reduced = self.plant.without_translation(load);
-        let known = if known { reduced } else { reduced * Complex::new(0.0, 0.0) };
-        let forced = Forced { frequency: w, known, states };
-        let read = self.samples.read_at_once(&forced.states);
-        let period = self.samples.sampling.period;
-        let z = Complex::from_polar(1.0, w * period);
-        let feedback = self.with_all.feedback();
-        let [d, b, c] = [&feedback.d, &feedback.b, &feedback.c].map(complex);
-        let [f, g, _] = self.with_all.plant().with_waiting();
-        let mut right = DVector::zeros(self.with_all.state_matrix().nrows());
-        let added = self.samples.driven_by(&self.plant, &forced);
-        right.rows_mut(0, added.len()).copy_from(&added);
-        let mut by_read = right.rows_mut(0, f.nrows());
-        by_read += complex(&g) * (&d * &read);
-        right.rows_mut(f.nrows(), feedback.a.nrows()).copy_from(&(b * &read));
+        let load = ComplexMatrix::from_columns(&[load.clone()]);
+        let forced = self.forced(&self.plant.at_frequency(w), (w, &load), known)?;
         let unbounded = || Fault::Unbounded { frequency: w };
-        let found = at(z, self.with_all.state_matrix()).lu().solve(&right).ok_or_else(unbounded)?;
-        if !found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
-            return Err(unbounded());
-        }
-        let own = found.rows(0, added.len()).into_owned();
-        let read = self.samples.read(&forced.states, &own);
-        let torque = c * found.rows(f.nrows(), feedback.a.nrows()) + d * read;
-        let motion = &forced.states + own.rows(0, self.plant.a.nrows());
-        let sampled = complex(&self.plant.motion()) * motion;
+        let sampled = self.at_samples(w).through(&forced).ok_or_else(unbounded)?;
+        let motion = &forced.states + sampled.states.rows(0, self.plant.a.nrows());
+        let read = complex(&self.plant.motion()) * motion;
         let shown = alias(w / TAU, self.rate) * TAU;
         let rate = TAU * self.rate;
         let mut images: Vec<f64> = vec![w];
@@ -140,20 +119,22 @@ impl ControlLoop {
                 images.push(image);
             }
         }
-        let none = DVector::zeros(load.len());
+        let none = ComplexMatrix::zeros(load.nrows(), 1);
         let mut components = Vec::new();
         for (index, image) in images.into_iter().enumerate() {
-            let torques = self.samples.torques_at(&self.plant, &forced, (image, &own, &torque));
-            let mut states = self.plant.driven(image, &torques)?;
+            let at = self.plant.at_frequency(image);
+            let mut states = at.driven(&self.torques_at(&forced, (image, &sampled)))?;
             if index == 0 {
                 states += &forced.states;
             }
-            components.push(self.component(image, &states, if index == 0 { load } else { &none }));
+            let outputs = at.outputs(&states, if index == 0 { &load } else { &none });
+            components.push(component(image, &states, &outputs));
         }
-        let three = |of: &DVector<Complex<f64>>, from: usize| {
-            [0, 1, 2].map(|k| of.get(from + k).copied().unwrap_or_default())
+        let held = self.plant.at_frequency(w).outputs(&forced.states, &load);
+        let three = |of: &ComplexMatrix, from: usize| {
+            [0, 1, 2].map(|k| of.get((from + k, 0)).copied().unwrap_or_default())
         };
-        let [rotation, omega] = [three(&sampled, 0), three(&sampled, 3)];
+        let [rotation, omega] = [three(&read, 0), three(&read, 3)];
         let mut both = [Complex::new(0.0, 0.0); 6];
         both.iter_mut().zip(rotation.into_iter().chain(omega)).for_each(|(to, of)| *to = of);
         Ok(ClosedLine {
@@ -162,23 +143,18 @@ impl ControlLoop {
             order: 0.0,
             frequency: w / TAU,
             alias: shown.abs() / TAU,
-            held: self.component(w, &forced.states, load),
+            held: component(w, &forced.states, &held),
             sampled: both,
-            torque: three(&torque, 0),
+            torque: three(&sampled.torque, 0),
             components,
         })
     }
+}
 
-    /// A component of the motion, at a frequency that is not negative.
-    fn component(
-        &self,
-        w: f64,
-        states: &DVector<Complex<f64>>,
-        load: &DVector<Complex<f64>>,
-    ) -> Component {
-        let turn = |value: Complex<f64>| if w < 0.0 { value.conj() } else { value };
-        let attitude = [0, 1, 2].map(|axis| turn(states.get(axis).copied().unwrap_or_default()));
-        let outputs = self.plant.outputs(w, states, load).into_iter().map(turn).collect();
-        Component { frequency: w.abs() / TAU, attitude, outputs }
-    }
+/// A component of the motion, at a frequency that is not negative.
+fn component(w: f64, states: &ComplexMatrix, outputs: &ComplexMatrix) -> Component {
+    let turn = |value: Complex<f64>| if w < 0.0 { value.conj() } else { value };
+    let attitude = [0, 1, 2].map(|axis| turn(states.get((axis, 0)).copied().unwrap_or_default()));
+    let outputs = outputs.iter().copied().map(turn).collect();
+    Component { frequency: w.abs() / TAU, attitude, outputs }
 }

@@ -25,9 +25,11 @@
 //! | margins, curves, poles | [`analysis`] |
 //! | lines of rotors through the loop, and their aliases | [`lines`] |
 //! | the lines of a jitter budget with the loop closed | [`closed_sweep`] |
+//! | noise of sources and sensors in a jitter budget with the loop closed | [`closed_noise`] |
 //! | noise of what is measured | [`noise`] |
 
 pub mod analysis;
+pub mod closed_noise;
 pub mod closed_sweep;
 mod error;
 pub mod feedback;
@@ -36,6 +38,8 @@ pub mod measurement;
 pub mod noise;
 pub mod notes;
 pub mod plant;
+mod response;
 pub mod sampled;
+mod through;
 
 pub use error::MarginsError;

@@ -97,7 +97,7 @@ fn measured(notes: &mut Vec<String>, of: &SampledController) {
             });
         }
         if gyro.rate_random_walk > 0.0 {
-            notes.push("noise is without the drift of the gyro's bias by its rate random walk; a run has it".to_owned());
+            notes.push("noise is without the drift of the gyro's bias by its rate random walk, but in `jitter --controller` with an estimator; a run has it".to_owned());
         }
         if gyro.output == GyroOutput::Sampled && of.estimator.is_some() {
             notes.push(

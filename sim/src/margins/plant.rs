@@ -12,12 +12,11 @@ use crate::jitter::campbell::{device_rows, matrices, node_rows};
 use crate::jitter::device::Steady;
 use crate::jitter::model::{Model, Output};
 use crate::scenario::{SampledController, Scenario};
-use crate::structure::accelerance::complex;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::{COORDINATES, Fault};
 
 /// Coordinates of the translation, which are eliminated: nothing depends on place and velocity.
-const TRANSLATION: usize = 3;
+pub(super) const TRANSLATION: usize = 3;
 /// A column of the stiffness that is less than this share of the largest element is rounding: nothing depends on the coordinate.
 const STIFFNESS_MIN: f64 = 1e-12;
 
@@ -46,19 +45,19 @@ pub struct ControlledPlant {
     /// What sensors have of the motion, by the state: attitude of the star tracker, attitude and angular velocity of the gyro.
     pub sensed: DMatrix<f64>,
     /// Numbers of the coordinates that are states.
-    kept: Vec<usize>,
+    pub(super) kept: Vec<usize>,
     /// How many coordinates there are, without the translation.
-    size: usize,
+    pub(super) size: usize,
     /// Inverse of the mass matrix, without the translation.
-    inverse: DMatrix<f64>,
+    pub(super) inverse: DMatrix<f64>,
     /// From loads on all coordinates to those without the translation.
-    reduced: DMatrix<f64>,
+    pub(super) reduced: DMatrix<f64>,
     /// The translation by accelerations, rates, coordinates and loads on itself.
-    translation: [DMatrix<f64>; 4],
+    pub(super) translation: [DMatrix<f64>; 4],
     /// Rows of the mount and of the free joints of each device.
     devices: Vec<DMatrix<f64>>,
     /// Rows of outputs by all coordinates.
-    outputs: DMatrix<f64>,
+    pub(super) outputs: DMatrix<f64>,
 }
 
 impl ControlledPlant {
@@ -196,78 +195,10 @@ impl ControlledPlant {
         (of.frequency(tone, self.speed), re.zip_map(&im, Complex::new))
     }
 
-    /// A load on all coordinates as one on those without the translation.
-    #[must_use]
-    pub fn without_translation(&self, load: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
-        complex(&self.reduced) * load
-    }
-
-    /// The motion with held motors under a load on all coordinates at an angular frequency, rad/s, as states.
-    ///
-    /// # Errors
-    /// [`Fault::Unbounded`] at a resonance without damping.
-    pub fn forced(
-        &self,
-        frequency: f64,
-        load: &DVector<Complex<f64>>,
-    ) -> Result<DVector<Complex<f64>>, Fault> {
-        let mut right = DVector::zeros(self.a.nrows());
-        let accelerations = complex(&self.inverse) * self.without_translation(load);
-        right.rows_mut(self.kept.len(), self.size).copy_from(&accelerations);
-        self.resolved(frequency, &right)
-    }
-
-    /// The motion under torques of the motors at an angular frequency, rad/s, as states.
-    ///
-    /// # Errors
-    /// [`Fault::Unbounded`] at a resonance without damping.
-    pub fn driven(
-        &self,
-        frequency: f64,
-        torques: &DVector<Complex<f64>>,
-    ) -> Result<DVector<Complex<f64>>, Fault> {
-        self.resolved(frequency, &(complex(&self.b) * torques))
-    }
-
-    fn resolved(
-        &self,
-        frequency: f64,
-        right: &DVector<Complex<f64>>,
-    ) -> Result<DVector<Complex<f64>>, Fault> {
-        let mut system = -complex(&self.a);
-        for k in 0..system.nrows() {
-            system[(k, k)] += Complex::new(0.0, frequency);
-        }
-        let found = system.lu().solve(right).ok_or(Fault::Unbounded { frequency })?;
-        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
-            Ok(found)
-        } else {
-            Err(Fault::Unbounded { frequency })
-        }
-    }
-
-    /// Outputs of a motion, states at an angular frequency, under a load on all coordinates.
-    #[must_use]
-    pub fn outputs(
-        &self,
-        frequency: f64,
-        states: &DVector<Complex<f64>>,
-        load: &DVector<Complex<f64>>,
-    ) -> Vec<Complex<f64>> {
-        let rates = states.rows(self.kept.len(), self.size).into_owned();
-        let (by_rate, t) = (Complex::new(0.0, frequency).inv(), TRANSLATION);
-        let places = &rates * by_rate;
-        let [by_acceleration, of_rates, of_places, of_load] =
-            self.translation.each_ref().map(complex);
-        let accelerations = &rates * Complex::new(0.0, frequency);
-        let moved = by_acceleration * accelerations
-            + of_rates * &rates
-            + of_places * &places
-            + of_load * load.rows(0, t);
-        let mut all = DVector::zeros(t + self.size);
-        all.rows_mut(0, t).copy_from(&(moved * (by_rate * by_rate)));
-        all.rows_mut(t, self.size).copy_from(&places);
-        (complex(&self.outputs) * all).iter().copied().collect()
+    /// Loads on all coordinates by forces and moments on a mount, six columns.
+    pub(super) fn mount_loads(&self, mount: usize) -> DMatrix<f64> {
+        let node = self.model.mounts.get(mount).copied().unwrap_or(0);
+        node_rows(&self.model, node, self.reduced.ncols()).transpose()
     }
 
     /// What averaging over the turns leaves out, as a share of the inertia, at an angular frequency, rad/s: the largest of all

@@ -12,7 +12,7 @@
 //! With `x = x_w + xi`, where `x_w` is the motion under a load `exp(i w t)` with motors held, `xi` has the equation without load,
 //! but that what computes torques reads `x`.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DMatrix};
 use precess_control::{ControlError, Feedback, SampledPlant, Sampling, held_step};
 
 use super::MarginsError;
@@ -36,6 +36,8 @@ pub struct ControlledSamples {
     phi: DMatrix<f64>,
     /// By what acts from within this period on, and by what acted before.
     gamma: [DMatrix<f64>; 2],
+    /// The states with what was given and waits, by what is given newly.
+    newly: DMatrix<f64>,
     /// What a sample gives, by the state, by the torque of the law, and by what it reads.
     given: [DMatrix<f64>; 3],
     /// From what sensors have of the motion to what the law reads.
@@ -47,19 +49,23 @@ pub struct ControlledSamples {
     /// Times within a period, s, from which on torques of motors are held, and whether what is given at this period has come to
     /// act.
     times: Vec<(f64, bool)>,
+    /// From each of these times to the next: the state by the state and by held torques.
+    steps: Vec<[DMatrix<f64>; 2]>,
     /// At these times: torques by the state, by what acts, and by loads.
     torques: [DMatrix<f64>; 3],
 }
 
-/// The forced motion of a load `exp(i w t)`.
+/// What acts on the loop with `exp(i w t)`, a column for each.
 #[derive(Clone, Debug)]
 pub struct Forced {
     /// rad/s.
     pub frequency: f64,
     /// The load on the coordinates that the servo knows.
-    pub known: DVector<Complex<f64>>,
+    pub known: ComplexMatrix,
     /// The motion with motors held, as states at the time zero.
-    pub states: DVector<Complex<f64>>,
+    pub states: ComplexMatrix,
+    /// What is added to the readings at the samples: attitude, rad, and rate, rad/s.
+    pub noise: ComplexMatrix,
 }
 
 impl ControlledSamples {
@@ -119,15 +125,20 @@ impl ControlledSamples {
             periods: whole(periods),
             phi: DMatrix::zeros(0, 0),
             gamma: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
+            newly: DMatrix::zeros(0, 0),
             given,
             measurement: Measurement::new(of)?,
             sensed: plant.sensed.clone(),
             by_load: given_by_load,
             times,
+            steps: Vec::new(),
             torques,
         };
+        samples.steps = samples.held_steps(plant);
         let [phi, newer, older] = samples.over_period(plant);
         (samples.phi, samples.gamma) = (phi, [newer, older]);
+        let [_, newly] = samples.with_waiting(&samples.gamma);
+        samples.newly = newly;
         Ok(samples)
     }
 
@@ -137,15 +148,28 @@ impl ControlledSamples {
         let mut maps =
             [DMatrix::identity(n, n), DMatrix::zeros(n, count), DMatrix::zeros(n, count)];
         let [by_state, by_given, _] = &self.torques;
-        for ((from, newly), to) in self.times.iter().zip(self.ends()) {
+        for ((_, newly), [phi, gamma]) in self.times.iter().zip(&self.steps) {
             let mut by = maps.each_ref().map(|map| by_state * map);
             by[if *newly { 1 } else { 2 }] += by_given;
-            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
             for (map, torque) in maps.iter_mut().zip(&by) {
-                *map = &phi * &*map + &gamma * torque;
+                *map = phi * &*map + gamma * torque;
             }
         }
         maps
+    }
+
+    fn held_steps(&self, plant: &ControlledPlant) -> Vec<[DMatrix<f64>; 2]> {
+        let step = |((from, _), to): (&(f64, bool), f64)| {
+            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
+            [phi, gamma]
+        };
+        self.times.iter().zip(self.ends()).map(step).collect()
+    }
+
+    /// Whether torques are computed at the samples only, and held in between.
+    fn is_held(&self) -> bool {
+        let [by_state, _, by_load] = &self.torques;
+        by_state.iter().chain(by_load).all(|element| *element == 0.0)
     }
 
     /// The ends of the times within a period.
@@ -214,9 +238,13 @@ impl ControlledSamples {
         Ok((plant, noise))
     }
 
-    /// What the law reads at once of a motion, without the states of the measurement.
+    /// What the law reads at once of motion and readings, without the states of the measurement.
     #[must_use]
-    pub fn read_at_once(&self, states: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+    pub fn read_at_once(&self, of: &Forced) -> ComplexMatrix {
+        self.of_motion(&of.states) + complex(self.noise_at_once()) * &of.noise
+    }
+
+    fn of_motion(&self, states: &ComplexMatrix) -> ComplexMatrix {
         complex(&self.measurement.chain.d) * (complex(&self.sensed) * states)
     }
 
@@ -227,17 +255,13 @@ impl ControlledSamples {
         directly
     }
 
-    /// What the law reads of a motion and the states of [`Self::plant`] beside it.
+    /// What the law reads of what acts and the states of [`Self::plant`] beside it.
     #[must_use]
-    pub fn read(
-        &self,
-        motion: &DVector<Complex<f64>>,
-        states: &DVector<Complex<f64>>,
-    ) -> DVector<Complex<f64>> {
+    pub fn read(&self, of: &Forced, states: &ComplexMatrix) -> ComplexMatrix {
         let c = complex(&self.measurement.chain.c);
         let own = states.rows(0, self.phi.nrows()).into_owned();
         let measured = states.rows(states.nrows() - c.ncols(), c.ncols()).into_owned();
-        self.read_at_once(&(own + motion)) + c * measured
+        self.of_motion(&own) + self.read_at_once(of) + c * measured
     }
 
     /// `X = [x; a_k-1; ..; a_k-m-1]`: `X_k+1 = F X_k + G a_k`.
@@ -259,33 +283,34 @@ impl ControlledSamples {
         [f, g]
     }
 
-    /// What a forced motion adds to the states of [`Self::plant`] in a period, `w_k` being one: `D + G (E x_w + N r_w + V w)`, and of
+    /// What acts adds to the states of [`Self::plant`] in a period, `w_k` being one: `D + G (E x_w + N r_w + V w)`, and of
     /// the measurement `B y_w`.
     #[must_use]
-    pub fn driven_by(&self, plant: &ControlledPlant, of: &Forced) -> DVector<Complex<f64>> {
-        let [f, g] = self.with_waiting(&self.gamma);
-        let n = self.phi.nrows();
-        let more = self.measurement.chain.a.nrows();
-        let mut added = DVector::zeros(f.nrows() + more);
+    pub fn driven_by(&self, of: &Forced) -> ComplexMatrix {
+        let (g, n, columns) = (&self.newly, self.phi.nrows(), of.states.ncols());
+        let Feedback { a, b, .. } = &self.measurement.chain;
+        let mut added = ComplexMatrix::zeros(g.nrows() + a.nrows(), columns);
         let [by_state, _, by_load] = &self.torques;
-        let torque = complex(by_state) * &of.states + complex(by_load) * &of.known;
-        // Torques that are computed within the period read the forced motion, too.
-        let mut within: DVector<Complex<f64>> = DVector::zeros(n);
-        for ((from, _), to) in self.times.iter().zip(self.ends()) {
-            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
-            let read = complex(by_state) * &within
-                + &torque * Complex::from_polar(1.0, of.frequency * from);
-            within = complex(&phi) * within + complex(&gamma) * read;
+        if !self.is_held() {
+            let torque = complex(by_state) * &of.states + complex(by_load) * &of.known;
+            // Torques that are computed within the period read the forced motion, too.
+            let mut within = ComplexMatrix::zeros(n, columns);
+            for ((from, _), [phi, gamma]) in self.times.iter().zip(&self.steps) {
+                let turned = &torque * Complex::from_polar(1.0, of.frequency * from);
+                let read = complex(by_state) * &within + turned;
+                within = complex(phi) * within + complex(gamma) * read;
+            }
+            added.rows_mut(0, n).copy_from(&within);
         }
-        added.rows_mut(0, n).copy_from(&within);
         let given = complex(&self.given[0]) * &of.states
-            + complex(&self.given[2]) * self.read_at_once(&of.states)
+            + complex(&self.given[2]) * self.read_at_once(of)
             + complex(&self.by_load) * &of.known;
-        let mut by_given = added.rows_mut(0, f.nrows());
-        by_given += complex(&g) * given;
-        let sensed = complex(&self.sensed) * &of.states;
-        let measured = complex(&self.measurement.chain.b) * sensed;
-        added.rows_mut(f.nrows(), more).copy_from(&measured);
+        let mut by_given = added.rows_mut(0, g.nrows());
+        by_given += complex(g) * given;
+        let [to_states, _] = &self.measurement.noise;
+        let measured =
+            complex(b) * (complex(&self.sensed) * &of.states) + complex(to_states) * &of.noise;
+        added.rows_mut(g.nrows(), a.nrows()).copy_from(&measured);
         added
     }
 
@@ -294,15 +319,14 @@ impl ControlledSamples {
     #[must_use]
     pub fn torques_at(
         &self,
-        plant: &ControlledPlant,
         of: &Forced,
-        (image, states, torque): (f64, &DVector<Complex<f64>>, &DVector<Complex<f64>>),
-    ) -> DVector<Complex<f64>> {
+        (image, states, torque): (f64, &ComplexMatrix, &ComplexMatrix),
+    ) -> ComplexMatrix {
         let (n, count) = (self.phi.nrows(), self.torques[1].ncols());
         let own = states.rows(0, n).into_owned();
         let newest = complex(&self.given[0]) * (&own + &of.states)
             + complex(&self.given[1]) * torque
-            + complex(&self.given[2]) * self.read(&of.states, states)
+            + complex(&self.given[2]) * self.read(of, states)
             + complex(&self.by_load) * &of.known;
         // What is given so many samples ago.
         let ago = |samples: usize| match samples.checked_sub(1) {
@@ -310,19 +334,19 @@ impl ControlledSamples {
             Some(index) => states.rows(n + index * count, count).into_owned(),
         };
         let (newer, older) = (ago(self.periods), ago(self.periods + 1));
-        let [by_state, by_given, by_load] = &self.torques;
-        let read = complex(by_state) * &of.states + complex(by_load) * &of.known;
-        let period = self.sampling.period;
-        let mut sum: DVector<Complex<f64>> = DVector::zeros(plant.b.ncols());
+        let [by_state, by_given, by_load] = self.torques.each_ref().map(complex);
+        let read = &by_state * &of.states + by_load * &of.known;
+        let (period, is_held) = (self.sampling.period, self.is_held());
+        let mut sum = ComplexMatrix::zeros(count, states.ncols());
         let mut state = own;
-        for ((from, newly), to) in self.times.iter().zip(self.ends()) {
-            let acts = if *newly { &newer } else { &older };
-            let held = complex(by_state) * &state
-                + complex(by_given) * acts
-                + &read * Complex::from_polar(1.0, of.frequency * from);
-            sum += &held * (integral(image, [*from, to]) / period);
-            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
-            state = complex(&phi) * state + complex(&gamma) * held;
+        let parts = self.times.iter().zip(self.ends()).zip(&self.steps);
+        for (((from, newly), to), [phi, gamma]) in parts {
+            let mut held = &by_given * if *newly { &newer } else { &older };
+            if !is_held {
+                held += &by_state * &state + &read * Complex::from_polar(1.0, of.frequency * from);
+                state = complex(phi) * state + complex(gamma) * &held;
+            }
+            sum += held * (integral(image, [*from, to]) / period);
         }
         sum
     }

@@ -153,8 +153,8 @@ fn a_budget_with_the_loop_closed_has_the_aliases() {
     let mut found = sweep(&prepared.model, &speeds, 1, &|_| {}).expect("lines");
     let open = found.lines[0].clone();
     let controller = chosen(&scenario, None).expect("a controller");
-    let unstable = close(&scenario, controller, &budget, &mut found, &|_| {}).expect("a loop");
-    assert!(unstable.is_empty());
+    let closed = close(&scenario, controller, &budget, &mut found, &|_| {}).expect("a loop");
+    assert!(closed.unstable.is_empty());
     let count = open.len();
     assert_eq!((found.contributors.len(), found.lines[0].len()), (2 * count, 2 * count));
     let lines = loop_of(&scenario).lines().expect("lines");

@@ -4,6 +4,7 @@ mod closed_form;
 mod judged;
 mod lines;
 mod measured;
+mod noise;
 mod rejected;
 
 use std::path::Path;

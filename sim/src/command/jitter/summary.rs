@@ -4,8 +4,10 @@ use std::fmt::Write as _;
 
 use super::{JitterResults, NOT_COMPARED};
 use crate::command::table::{aligned, six};
-use crate::jitter::budget::{Assessed, Budget};
+use crate::jitter::budget::{Assessed, Budget, outputs_of};
 use crate::jitter::own_speeds::AtOwnSpeeds;
+use crate::jitter::weight::Weight;
+use crate::margins::closed_noise::CLOSED_NOISE;
 use crate::report::jitter::{AGREEMENT, OWN_SPEEDS, intervals, metric, rpm, worst_speed};
 
 /// For the terminal.
@@ -116,12 +118,29 @@ fn contributors(budget: &Budget, found: &JitterResults) -> String {
     for of in found.assessed.iter().filter(noisy) {
         let _ = writeln!(
             text,
-            "{}: broadband noise, {:.0} % of the mean square",
+            "{}: broadband noise, {:.0} % of the mean square{}",
             of.limit.name,
-            100.0 * of.noise
+            100.0 * of.noise,
+            parts_of_noise(found, of)
         );
     }
     text
+}
+
+/// What the noise through a loop is of, at the worst speed.
+fn parts_of_noise(found: &JitterResults, of: &Assessed) -> String {
+    let (Some(parts), Ok(weight)) = (&found.noise, Weight::of_metric(&of.limit.metric)) else {
+        return String::new();
+    };
+    let speed = found.sweep.speeds.get(of.worst).copied().unwrap_or(0.0);
+    let outputs = outputs_of(of.sight);
+    let squares = parts.each_ref().map(|part| part.mean_square(speed, &outputs, &weight));
+    let whole: f64 = squares.iter().sum();
+    let shares = CLOSED_NOISE.iter().zip(squares).filter(|(_, square)| *square > 0.0);
+    let shares: Vec<String> = shares
+        .map(|(name, square)| format!("{name} {:.0} %", 100.0 * square / whole * of.noise))
+        .collect();
+    format!(" ({})", shares.join("; "))
 }
 
 /// How the runs of the coupled equations agree.
