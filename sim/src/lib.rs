@@ -54,6 +54,7 @@ pub mod engine;
 pub mod evaluation;
 pub mod file;
 pub mod fit;
+pub mod fmu;
 pub mod jitter;
 pub mod margins;
 #[cfg(feature = "mcap")]

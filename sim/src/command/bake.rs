@@ -3,23 +3,19 @@
 //! This tool derives nothing: it writes what the spacecraft is, as plain numbers, and hands that to
 //! `precess-bake`, which derives, proves and writes.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 use clap::{Args, ValueEnum};
 use precess_dynamics::HubMode;
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::generator::Generator;
 use super::options::Set;
 use super::outputs::Outputs;
 use super::terminal::{note, print};
 use crate::file::from_file;
 use crate::scenario::Scenario;
-
-/// The program that derives, beside this one or on the path.
-const PROGRAM: &str = "precess-bake";
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -89,42 +85,18 @@ impl Bake {
 
     /// Hands a description to the program, whose output is this command's.
     fn derive(&self, description: &str, out: &Path) -> Result<Exit, CommandError> {
-        let mut command = Command::new(program());
-        command.arg("--out").arg(out);
+        let mut generator = Generator::new().arguments([Path::new("--out"), out]);
         if let Some(language) = self.language {
-            command.args(["--language", if language == Language::C { "c" } else { "rust" }]);
+            generator = generator
+                .arguments(["--language", if language == Language::C { "c" } else { "rust" }]);
         }
         for (given, flag) in
             [(self.constants, "--constants"), (self.general, "--general"), (self.force, "--force")]
         {
             if given {
-                command.arg(flag);
+                generator = generator.arguments([flag]);
             }
         }
-        let mut child = command.stdin(Stdio::piped()).spawn().map_err(|error| {
-            CommandError::Other(format!(
-                "`{PROGRAM}` cannot be started: {error}; install it with `cargo install --path \
-                 codegen/bake`"
-            ))
-        })?;
-        let io = |source| CommandError::Io { path: PROGRAM.into(), source };
-        if let Some(mut input) = child.stdin.take() {
-            // A program that ends before it has read all says why itself.
-            match input.write_all(description.as_bytes()) {
-                Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-                    return Err(io(error));
-                }
-                _ => {}
-            }
-        }
-        let status = child.wait().map_err(io)?;
-        Ok(if status.success() { Exit::Success } else { Exit::Error })
+        Ok(if generator.derive(description)? { Exit::Success } else { Exit::Error })
     }
-}
-
-/// Beside this program, as `cargo install` and `cargo build` put both; else by the path.
-fn program() -> PathBuf {
-    let name = format!("{PROGRAM}{}", std::env::consts::EXE_SUFFIX);
-    let beside = std::env::current_exe().ok().map(|own| own.with_file_name(&name));
-    beside.filter(|path| path.is_file()).unwrap_or_else(|| PathBuf::from(PROGRAM))
 }

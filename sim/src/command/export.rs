@@ -1,9 +1,11 @@
-//! `export table`: a spacecraft as the parameter table of the flight library's C interface.
+//! `export table`: a spacecraft as the parameter table of the flight library's C interface; and the list of exports.
 //!
 //! The layout is that of `flight/capi/src/table.rs`, little-endian: "PREC", version, length, count of
 //! devices and platforms; the hub; each of them; CRC-32. It is version 1 unless one has more than three joints,
 //! as a platform has, then version 2. Fixed steps of rk4 with inputs held over
 //! a step give the same bits there as here, for up to eight devices.
+
+mod fmu;
 
 use std::path::PathBuf;
 
@@ -46,6 +48,9 @@ pub(super) enum Export {
     /// The parameters of hub and devices, for `precess_init_from_table` of the C library
     #[command(after_help = "Example:\n  precess export table bus.toml --to bus.table")]
     Table(Table),
+    /// The spacecraft as a functional mock-up unit of FMI 2.0: C sources, Model Exchange and Co-Simulation
+    #[command(after_help = fmu::HELP)]
+    Fmu(fmu::Unit),
 }
 
 /// The options of `export table`.
@@ -65,7 +70,10 @@ pub(super) struct Table {
 
 impl Export {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
-        let Self::Table(options) = self;
+        let options = match self {
+            Self::Table(options) => options,
+            Self::Fmu(options) => return options.execute(),
+        };
         let (scenario, _) = from_file(&options.file, &options.overrides.overrides())
             .map_err(CommandError::Scenario)?;
         let bytes = table(&scenario)?;

@@ -12,6 +12,7 @@ mod evaluate;
 mod exit;
 mod export;
 mod fit;
+mod generator;
 mod jitter;
 mod kinds;
 mod limits_and_springs;
@@ -111,7 +112,7 @@ enum Command {
     /// Run a scenario whose keys are drawn from distributions: percentiles, probabilities, sensitivities
     #[command(name = "montecarlo", after_help = montecarlo::HELP)]
     MonteCarlo(Box<montecarlo::MonteCarlo>),
-    /// Write a scenario for the flight library
+    /// Write a scenario for other programs: the flight library, importers of functional mock-up units
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
     /// Print what a shell completes after `precess`

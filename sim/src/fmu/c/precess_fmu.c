@@ -1,5 +1,7 @@
 /* Compile with -std=c99 -ffp-contract=off. */
 
+#include <float.h>
+
 #include "precess_fmu.h"
 
 #if defined(__FAST_MATH__)
@@ -96,7 +98,63 @@ static void set_state(struct precess_fmu *fmu, const struct FMU_SOLVER_STATE *st
     (void)copy(state->rates, FMU_JOINTS, to + 13 + FMU_JOINTS);
 }
 
-static void inputs_of(const struct precess_fmu *fmu, struct FMU_SOLVER_INPUTS *inputs)
+/* Adds the cross product of two vectors. */
+static void add_cross(const double a[3], const double b[3], double to[3])
+{
+    to[0] = to[0] + (a[1] * b[2] - a[2] * b[1]);
+    to[1] = to[1] + (a[2] * b[0] - a[0] * b[2]);
+    to[2] = to[2] + (a[0] * b[1] - a[1] * b[0]);
+}
+
+static void add(const double from[3], double to[3])
+{
+    int k;
+
+    for (k = 0; k < 3; k++) {
+        to[k] = to[k] + from[k];
+    }
+}
+
+/* Adds the wrenches, of which `from` has force and moment of each. */
+static void add_wrenches(
+    const double *from, const struct FMU_SOLVER_STATE *state, struct FMU_SOLVER_INPUTS *inputs)
+{
+    struct precess_matrix bn;
+    int k;
+
+    precess_attitude_dcm(PRECESS_QUATERNION, state->attitude, &bn);
+    for (k = 0; k < FMU_WRENCHES; k++) {
+        const struct precess_fmu_wrench *const wrench = &precess_fmu_wrenches[k];
+        double force[3];
+        double moment[3];
+
+        from = copy(from, 3, force);
+        from = copy(from, 3, moment);
+        if (wrench->inertial) {
+            precess_rotate(&bn, from - 6, force);
+            precess_rotate(&bn, from - 3, moment);
+        }
+        if (wrench->joint == FMU_JOINTS) {
+            add(moment, inputs->torque_b);
+            add(force, inputs->force);
+            add_cross(wrench->point, force, inputs->torque_b);
+        } else {
+            struct precess_wrench *const sum = &inputs->wrenches[wrench->joint];
+            double about[3] = { 0.0, 0.0, 0.0 };
+
+            add_cross(wrench->point, force, about);
+            add(moment, about);
+            add(force, sum->force);
+            add(about, sum->moment);
+            inputs->has_wrenches = 1;
+        }
+    }
+}
+
+static void inputs_of(
+    const struct precess_fmu *fmu,
+    const struct FMU_SOLVER_STATE *state,
+    struct FMU_SOLVER_INPUTS *inputs)
 {
     static const struct FMU_SOLVER_INPUTS NONE;
     const double *const from = fmu->values + FMU_INPUT;
@@ -104,19 +162,33 @@ static void inputs_of(const struct precess_fmu *fmu, struct FMU_SOLVER_INPUTS *i
     int k;
 
     *inputs = NONE;
-    (void)copy(from, 3, inputs->force);
-    (void)copy(from + 3, 3, inputs->torque_b);
-    for (k = 0; k < FMU_JOINTS; k++) {
-        const double given = precess_fmu_inputs[k] < 0 ? 0.0 : from[6 + precess_fmu_inputs[k]];
-
-        inputs->joints[k].mode = precess_fmu_modes[k];
-        inputs->joints[k].torque = precess_fmu_modes[k] == PRECESS_DRIVEN ? given : 0.0;
-        inputs->joints[k].acceleration = precess_fmu_modes[k] == PRECESS_PRESCRIBED ? given : 0.0;
-    }
     inputs->hub.freedom = FMU_HUB;
+    if (inputs->hub.freedom == PRECESS_HUB_PRESCRIBED) {
+        (void)copy(from, 3, inputs->hub.r_b_n_ddot);
+        (void)copy(from + 3, 3, inputs->hub.omega_dot);
+    } else {
+        (void)copy(from, 3, inputs->force);
+        (void)copy(from + 3, 3, inputs->torque_b);
+    }
+    for (k = 0; k < FMU_JOINTS; k++) {
+        const struct precess_fmu_joint *const joint = &precess_fmu_joints[k];
+        const double given = joint->input < 0 ? 0.0 : from[6 + joint->input];
+
+        inputs->joints[k].mode = joint->mode;
+        if (joint->mode == PRECESS_DRIVEN) {
+            inputs->joints[k].torque = given > joint->limit ? joint->limit
+                : given < -joint->limit                     ? -joint->limit
+                                                            : given;
+        } else {
+            inputs->joints[k].acceleration = given;
+        }
+    }
     inputs->gravity.field = FMU_FIELD;
     (void)copy(gravity, 3, inputs->gravity.uniform);
     inputs->gravity.mu = gravity[3];
+    if (FMU_WRENCHES > 0) {
+        add_wrenches(from + 6 + FMU_DRIVEN, state, inputs);
+    }
 }
 
 enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
@@ -132,7 +204,7 @@ enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
         return status;
     }
     state_of(fmu, &state);
-    inputs_of(fmu, &inputs);
+    inputs_of(fmu, &state, &inputs);
     status = FMU_SOLVER_EVALUATE(&fmu->spacecraft, &state, &inputs, &found);
     if (status != PRECESS_OK) {
         return status;
@@ -147,39 +219,126 @@ enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
     return PRECESS_OK;
 }
 
-enum precess_status precess_fmu_advance(struct precess_fmu *fmu, double duration)
+/* How many steps a duration takes, and how long each is. */
+static long steps_of(double start, double duration, double step, double *length)
 {
-    const double longest = fmu->values[FMU_PARAMETER];
-    const double ratio = duration / longest;
+    const double ratio = duration / step;
+    const long nearest = (long)(ratio + 0.5);
+    const double rest = precess_magnitude(duration - (double)nearest * step);
+    /* The duration is a difference of two times, each of which is rounded. */
+    const double rounding = 8.0 * DBL_EPSILON * (precess_magnitude(start) + duration);
+    long count = (long)ratio;
+
+    if (rest <= rounding) {
+        *length = step;
+        return nearest;
+    }
+    count = count + 1;
+    *length = duration / (double)count;
+    return count;
+}
+
+/* Whether a joint is beyond an end stop. */
+static int is_beyond(const double *coordinates)
+{
+    int k;
+
+    for (k = 0; k < FMU_JOINTS; k++) {
+        if (coordinates[k] < precess_fmu_joints[k].lower
+            || coordinates[k] > precess_fmu_joints[k].upper) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int precess_fmu_is_stopped(const struct precess_fmu *fmu)
+{
+    return is_beyond(fmu->values + FMU_STATE + 13);
+}
+
+/* Whether an angle is so large that it is wrapped. */
+static int is_large(const double *coordinates)
+{
+    int k;
+
+    for (k = 0; k < FMU_JOINTS; k++) {
+        if (precess_magnitude(coordinates[k]) > FMU_LARGE_ANGLE) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+enum precess_status precess_fmu_advance(
+    struct precess_fmu *fmu, double start, double duration, int *is_stopped)
+{
+    const double step = fmu->values[FMU_PARAMETER];
     struct FMU_SOLVER_STATE state;
     struct FMU_SOLVER_INPUTS inputs;
     enum precess_status status = prepare(fmu);
+    double length;
     long count;
     long k;
 
+    *is_stopped = 0;
     if (status != PRECESS_OK) {
         return status;
     }
-    if (!(longest > 0.0) || !(duration >= 0.0) || !(ratio < 1e9)) {
+    if (!(step > 0.0) || !(duration >= 0.0) || !(duration / step < 1e9)) {
         return PRECESS_BAD_INPUT;
     }
-    count = (long)ratio;
-    /* A part of a step that is only rounding is none. */
-    if (ratio - (double)count > 1e-9 * ratio) {
-        count = count + 1;
-    }
+    count = steps_of(start, duration, step, &length);
     state_of(fmu, &state);
-    inputs_of(fmu, &inputs);
     for (k = 0; k < count; k++) {
-        status = FMU_SOLVER_STEP(
-            &fmu->spacecraft, &state, &inputs, duration / (double)count, &state);
+        inputs_of(fmu, &state, &inputs);
+        status = FMU_SOLVER_STEP(&fmu->spacecraft, &state, &inputs, length, &state);
         if (status != PRECESS_OK) {
             return status;
         }
-        FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+        if (is_beyond(state.coordinates)) {
+            *is_stopped = 1;
+            return PRECESS_OK;
+        }
+        if (is_large(state.coordinates)) {
+            FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+        }
     }
     set_state(fmu, &state);
     return PRECESS_OK;
+}
+
+int precess_fmu_is_to_wrap(struct precess_fmu *fmu)
+{
+    const double *const coordinates = fmu->values + FMU_STATE + 13;
+    struct FMU_SOLVER_STATE state;
+    int k;
+
+    if (!is_large(coordinates) || prepare(fmu) != PRECESS_OK) {
+        return 0;
+    }
+    state_of(fmu, &state);
+    FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+    for (k = 0; k < FMU_JOINTS; k++) {
+        if (precess_magnitude(coordinates[k]) > FMU_LARGE_ANGLE
+            && precess_magnitude(state.coordinates[k]) <= FMU_LARGE_ANGLE) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+enum precess_status precess_fmu_wrap(struct precess_fmu *fmu)
+{
+    struct FMU_SOLVER_STATE state;
+    const enum precess_status status = prepare(fmu);
+
+    if (status == PRECESS_OK) {
+        state_of(fmu, &state);
+        FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+        set_state(fmu, &state);
+    }
+    return status;
 }
 
 const char *precess_fmu_message(enum precess_status status)

@@ -1,0 +1,180 @@
+//! [`Fmu`]: the spacecraft of a scenario as a functional mock-up unit of FMI 2.0, as sources, for Model Exchange and
+//! Co-Simulation.
+//!
+//! ```text
+//! Scenario --Fmu::new--> what its solver is derived from --precess-bake --general--> C files
+//!                    \--> model.h, model.c, modelDescription.xml <--Fmu::files--/
+//! ```
+//!
+//! The C between the standard's functions and the solver is in `c`, the same in every unit; what a scenario adds to it
+//! is numbers, in `model.c`. A value reference is a place in one array ([`layout`]). What the solver in C does not have is
+//! refused by name ([`FmuError`]); what the importer is to give instead is [noted](Fmu::notes).
+//!
+//! Invariants: names of variables are unique, at most 55 characters of `[A-Za-z0-9_]`; the same scenario gives the same
+//! bytes; every number is finite.
+
+mod archive;
+mod dependencies;
+mod error;
+mod layout;
+mod model;
+mod names;
+mod parameters;
+mod refused;
+mod sources;
+mod units;
+mod variables;
+mod xml;
+
+use precess_description::Description;
+use precess_dynamics::HubMode;
+use sha2::{Digest as _, Sha256};
+
+pub use archive::{archive, compiler_arguments, platform};
+pub use error::FmuError;
+
+use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
+use layout::Layout;
+use names::{Names, identifier};
+use variables::{Variable, variables};
+
+/// The name of the solver in file names and code: the same in every unit.
+const SOLVER: &str = "satellite";
+
+/// A unit of a scenario, before its solver is derived.
+#[derive(Clone, Debug)]
+pub struct Fmu {
+    name: String,
+    spacecraft: Description,
+    notes: Vec<String>,
+    layout: Layout,
+    variables: Vec<Variable>,
+    description: xml::Header,
+    constants: model::Constants,
+}
+
+impl Fmu {
+    /// The unit of a checked scenario.
+    ///
+    /// # Errors
+    ///
+    /// [`FmuError`] with the name of what the solver in C does not have.
+    pub fn new(scenario: &Scenario) -> Result<Self, FmuError> {
+        refused::check(scenario)?;
+        let IntegratorChoice::Rk4 { step } = scenario.settings.integrator else {
+            return Err(FmuError::Tolerance);
+        };
+        // What holds a hub or a joint is an input of the solver.
+        let free = Scenario { hub_mode: HubMode::Free, ..scenario.clone() };
+        let described = free.description(true)?;
+        let spacecraft = Description { name: SOLVER.to_owned(), title: String::new(), ..described };
+        let layout = Layout::new(scenario);
+        let mut names = Names::default();
+        let variables = variables(scenario, &layout, step, &mut names);
+        Ok(Self {
+            name: identifier(&scenario.name),
+            spacecraft,
+            notes: notes(scenario),
+            description: xml::Header::new(scenario, step),
+            constants: model::Constants::new(scenario, &layout),
+            layout,
+            variables,
+        })
+    }
+
+    /// The name of the unit's functions and binaries: at most 55 characters of `[A-Za-z0-9_]`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What `precess-bake --general` derives the solver from.
+    #[must_use]
+    pub fn spacecraft(&self) -> &Description {
+        &self.spacecraft
+    }
+
+    /// What the importer has to do that the scenario does itself, in sentences.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// How many variables it has.
+    #[must_use]
+    pub fn variable_count(&self) -> usize {
+        self.variables.len()
+    }
+
+    /// The files of the unit by their paths in it, in the order of the archive, from the files of its solver. The unit's
+    /// identifier is a digest of them.
+    #[must_use]
+    pub fn files(&self, solver: &[(String, String)]) -> Vec<(String, String)> {
+        let unidentified = self.files_of("", solver);
+        let mut digest = Sha256::new();
+        for (path, text) in &unidentified {
+            digest.update(path.as_bytes());
+            digest.update([0]);
+            digest.update(text.as_bytes());
+            digest.update([0]);
+        }
+        self.files_of(&guid(&digest.finalize()), solver)
+    }
+
+    fn files_of(&self, guid: &str, solver: &[(String, String)]) -> Vec<(String, String)> {
+        let mut sources: Vec<(String, String)> = solver
+            .iter()
+            .filter(|(path, _)| sources::is_source(path))
+            .cloned()
+            .chain(sources::all())
+            .collect();
+        sources.push(("model.h".to_owned(), model::header(&self.layout, &self.constants, guid)));
+        let start = model::values(&self.layout, &self.constants, &self.variables);
+        sources.push(("model.c".to_owned(), self.constants.source(&start)));
+        sources.sort();
+        let compiled: Vec<&str> = sources
+            .iter()
+            .map(|(path, _)| path.as_str())
+            .filter(|path| sources::is_compiled(path))
+            .collect();
+        let description = self.description.document(&self.name, guid, &compiled, &self.variables);
+        let sources = sources.into_iter().map(|(path, text)| (format!("sources/{path}"), text));
+        std::iter::once(("modelDescription.xml".to_owned(), description)).chain(sources).collect()
+    }
+}
+
+/// A digest as an identifier.
+fn guid(digest: &[u8]) -> String {
+    let hexadecimal: String = digest.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+    let (a, b) = hexadecimal.split_at(8);
+    let (b, c) = b.split_at(4);
+    let (c, d) = c.split_at(4);
+    let (d, e) = d.split_at(4);
+    format!("{{{a}-{b}-{c}-{d}-{e}}}")
+}
+
+/// What the importer has to give.
+fn notes(scenario: &Scenario) -> Vec<String> {
+    let mut notes = Vec::new();
+    for ((_, name, info), drive) in scenario.joints().zip(&scenario.drives) {
+        if drive.profile().is_some_and(|profile| !profile.is_constant()) {
+            let what =
+                if matches!(drive, Drive::Torque { .. }) { info.motor } else { info.acceleration };
+            notes.push(format!(
+                "the scenario varies {name}.{what} with time; in the unit it is an input that starts at its value at 0 s"
+            ));
+        }
+    }
+    for (number, wrench) in (1..).zip(&scenario.wrenches) {
+        if !wrench.force.iter().chain(&wrench.moment).all(Profile::is_constant) {
+            notes.push(format!(
+                "the scenario varies wrench {number} with time; in the unit it is inputs that start at their values at 0 s"
+            ));
+        }
+    }
+    for crossing in scenario.crossings.iter().filter(|crossing| crossing.ends) {
+        let name = &crossing.name;
+        notes.push(format!("the scenario ends at the crossing `{name}`; the unit does not"));
+    }
+    notes
+}
