@@ -12,7 +12,7 @@ use zip::write::SimpleFileOptions;
 /// Those of the archive, such as a path that is there twice.
 pub fn archive<B: AsRef<[u8]>>(files: &[(String, B)]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Deflated);
     for (path, bytes) in files {
         archive.start_file(path.as_str(), options)?;
         archive.write_all(bytes.as_ref())?;

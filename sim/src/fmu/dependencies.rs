@@ -65,6 +65,8 @@ impl Couplings {
         let count = self.joints.len();
         let own = |states: &[usize]| states.iter().map(|of| Layout::state(*of)).collect();
         match state {
+            // A hub that is fixed is at rest.
+            0..=2 | 6..=9 if self.hub == HubMode::Fixed => (Vec::new(), false),
             // Velocity.
             0..=2 => (own(&[state + 3]), false),
             3..=5 if self.hub == HubMode::Fixed => (Vec::new(), false),
@@ -93,6 +95,11 @@ impl Couplings {
             _ => {
                 let joint = state - HUB_STATES;
                 if joint < count {
+                    let is_locked =
+                        self.joints.get(joint).is_some_and(|(of, _)| *of == Given::Locked);
+                    if is_locked {
+                        return (Vec::new(), false);
+                    }
                     return (own(&[state + count]), false);
                 }
                 match self.joints.get(joint - count) {

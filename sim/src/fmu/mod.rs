@@ -13,6 +13,7 @@
 //! Invariants: names of variables are unique, at most 55 characters of `[A-Za-z0-9_]`; the same scenario gives the same
 //! bytes; every number is finite.
 
+#[cfg(feature = "tool")]
 mod archive;
 mod dependencies;
 mod error;
@@ -26,10 +27,13 @@ mod units;
 mod variables;
 mod xml;
 
+use std::fmt::Write as _;
+
 use precess_description::Description;
 use precess_dynamics::HubMode;
 use sha2::{Digest as _, Sha256};
 
+#[cfg(feature = "tool")]
 pub use archive::{archive, compiler_arguments, platform};
 pub use error::FmuError;
 
@@ -145,7 +149,11 @@ impl Fmu {
 
 /// A digest as an identifier.
 fn guid(digest: &[u8]) -> String {
-    let hexadecimal: String = digest.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+    let mut hexadecimal = String::new();
+    for byte in digest.iter().take(16) {
+        // Writing into a text does not fail.
+        let _ = write!(hexadecimal, "{byte:02x}");
+    }
     let (a, b) = hexadecimal.split_at(8);
     let (b, c) = b.split_at(4);
     let (c, d) = c.split_at(4);

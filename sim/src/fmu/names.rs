@@ -22,6 +22,16 @@ impl Names {
         self.first(of_number)
     }
 
+    /// The name of a state's derivative, without the first letters of the state's where that is too long.
+    pub(super) fn of_derivative(&mut self, state: &str) -> String {
+        self.first(|number| {
+            let number = if number == 1 { String::new() } else { format!("_{number}") };
+            let begins = format!("der{number}_");
+            let excess = (begins.len() + state.len()).saturating_sub(LONGEST);
+            begins + state.get(excess..).unwrap_or_default()
+        })
+    }
+
     /// A name of the hub or of the whole spacecraft.
     pub(super) fn of_hub(&mut self, what: &str) -> String {
         self.first(|number| if number == 1 { what.to_owned() } else { format!("{what}_{number}") })
@@ -65,6 +75,10 @@ mod tests {
             names.of_device("a_b", "c"),
             names.of_hub("a_b_c"),
         ];
+        let state = found[0].clone();
+        let derivatives = [names.of_derivative(&state), names.of_derivative(&state)];
+        assert!(derivatives.iter().all(|name| name.len() == LONGEST), "{derivatives:?}");
+        assert_ne!(derivatives[0], derivatives[1]);
         assert_eq!(found[0].len(), LONGEST);
         assert_eq!(found[1].len(), LONGEST);
         assert_eq!(found[2..], ["a_b_c", "a_b_2_c", "a_b_c_2"].map(str::to_owned));

@@ -7,7 +7,7 @@ use precess_dynamics::{BuiltIn, DeviceParameters, Gravity, Passive};
 use super::layout::{GRAVITY, HUB, Layout, MOUNTS, PER_MOUNT};
 use super::names::Names;
 use super::variables::{AXES, Role, Variable, gravity};
-use crate::scenario::{Scenario, body_key};
+use crate::scenario::{Drive, Scenario, body_key};
 
 /// Entries of an inertia in the order of the solver: rows, columns, names.
 const ENTRIES: [(usize, usize, &str); 6] =
@@ -62,7 +62,10 @@ pub(super) fn parameters(
     for (device, member) in scenario.members() {
         let Some(own) = member.device() else { continue };
         for (body, info) in member.joints().iter().enumerate() {
-            of_body(own, (device, body, info), layout.body(joint), names, &mut list);
+            // A spring acts on a joint that moves by its motor torque only.
+            let moves =
+                info.driven && matches!(scenario.drives.get(joint), Some(Drive::Torque { .. }));
+            of_body((&own, moves), (device, body, info), layout.body(joint), names, &mut list);
             joint += 1;
         }
     }
@@ -107,9 +110,9 @@ fn of_hub(scenario: &Scenario, layout: &Layout, names: &mut Names, list: &mut Li
     }
 }
 
-/// The parameters of a body and its joint; not those that the kind has zero.
+/// The parameters of a body, and of its joint where that moves; not those that the kind has zero.
 fn of_body(
-    device: BuiltIn,
+    (device, moves): (&BuiltIn, bool),
     (name, index, info): (&str, usize, &JointInfo),
     first: usize,
     names: &mut Names,
@@ -132,6 +135,9 @@ fn of_body(
         list.push((variable, first + place), Role::Tunable, unit, value, meaning);
     }
     for (place, (what, units, value, meaning)) in of_passive(passive).into_iter().enumerate() {
+        if !moves {
+            break;
+        }
         let variable = names.of_device(name, &format!("{key}_{what}"));
         let unit = units[usize::from(info.slides)];
         let meaning = format!("{name}: {meaning} of the joint of the {}", info.body);
@@ -187,7 +193,7 @@ fn rigid_name(place: usize) -> (String, &'static str, String) {
 
 /// Whether a kind has a parameter where a device has zero.
 fn is_parameter(
-    device: BuiltIn,
+    device: &BuiltIn,
     parameters: &DeviceParameters,
     index: usize,
     place: usize,

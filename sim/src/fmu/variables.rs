@@ -72,7 +72,7 @@ pub(super) fn variables(
     let derivatives = states.iter().enumerate().map(|(index, state)| {
         let (depends, on_parameters) = couplings.of_derivative(index);
         Variable {
-            name: names.of_device("der", &state.name),
+            name: names.of_derivative(&state.name),
             place: layout.derivative(index),
             role: Role::Derivative { state: index, depends, on_parameters },
             unit: derivative_unit(state.unit),

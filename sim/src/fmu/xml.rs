@@ -159,8 +159,10 @@ fn units(text: &mut String, variables: &[Variable]) {
         if !variables.iter().any(|variable| variable.unit == unit.name) {
             continue;
         }
-        let base: String =
-            unit.base.iter().map(|(name, exponent)| format!(" {name}=\"{exponent}\"")).collect();
+        let mut base = String::new();
+        for (name, exponent) in unit.base {
+            let _ = write!(base, " {name}=\"{exponent}\"");
+        }
         let _ = write!(text, "    <Unit name=\"{}\">\n      <BaseUnit{base}/>\n", unit.name);
         for (name, factor) in unit.shown {
             let _ = writeln!(text, "      <DisplayUnit name=\"{name}\" factor=\"{factor:?}\"/>");

@@ -159,7 +159,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c)
     if (precess_fmu_is_stopped(&of->state.fmu)) {
         return precess_fmi2_refuse(of, IS_STOPPED);
     }
-    status = precess_fmi2_status(of, precess_fmu_evaluate(&of->state.fmu));
+    status = precess_fmi2_status(of, precess_fmu_check(&of->state.fmu));
     if (status == fmi2OK) {
         of->state.phase = of->type == fmi2ModelExchange ? PHASE_EVENT : PHASE_STEPPING;
     }

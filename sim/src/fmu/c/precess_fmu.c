@@ -108,11 +108,9 @@ static void add_cross(const double a[3], const double b[3], double to[3])
 
 static void add(const double from[3], double to[3])
 {
-    int k;
-
-    for (k = 0; k < 3; k++) {
-        to[k] = to[k] + from[k];
-    }
+    to[0] = to[0] + from[0];
+    to[1] = to[1] + from[1];
+    to[2] = to[2] + from[2];
 }
 
 /* Adds the wrenches, of which `from` has force and moment of each. */
@@ -176,9 +174,9 @@ static void inputs_of(
 
         inputs->joints[k].mode = joint->mode;
         if (joint->mode == PRECESS_DRIVEN) {
-            inputs->joints[k].torque = given > joint->limit ? joint->limit
-                : given < -joint->limit                     ? -joint->limit
-                                                            : given;
+            const double below = given > joint->limit ? joint->limit : given;
+
+            inputs->joints[k].torque = below < -joint->limit ? -joint->limit : below;
         } else {
             inputs->joints[k].acceleration = given;
         }
@@ -189,6 +187,39 @@ static void inputs_of(
     if (FMU_WRENCHES > 0) {
         add_wrenches(from + 6 + FMU_DRIVEN, state, inputs);
     }
+}
+
+/* Sets the rates to zero that are: of locked joints, and of a hub that is fixed. An integrator may vary them. */
+static void hold(struct FMU_SOLVER_STATE *state)
+{
+    const enum precess_hub_freedom freedom = FMU_HUB;
+    static const double ZERO[3] = { 0.0, 0.0, 0.0 };
+    int k;
+
+    if (freedom == PRECESS_HUB_FIXED) {
+        (void)copy(ZERO, 3, state->r_b_n_dot);
+        (void)copy(ZERO, 3, state->omega);
+    }
+    for (k = 0; k < FMU_JOINTS; k++) {
+        if (precess_fmu_joints[k].mode == PRECESS_LOCKED) {
+            state->rates[k] = 0.0;
+        }
+    }
+}
+
+enum precess_status precess_fmu_check(struct precess_fmu *fmu)
+{
+    struct FMU_SOLVER_STATE state;
+    struct FMU_SOLVER_INPUTS inputs;
+    struct FMU_SOLVER_ACCELERATIONS found;
+    const enum precess_status status = prepare(fmu);
+
+    if (status != PRECESS_OK) {
+        return status;
+    }
+    state_of(fmu, &state);
+    inputs_of(fmu, &state, &inputs);
+    return FMU_SOLVER_EVALUATE(&fmu->spacecraft, &state, &inputs, &found);
 }
 
 enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
@@ -204,6 +235,7 @@ enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
         return status;
     }
     state_of(fmu, &state);
+    hold(&state);
     inputs_of(fmu, &state, &inputs);
     status = FMU_SOLVER_EVALUATE(&fmu->spacecraft, &state, &inputs, &found);
     if (status != PRECESS_OK) {
@@ -278,8 +310,7 @@ enum precess_status precess_fmu_advance(
     struct FMU_SOLVER_INPUTS inputs;
     enum precess_status status = prepare(fmu);
     double length;
-    long count;
-    long k;
+    long count, k;
 
     *is_stopped = 0;
     if (status != PRECESS_OK) {

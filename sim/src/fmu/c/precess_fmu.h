@@ -75,7 +75,10 @@ struct precess_fmu {
 /** Sets every value to that of the scenario. */
 void precess_fmu_reset(struct precess_fmu *fmu);
 
-/** Derivatives of the states. */
+/** Whether the solver takes parameters, states and inputs: a locked joint, and a hub that is fixed, have to be at rest. */
+enum precess_status precess_fmu_check(struct precess_fmu *fmu);
+
+/** Derivatives of the states. What is locked or fixed is at rest, whatever its rates are. */
 enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu);
 
 /** Steps over `duration` seconds from `start`: each as long as the parameter `step` where that divides the duration but for

@@ -1,0 +1,152 @@
+//! The C of a unit: without a warning, with the bits of a run, and with a status for every call out of order.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use precess::engine;
+use precess::fmu::compiler_arguments;
+use precess::record::Samples;
+
+use super::{UNIT, files, scenario};
+
+const FLAGS: [&str; 8] = [
+    "-std=c99",
+    "-O2",
+    "-ffp-contract=off",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Werror",
+];
+/// Steps of 1 ms that `driver.c` and the run take.
+const STEPS: usize = 100;
+
+/// The compilers that this machine has; one that is missing is named, or refused.
+fn compilers() -> Vec<&'static str> {
+    let is_there = |name: &&str| {
+        let asked = Command::new(name).arg("--version").output();
+        let is_there = asked.is_ok_and(|output| output.status.success());
+        if !is_there {
+            let skipped =
+                format!("skipped: {name} (install with: apt-get install {name} libc6-dev)");
+            let required =
+                std::env::var_os("PRECESS_REQUIRE_ALL").is_some_and(|value| value == "1");
+            assert!(!required, "{skipped}");
+            eprintln!("{skipped}");
+        }
+        is_there
+    };
+    ["gcc", "clang"].into_iter().filter(is_there).collect()
+}
+
+/// A folder with the sources of the unit and the driver, and the names of what is compiled.
+fn sources(name: &str) -> (PathBuf, Vec<String>) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let (_, files) = files(&scenario(UNIT));
+    let mut compiled = Vec::new();
+    for (path, text) in &files {
+        let Some(name) = path.strip_prefix("sources/") else { continue };
+        fs::write(folder.join(name), text).expect("a source");
+        if Path::new(name).extension() == Some("c".as_ref()) {
+            compiled.push(name.to_owned());
+        }
+    }
+    (folder, compiled)
+}
+
+fn compile(compiler: &str, folder: &Path, arguments: &[&str], sources: &[String]) -> Output {
+    let mut command = Command::new(compiler);
+    command.current_dir(folder).args(arguments).args(sources);
+    command.args(["-lm"]).output().expect("the compiler starts")
+}
+
+/// The states at the end of a run, in the order of the unit.
+fn states() -> Vec<f64> {
+    let mut samples = Samples::default();
+    let goes_on = &mut |_| std::ops::ControlFlow::Continue(());
+    engine::run(&scenario(UNIT), &mut samples, goes_on).expect("a run");
+    let vector = |name: &str| ["x", "y", "z"].map(|axis| format!("{name}_{axis}"));
+    let mut names = [vector("position"), vector("velocity")].concat();
+    names.extend(["q0", "q1", "q2", "q3"].map(str::to_owned));
+    names.extend(vector("omega"));
+    names.extend(["rw.theta", "panel.phi", "rw.spin", "panel.phi_dot"].map(str::to_owned));
+    let last = |name: &String| samples.column(name).expect(name).last().copied();
+    names.iter().map(|name| last(name).expect("a sample")).collect()
+}
+
+#[test]
+fn co_simulation_has_the_bits_of_a_run_and_calls_out_of_order_are_errors() {
+    let expected = states();
+    for compiler in compilers() {
+        let sanitisers: [&[&str]; 2] = [
+            &[],
+            if compiler == "gcc" {
+                &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+            } else {
+                &["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
+            },
+        ];
+        for (number, more) in sanitisers.into_iter().enumerate() {
+            let (folder, mut sources) = sources(&format!("{compiler}_{number}"));
+            fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a source");
+            sources.push("driver.c".to_owned());
+            let arguments = [&FLAGS, more, &["-o", "driver"]].concat();
+            let done = compile(compiler, &folder, &arguments, &sources);
+            assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+            let done = Command::new(folder.join("driver"))
+                .arg(STEPS.to_string())
+                .output()
+                .expect("the driver starts");
+            let errors = String::from_utf8_lossy(&done.stderr);
+            assert!(done.status.success(), "{compiler}, {more:?}: {} {errors}", done.status);
+            let (numbers, rest) = done.stdout.as_chunks();
+            assert!(rest.is_empty());
+            let found: Vec<_> = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect();
+            let bits = |numbers: &[f64]| numbers.iter().map(|of| of.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&found), bits(&expected), "{compiler}: {found:?} and {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn arithmetic_by_other_rules_is_refused() {
+    for compiler in compilers() {
+        let (folder, _) = sources(&format!("fast_{compiler}"));
+        let core = ["precess_fmu.c".to_owned()];
+        let done = compile(compiler, &folder, &["-std=c99", "-ffast-math", "-c"], &core);
+        let errors = String::from_utf8_lossy(&done.stderr);
+        assert!(!done.status.success() && errors.contains("-ffast-math"), "{compiler}: {errors}");
+    }
+}
+
+/// The functions that the headers of the standard declare.
+fn declared() -> Vec<String> {
+    let header = include_str!("../../src/fmu/c/fmi2Functions.h");
+    let names = header.lines().filter_map(|line| line.trim().strip_prefix("FMI2_Export"));
+    let names = names.filter_map(|line| line.trim().strip_suffix(';')?.split_whitespace().last());
+    names.map(str::to_owned).collect()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn every_function_of_the_standard_is_exported_and_no_other_symbol() {
+    let expected: std::collections::BTreeSet<_> = declared().into_iter().collect();
+    assert_eq!(expected.len(), 44, "{expected:?}");
+    for compiler in compilers() {
+        let (folder, sources) = sources(&format!("exported_{compiler}"));
+        let arguments = [compiler_arguments(), &["-o", "unit.so"]].concat();
+        let done = compile(compiler, &folder, &arguments, &sources);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let listed =
+            Command::new("nm").args(["-D", "--defined-only"]).arg(folder.join("unit.so")).output();
+        let listed = String::from_utf8(listed.expect("nm, of binutils").stdout).expect("a text");
+        let found = listed.lines().filter_map(|line| line.split_whitespace().nth(2));
+        let hidden = ["_init", "_fini", "_edata", "_end", "__bss_start"];
+        let found = found.filter(|name| !hidden.contains(name)).map(str::to_owned);
+        assert_eq!(found.collect::<std::collections::BTreeSet<_>>(), expected, "{compiler}");
+    }
+}

@@ -1,0 +1,356 @@
+"""Functional mock-up units of `precess export fmu` in FMPy, against `precess run`; stores nothing.
+
+    python units.py --check   exports, validates, compiles, simulates and compares
+
+Of each scenario, with fixed steps: FMPy validates the unit without a finding and compiles it without a warning; outputs of
+Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them; Model Exchange by
+CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and on nothing
+else; a restored state, and one of bytes, repeats what followed it.
+
+Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
+requirements.txt.
+"""
+
+import argparse
+import csv
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MISSING = 77
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCENARIOS = ROOT / "scenarios"
+# CVode, and by how much it may differ from Co-Simulation, of the larger of one and the output's largest magnitude.
+TOLERANCE = 1e-10
+AGREEMENT = 1e-7
+
+try:
+    import fmpy
+    import numpy as np
+    from fmpy.build import build_platform_binary
+    from fmpy.fmi2 import FMU2Model, FMU2Slave
+    from fmpy.validation import validate_fmu
+except ModuleNotFoundError as error:
+    if error.name not in ("fmpy", "numpy"):
+        raise
+    print(error, file=sys.stderr)
+    sys.exit(MISSING)
+
+HUB = """format = 1
+title = "<unit> & \\"quotes\\""
+[hub]
+mass = "90 kg"
+centre_of_mass = "1, -2, 3 cm"
+inertia = "20, 21, 22 kg m^2"
+[initial]
+angular_velocity = "1, -2, 3 deg/s"
+attitude = { euler = "5, 6, 7 deg", sequence = "ZYX", direction = "N to B" }
+[run]
+duration = "1 s"
+[output]
+rate = "1 kHz"
+"""
+GYRO = """[[device]]
+name = "gyro"
+kind = "dgvscmg"
+position = "30, 10, 0 cm"
+imbalance = { static = "5 g cm", dynamic = "50 g cm^2" }
+outer_gimbal = { mass = "3 kg", inertia = "0.05, 0.04, 0.05 kg m^2", OUTER }
+inner_gimbal = { mass = "2 kg", inertia = "0.02, 0.03, 0.02 kg m^2", angle = "10 deg", INNER }
+wheel = { mass = "4 kg", inertia = "0.02, 0.011, 0.011 kg m^2", rate = "1000 rpm", WHEEL }
+"""
+# A locked joint, one of given acceleration, a torque beyond its limit; on a hub that is fixed, in a uniform field.
+FIXED = (
+    HUB.replace("[initial]", "mode = \"fixed\"\n[initial]").replace('angular_velocity = "1, -2, 3 deg/s"\n', "")
+    + '[gravity]\nuniform = "1, -2, -9 m/s^2"\n'
+    + GYRO.replace("OUTER", "locked = true")
+    .replace("INNER", 'acceleration = "0.1 rad/s^2"')
+    .replace("WHEEL", 'torque = "3 N m", torque_limit = "1 N m"')
+)
+# Springs, and wrenches: on a body, and on the hub along the axes of N.
+PUSHED = (
+    HUB
+    + GYRO.replace("OUTER", 'stiffness = "3 N m/rad", damping = "0.1 N m s/rad"')
+    .replace("INNER", 'damping = "0.2 N m s/rad"')
+    .replace("WHEEL", 'torque = "0.1 N m"')
+    + """[[wrench]]
+on = "hub"
+axes = "inertial"
+force = "1, 2, -3 N"
+point = "5, 0, 1 cm"
+[[wrench]]
+on = "gyro.inner_gimbal"
+force = "-2, 1, 1 N"
+moment = "0.1, 0, 0.2 N m"
+point = "1, 2, 3 cm"
+"""
+)
+
+
+def bus(time):
+    """What the scenario varies with time."""
+    torque = 0.0 if time < 2.0 else -0.15 if time < 5.0 else 0.15 if time < 8.0 else 0.0
+    return {"wheel_z_u_w": torque, "wrench_1_force_z": 1.0 if 0.5 <= time < 1.0 else 0.0}
+
+
+# Name, step in s, samples per second, duration in s; the text of a file that is written; inputs at a time.
+CASES = (
+    ("table1-printed-free", "1e-3", 500.0, 10.0, None, None),
+    ("table1-catalogue-200", "1e-3", 500.0, 2.0, None, None),
+    ("bus-three-wheels", "1e-3", 500.0, 12.0, None, bus),
+    ("orbit-gravity-gradient", "1", 0.1, 11580.0, None, None),
+    ("every-kind", "1e-3", 500.0, 1.0, None, None),
+    ("fixed", "1e-3", 1000.0, 1.0, FIXED, None),
+    ("pushed", "1e-3", 1000.0, 1.0, PUSHED, None),
+)
+
+
+def programs():
+    """The folder of `precess` and `precess-bake`, which are built."""
+    cargo = os.environ.get("CARGO", "cargo")
+    build = [cargo, "build", "--quiet", "-p", "precess", "-p", "precess-bake", "--bins"]
+    subprocess.run(build, cwd=ROOT, check=True)
+    target = os.environ.get("CARGO_TARGET_DIR", ROOT / "target")
+    return Path(target) / "debug"
+
+
+def ran(program, *arguments):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode not in (0, 2, 3):
+        sys.exit(done.stderr)
+
+
+class Unit:
+    """A unit that is exported, validated, unpacked and compiled."""
+
+    def __init__(self, folder, programs, file, step):
+        self.archive = folder / f"{file.stem}.fmu"
+        ran(programs / "precess", "export", "fmu", file, "--step", f"{step} s", "--to", self.archive)
+        if findings := validate_fmu(str(self.archive)):
+            sys.exit(f"{file.stem}: {findings}")
+        self.folder = folder / file.stem
+        fmpy.extract(str(self.archive), unzipdir=str(self.folder))
+        build_platform_binary(self.folder, all_warnings=True, cmake_options={"CMAKE_C_FLAGS:STRING": "-Werror"})
+        self.description = fmpy.read_model_description(str(self.folder))
+        self.variables = self.description.modelVariables
+        self.place = {variable.name: variable.valueReference for variable in self.variables}
+        self.outputs = [v.name for v in self.variables if v.causality == "output"]
+
+    def instance(self, kind=FMU2Slave, name="unit"):
+        side = self.description.coSimulation
+        one = kind(
+            guid=self.description.guid,
+            unzipDirectory=str(self.folder),
+            modelIdentifier=side.modelIdentifier,
+            instanceName=name,
+        )
+        one.instantiate()
+        one.setupExperiment(startTime=0.0)
+        one.enterInitializationMode()
+        one.exitInitializationMode()
+        return one
+
+    def read(self, one):
+        return one.getReal([self.place[name] for name in self.outputs])
+
+
+def stepped(unit, one, inputs, step, start, count):
+    """Takes steps; the outputs before each, and after the last."""
+    rows = []
+    for index in range(start, start + count):
+        rows.append(unit.read(one))
+        time = index * step
+        if inputs:
+            given = inputs(time)
+            one.setReal([unit.place[name] for name in given], list(given.values()))
+        one.doStep(currentCommunicationPoint=time, communicationStepSize=step)
+    rows.append(unit.read(one))
+    return rows
+
+
+def recorded(folder, programs, file, step, duration, rate):
+    """Samples of `precess run` with the same steps, by the unit's names."""
+    out = folder / f"{file.stem}-results"
+    keys = {
+        "run.integrator": "rk4",
+        "run.step": f"{step} s",
+        "run.duration": f"{duration!r} s",
+        "output.rate": f"{rate!r} Hz",
+        "output.formats": '["csv"]',
+    }
+    settings = [part for key, value in keys.items() for part in ("--set", f"{key}={value}")]
+    ran(programs / "precess", "run", file, "--out", out, *settings)
+    with open(out / f"{file.stem}.csv", encoding="utf-8") as text:
+        head, *rows = csv.reader(line for line in text if not line.startswith("#"))
+    columns = {name.split(" ")[0].replace(".", "_"): index for index, name in enumerate(head)}
+    return columns, rows
+
+
+def co_simulation(unit, folder, programs, file, case):
+    """Bits of every sample; how many numbers."""
+    _, step, rate, duration, _, inputs = case
+    length = float(step)
+    one = unit.instance()
+    rows = stepped(unit, one, inputs, length, 0, round(duration / length))
+    one.terminate()
+    one.freeInstance()
+    columns, samples = recorded(folder, programs, file, step, duration, rate)
+    every = round(1.0 / (rate * length))
+    picked = rows[::every]
+    if len(picked) != len(samples):
+        sys.exit(f"{file.stem}: {len(samples)} samples against {len(picked)}")
+    for index, (mine, sample) in enumerate(zip(picked, samples, strict=True)):
+        for name, value in zip(unit.outputs, mine, strict=True):
+            stored = float(sample[columns[name]])
+            if value != stored:
+                sys.exit(f"{file.stem}, sample {index}, {name}: {value!r} against {stored!r}")
+    return len(picked) * len(unit.outputs)
+
+
+def model_exchange(unit, case):
+    """CVode against Co-Simulation with steps of a fourth, without inputs; the largest difference of the size."""
+    name, step, _, duration, _, inputs = case
+    if inputs or name == "every-kind":
+        duration = min(duration, 0.4)
+    stop = min(duration, 2.0) if float(step) < 1.0 else 100.0
+    arguments = {"stop_time": stop, "output_interval": stop / 20.0, "output": unit.outputs}
+    short = {"step": float(step) / 4.0}
+    by_step = fmpy.simulate_fmu(
+        str(unit.folder), fmi_type="CoSimulation", start_values=short, step_size=stop / 20.0, **arguments
+    )
+    by_cvode = fmpy.simulate_fmu(
+        str(unit.folder), fmi_type="ModelExchange", relative_tolerance=TOLERANCE, **arguments
+    )
+    worst = 0.0
+    for output in unit.outputs:
+        size = max(1.0, np.abs(by_step[output]).max())
+        worst = max(worst, np.abs(by_step[output] - by_cvode[output]).max() / size)
+    if not worst <= AGREEMENT:
+        sys.exit(f"{name}: Model Exchange differs by {worst:e}, above {AGREEMENT:g}")
+    return worst
+
+
+def dependencies(unit, chance):
+    """Every derivative changes with what is listed, and with nothing else; how many pairs."""
+    one = unit.instance(FMU2Model)
+    states = [v for v in unit.variables if v.causality == "output"]
+    derivatives = [v for v in unit.variables if v.derivative is not None]
+    # Springs and offsets wherever they may be: in a scenario that has none of them less depends on less.
+    tuned = [v for v in unit.variables if v.variability == "tunable"]
+    springs = [v for v in tuned if v.name.endswith(("_stiffness", "_rest", "_damping"))]
+    offsets = [v for v in tuned if "_origin_" in v.name or "_centre_of_mass_" in v.name]
+    one.setReal([v.valueReference for v in springs], [chance.uniform(1.0, 2.0) for _ in springs])
+    one.setReal([v.valueReference for v in offsets], [chance.uniform(0.01, 0.03) for _ in offsets])
+    listed = {d.name: {} for d in derivatives}
+    initial = {d.name: {} for d in derivatives}
+    for found, unknowns in (
+        (listed, unit.description.derivatives),
+        (initial, unit.description.initialUnknowns),
+    ):
+        for unknown in unknowns:
+            found[unknown.variable.name] = {known.name for known in unknown.dependencies}
+    one.newDiscreteStates()
+    one.enterContinuousTimeMode()
+    x = np.array([float(state.start) for state in states])
+    for index, state in enumerate(states):
+        x[index] += chance.uniform(-0.1, 0.1) * float(state.nominal or 1.0)
+    inputs = [v for v in unit.variables if v.causality == "input"]
+    one.setReal([v.valueReference for v in inputs], [chance.uniform(0.01, 0.05) for _ in inputs])
+
+    def rates():
+        return one.getReal([d.valueReference for d in derivatives])
+
+    def differs(known, changed, lists):
+        for derivative, was, now in zip(derivatives, base, changed, strict=True):
+            depends = known.name in lists[derivative.name]
+            # A wheel on bearings that move in all six ways acts on the rest by springs: its mass may be in no other equation.
+            if depends and was == now and known.name.startswith("soft_"):
+                continue
+            if depends != (was != now):
+                sys.exit(f"{derivative.name} and {known.name}: listed {depends}, {was!r} and {now!r}")
+
+    one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*x), len(x))
+    base = rates()
+    pairs = 0
+    for index, state in enumerate(states):
+        y = x.copy()
+        y[index] += 0.01 * float(state.nominal or 1.0)
+        one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*y), len(x))
+        differs(state, rates(), listed)
+        pairs += len(derivatives)
+    one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*x), len(x))
+    for known in inputs:
+        was = one.getReal([known.valueReference])
+        one.setReal([known.valueReference], [was[0] + 0.05])
+        differs(known, rates(), listed)
+        pairs += len(derivatives)
+        one.setReal([known.valueReference], was)
+    one.enterEventMode()
+    for known in tuned:
+        if not known.name.endswith(("_mass", "_stiffness", "gravity_mu")):
+            continue
+        was = one.getReal([known.valueReference])
+        one.setReal([known.valueReference], [was[0] * 1.01 + 1e-3])
+        differs(known, rates(), initial)
+        pairs += len(derivatives)
+        one.setReal([known.valueReference], was)
+    one.terminate()
+    one.freeInstance()
+    return pairs
+
+
+def restored(unit, case):
+    """A state that is set again, and one of bytes, are followed by the same."""
+    step = float(case[1])
+    one, other = unit.instance(), unit.instance(name="other")
+    stepped(unit, one, None, step, 0, 20)
+    state = one.getFMUstate()
+    stored = one.serializeFMUstate(state)
+    first = stepped(unit, one, None, step, 20, 20)
+    one.setFMUstate(state)
+    second = stepped(unit, one, None, step, 20, 20)
+    of_bytes = other.deSerializeFMUstate(stored)
+    other.setFMUstate(of_bytes)
+    third = stepped(unit, other, None, step, 20, 20)
+    if not first == second == third:
+        sys.exit(f"{case[0]}: a restored state is followed by something else")
+    one.freeFMUstate(state)
+    other.freeFMUstate(of_bytes)
+    one.freeInstance()
+    other.freeInstance()
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--check", action="store_true", help="as without it: nothing is stored")
+    arguments.parse_args()
+    if not shutil.which("cmake"):
+        os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
+    built = Path(os.environ["PRECESS_BUILT"]) if "PRECESS_BUILT" in os.environ else programs()
+    chance = random.Random(40)
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        for case in CASES:
+            name, text = case[0], case[4]
+            file = SCENARIOS / f"{name}.toml"
+            if text:
+                file = folder / f"{name}.toml"
+                file.write_text(text, encoding="utf-8")
+            unit = Unit(folder, built, file, case[1])
+            size = unit.archive.stat().st_size
+            count = co_simulation(unit, folder, built, file, case)
+            worst = model_exchange(unit, case)
+            pairs = dependencies(unit, chance)
+            restored(unit, case)
+            print(
+                f"fmpy {fmpy.__version__}, {name}: {size // 1000} kB, valid; {count} numbers of Co-Simulation have the bits"
+                f" of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed"
+            )
+
+
+if __name__ == "__main__":
+    main()
