@@ -16,6 +16,8 @@ use xtask::skip::skip;
 /// loops; the package `mcap`, of a recording; Basilisk, of the effector of
 /// `flight/basilisk`.
 const SCRIPTS: [&str; 14] = [
+/// loops; `FMPy`, of functional mock-up units.
+const SCRIPTS: [&str; 13] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",
@@ -30,6 +32,7 @@ const SCRIPTS: [&str; 14] = [
     "tests/engines/mrp_feedback.py",
     "tests/engines/recording.py",
     "tests/engines/effector.py",
+    "tests/engines/units.py",
 ];
 
 /// What draws more spacecraft.

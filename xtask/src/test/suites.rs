@@ -269,6 +269,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess", "corpus", &[SOLVER, DESKTOP, &["sim/tests/corpus.rs", "sim/fuzz"]]),
     always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
     always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
+    always("precess", "fmu", &[GENERATOR, BAKING, SOLVER, DESKTOP, &["sim/tests/fmu"]]),
     always(
         "precess",
         "jitter",

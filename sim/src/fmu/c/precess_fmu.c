@@ -259,13 +259,12 @@ static long steps_of(double start, double duration, double step, double *length)
     const double rest = precess_magnitude(duration - (double)nearest * step);
     /* The duration is a difference of two times, each of which is rounded. */
     const double rounding = 8.0 * DBL_EPSILON * (precess_magnitude(start) + duration);
-    long count = (long)ratio;
+    const long count = (long)ratio + 1;
 
     if (rest <= rounding) {
         *length = step;
         return nearest;
     }
-    count = count + 1;
     *length = duration / (double)count;
     return count;
 }
@@ -309,8 +308,8 @@ enum precess_status precess_fmu_advance(
     struct FMU_SOLVER_STATE state;
     struct FMU_SOLVER_INPUTS inputs;
     enum precess_status status = prepare(fmu);
-    double length;
     long count, k;
+    double length;
 
     *is_stopped = 0;
     if (status != PRECESS_OK) {
@@ -375,8 +374,7 @@ enum precess_status precess_fmu_wrap(struct precess_fmu *fmu)
 const char *precess_fmu_message(enum precess_status status)
 {
     switch (status) {
-    case PRECESS_OK:
-        return "well";
+    case PRECESS_OK: return "well";
     case PRECESS_BAD_PARAMETER:
         return "a parameter of hub or device is none that its kind can have; check masses, inertias and mounts";
     case PRECESS_BAD_INPUT:

@@ -214,6 +214,11 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         of("completions", &[], &["bash"]),
         of("manual", &[], &["--out", "out"]),
         of("export table", scenario, &["wheel.toml", "--to", "out/wheel.table"]),
+        of(
+            "export fmu",
+            scenario,
+            &["wheel.toml", "--step", "1 ms", "--set", "title=A wheel", "--to", "out/wheel.fmu"],
+        ),
     ];
     let listed: BTreeSet<_> = cases.iter().map(|case| case.name.clone()).collect();
     assert_eq!(listed, names(), "each command has a case");
@@ -239,8 +244,10 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     cases
 }
 
-/// The cases that write, but `bake`: another program derives and writes its files.
+/// The cases that write, but `bake` and `export fmu`: another program derives their files.
 pub(super) fn writing(folder_name: &str) -> Vec<Case> {
     let cases = cases(folder_name).into_iter();
-    cases.filter(|case| case.out.is_some() && case.name != "bake").collect()
+    cases
+        .filter(|case| case.out.is_some() && !["bake", "export fmu"].contains(&case.name.as_str()))
+        .collect()
 }
