@@ -79,6 +79,11 @@ impl Layout {
         self.input(HUB_INPUTS + self.driven() + 6 * self.wrenches + index)
     }
 
+    /// The places of the hub's parameters.
+    pub(super) fn hub(&self) -> std::ops::Range<usize> {
+        self.parameter(HUB)..self.parameter(MOUNTS)
+    }
+
     /// The place of the first parameter of a body, by its joint.
     pub(super) fn body(&self, joint: usize) -> usize {
         self.parameter(MOUNTS + PER_MOUNT * self.devices + PER_BODY * joint)

@@ -79,7 +79,7 @@ impl Fmu {
             name: identifier(&scenario.name),
             spacecraft,
             notes: notes(scenario),
-            description: xml::Header::new(scenario, step),
+            description: xml::Header::new(scenario, &layout, step),
             constants: model::Constants::new(scenario, &layout),
             layout,
             variables,

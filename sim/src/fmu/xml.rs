@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::ops::Range;
+
+use precess_dynamics::HubMode;
 
 use super::layout::Layout;
 use super::units::UNITS;
@@ -17,10 +20,12 @@ pub(super) struct Header {
     step: f64,
     tolerance: Option<f64>,
     nominals: Vec<f64>,
+    /// Places of the hub's parameters where its motion is given and they are in no equation.
+    idle: Range<usize>,
 }
 
 impl Header {
-    pub(super) fn new(scenario: &Scenario, step: f64) -> Self {
+    pub(super) fn new(scenario: &Scenario, layout: &Layout, step: f64) -> Self {
         let texts = [&scenario.title, &scenario.description];
         let texts: Vec<_> =
             texts.iter().map(|text| text.trim()).filter(|text| !text.is_empty()).collect();
@@ -35,6 +40,7 @@ impl Header {
             step,
             tolerance,
             nominals: nominals(scenario),
+            idle: if scenario.hub_mode == HubMode::Free { 0..0 } else { layout.hub() },
         }
     }
 
@@ -108,7 +114,7 @@ impl Header {
             self.variable(text, variable);
         }
         text.push_str("  </ModelVariables>\n");
-        structure(text, variables);
+        structure(text, variables, &self.idle);
         text.push_str("</fmiModelDescription>\n");
     }
 
@@ -173,7 +179,7 @@ fn units(text: &mut String, variables: &[Variable]) {
 }
 
 /// Outputs, derivatives, and what is computed in initialisation, each with what it depends on.
-fn structure(text: &mut String, variables: &[Variable]) {
+fn structure(text: &mut String, variables: &[Variable], idle: &Range<usize>) {
     let numbers: BTreeMap<usize, usize> =
         variables.iter().zip(1..).map(|(variable, number)| (variable.place, number)).collect();
     let listed = |places: &mut dyn Iterator<Item = usize>| {
@@ -184,7 +190,7 @@ fn structure(text: &mut String, variables: &[Variable]) {
         matches!(of.role, Role::Tunable) || (of.role == Role::Fixed && of.name != "step")
     };
     let all = variables.iter().filter(is_parameter).map(|of| of.place);
-    let parameters: Vec<usize> = all.collect();
+    let parameters: Vec<usize> = all.filter(|place| !idle.contains(place)).collect();
     let (mut outputs, mut derivatives, mut initial) = (String::new(), String::new(), String::new());
     for (variable, number) in variables.iter().zip(1..) {
         match &variable.role {
