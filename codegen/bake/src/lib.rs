@@ -39,7 +39,7 @@ pub use precess_description::Description;
 pub use error::BakeError;
 pub use options::{Language, Options};
 pub use shape::{HUB_OPERATIONS, Operations, SUM_OPERATIONS};
-pub use solver::solver;
+pub use solver::{batch, solver};
 
 /// What is emitted of a spacecraft.
 pub struct Baked {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use precess_bake::{Baked, Language, bake, solver};
+use precess_bake::{Baked, Language, bake, batch, solver};
 use precess_codegen::emit::EmittedFile;
 use precess_description::Description;
 
@@ -37,6 +37,9 @@ struct Options {
     /// Assume nothing: the solver of every spacecraft with these kinds, as C99
     #[arg(long, conflicts_with = "constants")]
     general: bool,
+    /// Write kernels for batches of states, too: CUDA, and C99
+    #[arg(long, requires = "general")]
+    batch: bool,
     /// Replace a folder that is there
     #[arg(long)]
     force: bool,
@@ -73,7 +76,10 @@ fn execute(options: &Options) -> Result<String, String> {
             let remedy = "in Rust, the crate `precess-dynamics` is the general solver";
             return Err(format!("--general writes C; {remedy}"));
         }
-        let files = solver(&description).map_err(|error| error.to_string())?;
+        let mut files = solver(&description).map_err(|error| error.to_string())?;
+        if options.batch {
+            files.extend(batch(&description).map_err(|error| error.to_string())?);
+        }
         put(&files, options)?;
         let (out, count) = (options.out.display(), files.len());
         return Ok(format!("{out}: {count} files, for every spacecraft with these kinds\n"));

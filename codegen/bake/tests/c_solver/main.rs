@@ -2,6 +2,7 @@
 //!
 //! The C is compiled by each compiler at hand with the warnings of its page as errors, once with sanitisers.
 
+mod batch;
 #[allow(dead_code, reason = "shared with the suite of the kernels")]
 #[path = "../../../tests/c_kernels/build.rs"]
 mod build;

@@ -50,6 +50,15 @@ const SOLVER: [(&str, &str); 15] = [
     ("precess_wrap.c", include_str!("by_hand/precess_wrap.c")),
 ];
 
+/// Hand-written C of batches, and headers in place of those of the system, which NVRTC has not.
+const BATCH: [(&str, &str); 5] = [
+    ("precess_batch.h", include_str!("by_hand/precess_batch.h")),
+    ("nvrtc/float.h", include_str!("by_hand/nvrtc/float.h")),
+    ("nvrtc/stddef.h", include_str!("by_hand/nvrtc/stddef.h")),
+    ("nvrtc/stdint.h", include_str!("by_hand/nvrtc/stdint.h")),
+    ("nvrtc/string.h", include_str!("by_hand/nvrtc/string.h")),
+];
+
 /// The kernels of every kind, the records that they share, and the hub's equations.
 ///
 /// # Errors
@@ -85,8 +94,21 @@ pub fn shared() -> Result<Vec<EmittedFile>, EmitError> {
 /// The rest of the solver, apart from what depends on kinds: joints, gravity, attitude, devices.
 #[must_use]
 pub fn solver() -> Vec<EmittedFile> {
-    let file = |(path, text): (&str, &str)| EmittedFile { path: path.into(), text: text.into() };
-    SOLVER.map(file).into()
+    as_written(&SOLVER)
+}
+
+/// What batches add to the solver, apart from what depends on kinds.
+#[must_use]
+pub fn batch() -> Vec<EmittedFile> {
+    as_written(&BATCH)
+}
+
+fn as_written(files: &[(&str, &str)]) -> Vec<EmittedFile> {
+    let file = |(path, text): &(&str, &str)| EmittedFile {
+        path: (*path).to_owned(),
+        text: (*text).to_owned(),
+    };
+    files.iter().map(file).collect()
 }
 
 /// Header and source of one kind.
