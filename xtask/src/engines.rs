@@ -17,6 +17,7 @@ use xtask::skip::skip;
 /// `flight/basilisk`.
 const SCRIPTS: [&str; 14] = [
 /// loops; `FMPy`, of functional mock-up units.
+/// loops; NVRTC and ptxas, of the registers and spills of batch kernels.
 const SCRIPTS: [&str; 13] = [
     "tests/engines/store.py",
     KINDS,
@@ -33,6 +34,7 @@ const SCRIPTS: [&str; 13] = [
     "tests/engines/recording.py",
     "tests/engines/effector.py",
     "tests/engines/units.py",
+    "tests/engines/gpu.py",
 ];
 
 /// What draws more spacecraft.

@@ -71,9 +71,15 @@ fn cases(names: &[&str], settings: Settings, own: bool, random: &mut Random) -> 
         match k {
             2 => case.omega[1] = f64::NAN,
             4 => {
-                let mut joints = kinds.iter().flat_map(|kind| kind.joints());
-                let turning = joints.position(|info| !info.slides).expect("a joint that turns");
-                case.joints[turning].coordinate = 2e7;
+                // A spring would be wound up by so many turns.
+                let springs = case.devices.iter().flat_map(|device| {
+                    let joints = device.kind().joints().iter();
+                    let passive = device.parameters().passive;
+                    joints.zip(passive).map(|(info, own)| !info.slides && own.stiffness == 0.0)
+                });
+                let turning: Vec<_> = springs.collect();
+                let free = turning.iter().position(|free| *free).expect("a joint that turns");
+                case.joints[free].coordinate = 2e7;
             }
             _ => {}
         }
