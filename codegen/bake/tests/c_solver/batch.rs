@@ -179,6 +179,7 @@ fn differing(program: &Path, cases: &Cases, launch: [usize; 2]) -> Option<String
     let column = |start: usize, width: usize, state: usize| -> Vec<f64> {
         (0..width).map(|k| found[STATES * (start + k) + state]).collect()
     };
+    let mut succeeded = 0;
     for (k, case) in cases.all.iter().enumerate() {
         let mut expected = expected(case);
         let statuses = [found[k], found[STATES + k]];
@@ -186,17 +187,21 @@ fn differing(program: &Path, cases: &Cases, launch: [usize; 2]) -> Option<String
             assert_eq!(expected.statuses, [0.0; 2], "the Rust takes that angle");
             (expected.statuses, expected.samples) = ([BAD_ANGLE; 2], Vec::new());
             expected.accelerations = vec![0.0; width];
-        } else if k != 2 && expected.statuses != [0.0; 2] {
-            return Some(format!("{:?}: state {k} is no case", case.settings));
+        } else if statuses[1] == BAD_ANGLE && expected.statuses[1] != 0.0 {
+            // A state that fails in the Rust, too, later in its step: its joint turns ever faster.
+            (expected.statuses[1], expected.samples) = (BAD_ANGLE, Vec::new());
         }
         if statuses != expected.statuses {
             return Some(format!("state {k}: statuses {statuses:?}, not {:?}", expected.statuses));
         }
         let mut pairs = vec![("accelerations", 2, expected.accelerations.clone())];
+        let from = |part: usize| 2 + width + part * size;
+        // Of a state that failed, the last one before.
+        if let Some(last) = expected.samples.last() {
+            pairs.push(("the last state", from(0), last.clone()));
+        }
         if statuses[1] == 0.0 {
-            let from = |part: usize| 2 + width + part * size;
-            let last = expected.samples[samples - 1].clone();
-            pairs.push(("the last state", from(0), last));
+            succeeded += 1;
             let names = ["minimum", "maximum", "mean", "rms"].into_iter().enumerate();
             let reduced = names.zip(reduced(&expected.samples));
             pairs.extend(reduced.map(|((n, name), own)| (name, from(1 + n), own)));
@@ -215,6 +220,8 @@ fn differing(program: &Path, cases: &Cases, launch: [usize; 2]) -> Option<String
             }
         }
     }
+    // Two cannot; in bearings a random load may turn a wheel over.
+    assert!(succeeded + 3 >= STATES, "{:?}: {succeeded} states", cases.shared.settings);
     None
 }
 
