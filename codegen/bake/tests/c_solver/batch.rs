@@ -164,8 +164,9 @@ fn reduced(samples: &[Vec<f64>]) -> [Vec<f64>; 4] {
         }
     }
     let samples = count(samples.len());
-    sum.iter_mut().for_each(|sum| *sum /= samples);
-    squares.iter_mut().for_each(|sum| *sum = (*sum / samples).sqrt());
+    for (sum, square) in sum.iter_mut().zip(&mut squares) {
+        (*sum, *square) = (*sum / samples, (*square / samples).sqrt());
+    }
     [least, most, sum, squares]
 }
 
