@@ -3,14 +3,16 @@
     python effector.py           runs all by cargo and in Basilisk; compares
     python effector.py --check   the same
 
-Nothing is stored. The effector has to be built: flight/basilisk/CMakeLists.txt has the commands.
+Nothing is stored. The C library and the effector are built first, in target/flight and target/basilisk: CMake, a C++
+compiler and Python's headers (python3-dev) are needed.
 
-Exit status: 0 if all is well, 1 if something disagrees, 77 if a package or the effector is missing: see
+Exit status: 0 if all is well, 1 if something disagrees, 77 if a package or a program is missing: see
 requirements.txt.
 """
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,7 +20,8 @@ from pathlib import Path
 
 MISSING = 77
 ROOT = Path(__file__).resolve().parent.parent.parent
-BUILT = ROOT / "flight" / "target" / "basilisk"
+BUILT = ROOT / "target" / "basilisk"
+LIBRARY = ROOT / "target" / "flight"
 # Of the largest value of each quantity over the run, against ours by RK4 at the same step.
 AS_OURS = 1e-10
 # The same, against Basilisk's own effector: rounding over a run.
@@ -27,6 +30,33 @@ AS_BASILISK = 1e-11
 CLOSED = 1e-10
 SCENARIOS = {"table1-printed-200": "10 s", "wheels-on-isolator": "10 s"}
 
+
+
+def build():
+    """The library as `cargo xtask capi` builds it, and the effector; nothing where a program or the kit is missing."""
+    try:
+        import bsk_sdk
+    except ModuleNotFoundError:
+        return
+    if shutil.which("cmake") is None:
+        print("cmake is missing", file=sys.stderr)
+        sys.exit(MISSING)
+    cargo = os.environ.get("CARGO", "cargo")
+    library = ["--manifest-path", "flight/Cargo.toml", "--target-dir", str(LIBRARY)]
+    configuration = [f"-DPython3_EXECUTABLE={sys.executable}", f"-Dbsk-sdk_DIR={bsk_sdk.cmake_config_dir()}"]
+    configuration.append(f"-DPRECESS_LIBRARY_FOLDER={LIBRARY / 'release'}")
+    for command in (
+        [cargo, "build", "--quiet", "--release", *library],
+        ["cmake", "-S", "flight/basilisk", "-B", str(BUILT), *configuration],
+        ["cmake", "--build", str(BUILT)],
+    ):
+        done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        if done.returncode != 0:
+            print(done.stdout, file=sys.stderr)
+            sys.exit(f"`{' '.join(command)}` failed")
+
+
+build()
 sys.path[:0] = [str(BUILT), str(ROOT / "flight" / "basilisk")]
 try:
     import effector_in_basilisk as basilisk

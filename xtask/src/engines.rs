@@ -13,12 +13,9 @@ use xtask::skip::skip;
 /// What evaluates the engines and compares: Pinocchio and `MuJoCo`, of the DGVSCMG and of every
 /// kind; Basilisk, of reaction wheels and of VSCMGs; Pinocchio, of isolated platforms; pyYeti, of structures; Basilisk's
 /// laws, of steering and of attitude, and its law and servo over a run; `SciPy`, of filters; python-control, of
-/// loops; the package `mcap`, of a recording; Basilisk, of the effector of
-/// `flight/basilisk`.
-const SCRIPTS: [&str; 14] = [
-/// loops; `FMPy`, of functional mock-up units.
-/// loops; NVRTC and ptxas, of the registers and spills of batch kernels.
-const SCRIPTS: [&str; 13] = [
+/// loops; the package `mcap`, of a recording; Basilisk, of the effector of `flight/basilisk`; `FMPy`, of functional
+/// mock-up units; NVRTC and ptxas, of the registers and spills of batch kernels.
+const SCRIPTS: [&str; 16] = [
     "tests/engines/store.py",
     KINDS,
     "tests/engines/wheels.py",

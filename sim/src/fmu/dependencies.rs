@@ -66,10 +66,9 @@ impl Couplings {
         let own = |states: &[usize]| states.iter().map(|of| Layout::state(*of)).collect();
         match state {
             // A hub that is fixed is at rest.
-            0..=2 | 6..=9 if self.hub == HubMode::Fixed => (Vec::new(), false),
+            0..=9 if self.hub == HubMode::Fixed => (Vec::new(), false),
             // Velocity.
             0..=2 => (own(&[state + 3]), false),
-            3..=5 if self.hub == HubMode::Fixed => (Vec::new(), false),
             3..=5 => {
                 let is_free = self.hub == HubMode::Free;
                 let mut all: Vec<usize> = ATTITUDE.map(Layout::state).collect();

@@ -104,7 +104,7 @@ impl ControlLoop {
 
     /// A load `exp(i w t)` on all coordinates through the loop; the servo knows that of an imbalance.
     fn line(&self, w: f64, load: &DVector<Complex<f64>>, known: bool) -> Result<ClosedLine, Fault> {
-        let load = ComplexMatrix::from_columns(&[load.clone()]);
+        let load = ComplexMatrix::from_columns(std::slice::from_ref(load));
         let forced = self.forced(&self.plant.at_frequency(w), (w, &load), known)?;
         let unbounded = || Fault::Unbounded { frequency: w };
         let sampled = self.at_samples(w).through(&forced).ok_or_else(unbounded)?;

@@ -97,39 +97,37 @@ fn null_motion(keys: &Keys<'_>, folder: &Path) -> Option<NullMotion> {
 /// Bands of speeds, of a file or in the key itself; those that meet are one, for the ends of others within a band are no way out of it.
 fn bands(keys: &Keys<'_>, folder: &Path) -> Option<Vec<[f64; 2]>> {
     let key = "keep_out";
-    let found: Vec<[f64; 2]> = match keys.node(key).map(|node| &node.value) {
-        Some(Value::Table(_)) => {
-            let own = keys.table(key)?;
-            let named = own.file("file", folder);
-            if !own.has("file") {
-                own.missing("file", "file = \"bus-jitter-keep-out.csv\"");
-            }
-            own.finish();
-            let (path, shown) = named?;
-            match columns(&path, &KEEP_OUT_COLUMNS.map(|name| (name, true))).as_deref() {
-                Ok([lower, upper]) => lower.iter().zip(upper).map(|(l, u)| [*l, *u]).collect(),
-                Ok(_) => Vec::new(),
-                Err(message) => {
-                    let help = "`precess jitter` writes one: BUDGET-keep-out.csv";
-                    own.error("file", format!("{shown}: {message}"), help);
-                    return None;
-                }
-            }
+    let of_file = matches!(keys.node(key), Some(node) if matches!(node.value, Value::Table(_)));
+    let found: Vec<[f64; 2]> = if of_file {
+        let own = keys.table(key)?;
+        let named = own.file("file", folder);
+        if !own.has("file") {
+            own.missing("file", "file = \"bus-jitter-keep-out.csv\"");
         }
-        _ => {
-            let listed = listed(keys, key, Measure::ANGULAR_RATE)?;
-            let pairs = listed.iter().filter_map(|of| <[f64; 2]>::try_from(of.as_slice()).ok());
-            let pairs: Vec<[f64; 2]> = pairs.collect();
-            if pairs.len() != listed.len() {
-                keys.error(
-                    key,
-                    "a band has a lower and an upper end",
-                    "write for example `keep_out = [\"1500, 1700 rpm\"]`",
-                );
+        own.finish();
+        let (path, shown) = named?;
+        match columns(&path, &KEEP_OUT_COLUMNS.map(|name| (name, true))).as_deref() {
+            Ok([lower, upper]) => lower.iter().zip(upper).map(|(l, u)| [*l, *u]).collect(),
+            Ok(_) => Vec::new(),
+            Err(message) => {
+                let help = "`precess jitter` writes one: BUDGET-keep-out.csv";
+                own.error("file", format!("{shown}: {message}"), help);
                 return None;
             }
-            pairs
         }
+    } else {
+        let listed = listed(keys, key, Measure::ANGULAR_RATE)?;
+        let pairs = listed.iter().filter_map(|of| <[f64; 2]>::try_from(of.as_slice()).ok());
+        let pairs: Vec<[f64; 2]> = pairs.collect();
+        if pairs.len() != listed.len() {
+            keys.error(
+                key,
+                "a band has a lower and an upper end",
+                "write for example `keep_out = [\"1500, 1700 rpm\"]`",
+            );
+            return None;
+        }
+        pairs
     };
     // A band that is none is an error of the scenario.
     let all = found.iter().all(|[from, to]| to > from);
