@@ -222,6 +222,14 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     ];
     let listed: BTreeSet<_> = cases.iter().map(|case| case.name.clone()).collect();
     assert_eq!(listed, names(), "each command has a case");
+    let listed: BTreeSet<_> =
+        cases.iter().filter(|case| case.out.is_some()).map(|case| case.name.clone()).collect();
+    assert_eq!(listed, declared_writing(), "each command that writes has a case that writes");
+    cases
+}
+
+/// The names of the commands whose options say that they write.
+fn declared_writing() -> BTreeSet<String> {
     let mut writing = BTreeSet::new();
     for name in names() {
         let declared = Cli::command();
@@ -238,10 +246,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
             writing.insert(name);
         }
     }
-    let listed: BTreeSet<_> =
-        cases.iter().filter(|case| case.out.is_some()).map(|case| case.name.clone()).collect();
-    assert_eq!(listed, writing, "each command that writes has a case that writes");
-    cases
+    writing
 }
 
 /// The cases that write, but `bake` and `export fmu`: another program derives their files.
