@@ -18,6 +18,7 @@ const MOVED: &[(&str, &str)] = &[
     ("xtask/src/regen.rs ", "xtask/derive/src/regen.rs "),
     ("xtask/src/bake.rs ", "xtask/derive/src/bake.rs "),
     ("xtask/src/mutate.rs ", "xtask/derive/src/mutate.rs "),
+    ("xtask/src/dist/licences.rs ", "xtask/distribute/src/crates_of.rs "),
     ("xtask/src/dist/", "xtask/distribute/src/dist/"),
     ("xtask/src/flight/", "xtask/distribute/src/flight/"),
     ("xtask/src/wheel.rs ", "xtask/distribute/src/wheel.rs "),

@@ -1,6 +1,9 @@
 //! [`EachDevice`]: the emitted kernel of each device, one after another or side by side, and its joints eliminated.
 
-#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+#![cfg_attr(
+    feature = "lanes",
+    expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")
+)]
 
 use alloc::vec::Vec;
 

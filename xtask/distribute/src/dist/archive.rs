@@ -1,4 +1,4 @@
-//! Archives: a gzipped tar with sorted names, one time, no owner; and back again.
+//! What is distributed, and archives: a gzipped tar with sorted names, one time, no owner; and back again.
 
 use std::io::Read as _;
 use std::path::{Component, Path};
@@ -7,6 +7,12 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use tar::{Archive, Builder, EntryType, Header};
+
+/// A file that is distributed.
+pub(super) struct Package {
+    pub(super) name: String,
+    pub(super) bytes: Vec<u8>,
+}
 
 /// A file of an archive, or a symbolic link.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::Package;
+use super::archive::Package;
 use super::build::Stage;
 use xtask::run::run_there;
 

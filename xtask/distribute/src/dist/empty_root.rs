@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use super::Package;
+use super::archive::Package;
 use super::first::nth_block;
 use super::tool;
 use xtask::run::{is_there, root, run_there};

@@ -3,8 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::Package;
-use super::archive::{Entry, unpack};
+use super::archive::{Entry, Package, unpack};
 use super::build::program;
 use super::python;
 use super::sources::lay_out;

@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::Package;
-use super::archive::{Entry, pack};
+use super::archive::{Entry, Package, pack};
 use super::build::Stage;
 use super::licences;
 use super::sources::entry;

@@ -3,7 +3,6 @@
 
 use serde_json::{Value, json};
 
-use super::Package;
 use crate::crates_of::{Crate, Metadata};
 
 /// The bill of a package of ours, for what is distributed under a name.
@@ -60,6 +59,7 @@ fn purl(one: &Crate<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::archive::Package;
     use super::*;
     use crate::crates_of::tests::metadata;
 

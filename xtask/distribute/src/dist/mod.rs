@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use sha2::{Digest as _, Sha256};
 
-use self::archive::{Entry, pack};
+use self::archive::{Entry, Package, pack};
 use self::build::Stage;
 pub(crate) use wrapper::called;
 use xtask::run::target;
@@ -46,12 +46,6 @@ pub(crate) struct Options {
     /// Install desktop tool and wheel in a Debian without anything else, too (debootstrap, as root)
     #[arg(long)]
     empty_root: bool,
-}
-
-/// A file that is distributed.
-struct Package {
-    name: String,
-    bytes: Vec<u8>,
 }
 
 impl Options {

@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::Package;
-use super::archive::unpack;
+use super::archive::{Package, unpack};
 use super::build::Stage;
 use super::first::nth_block;
 use super::licences;

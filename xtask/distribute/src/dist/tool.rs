@@ -4,8 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::Package;
-use super::archive::{Content, Entry, pack};
+use super::archive::{Content, Entry, Package, pack};
 use super::build::Stage;
 use super::licences;
 use super::sources::entry;
