@@ -3,6 +3,7 @@
 
 use serde_json::{Value, json};
 
+use super::archive::Package;
 use crate::crates_of::{Crate, Metadata};
 
 /// The bill of a package of ours, for what is distributed under a name.
@@ -59,7 +60,6 @@ fn purl(one: &Crate<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::archive::Package;
     use super::*;
     use crate::crates_of::tests::metadata;
 
