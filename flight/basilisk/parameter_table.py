@@ -46,9 +46,7 @@ def device(kind, mount, bodies, viscous):
 def reaction_wheel(config):
     """A wheel of `RWConfigPayload`, as `rwFactory.create` makes it."""
     coupled(config.RWModel, "RWModel", "JitterFullyCoupled")
-    without(config, "fCoulomb")
-    if config.betaStatic > 0.0:
-        raise ValueError(f"betaStatic is {config.betaStatic}: Stribeck friction is Basilisk's alone; set it to -1")
+    viscous_alone(config)
     axes = [vector(config.gsHat_B), vector(config.w2Hat0_B), vector(config.w3Hat0_B)]
     inertia = [config.Js, 0.0, config.U_d, 0.0, config.Jt, 0.0, config.U_d, 0.0, config.Jg]
     wheel = [config.mass, *vector(config.rWB_B), 0.0, config.U_s / config.mass, 0.0, *inertia]
@@ -77,6 +75,13 @@ def coupled(model, name, expected):
 def without(config, name):
     if getattr(config, name) > 0.0:
         raise ValueError(f"{name} is {getattr(config, name)}: Precess has no such friction here; set it to 0")
+
+
+def viscous_alone(config):
+    """Refuses friction of a wheel that Precess has otherwise or not at all."""
+    without(config, "fCoulomb")
+    if config.betaStatic > 0.0:
+        raise ValueError(f"betaStatic is {config.betaStatic}: Stribeck friction is Basilisk's alone; set it to -1")
 
 
 def vector(of):

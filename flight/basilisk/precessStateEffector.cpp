@@ -61,6 +61,10 @@ template <typename Call> void PrecessStateEffector::checked(Call call) const
 
 void PrecessStateEffector::readTable(const std::string &path)
 {
+    if (this->jointsState) {
+        this->bskLogger.bskError("PrecessStateEffector: %s: the simulation is initialised; call readTable before that",
+                                 path.c_str());
+    }
     std::ifstream file(path, std::ios::binary);
     if (!file) {
         this->bskLogger.bskError("PrecessStateEffector: %s cannot be read", path.c_str());
@@ -280,7 +284,9 @@ void PrecessStateEffector::modifyStates(double)
     this->checked([&] { this->devices().wrap(); });
     double *to = at.data();
     for (const PrecessJoint &of : this->devices().joints) {
-        *to++ = of.coordinate;
+        // An angle that jumped beside a large one would seem to have turned.
+        *to = std::abs(*to) < LARGEST_ANGLE ? *to : of.coordinate;
+        to++;
     }
     this->jointsState->setState(at);
 }

@@ -8,7 +8,7 @@ digits that read back the same, in SI units. The angle of a wheel at the start i
 attitude and angular velocity are those at the start.
 """
 
-from parameter_table import columns, coupled, vector, without
+from parameter_table import columns, coupled, vector, viscous_alone, without
 
 MODEL = {"RWModel": "JitterFullyCoupled", "VSCMGModel": "vscmgJitterFullyCoupled"}
 
@@ -32,12 +32,11 @@ def scenario(name, hub, wheels=(), gyros=(), duration=10.0):
 
 def wheel(name, config):
     coupled(config.RWModel, "RWModel", MODEL["RWModel"])
-    without(config, "fCoulomb")
+    viscous_alone(config)
     axes = [vector(config.gsHat_B), vector(config.w2Hat0_B), vector(config.w3Hat0_B)]
     lines = device(name, "reaction_wheel", config.rWB_B, axes)
     lines += rotor(config.mass, config.U_s, (config.Js, config.Jt, config.Jg), config.U_d, config.Omega)
-    torque = float(config.u_current)
-    lines += [f'torque = "{number(torque)} N m"'] if torque else []
+    lines += torque(config.u_current)
     if config.cViscous > 0.0:
         lines.append(f'damping = "{number(config.cViscous)} N m s"')
     return lines
@@ -57,9 +56,15 @@ def gyro(name, config):
     lines += ["", "[device.gimbal]", f'mass = "{number(config.massG)} kg"']
     lines += [quantity("centre_of_mass", vector(config.rGcG_G), "m"), *inertia(rows)]
     lines += [f'angle = "{number(config.gamma)} rad"', f'rate = "{number(config.gammaDot)} rad/s"']
+    lines += torque(config.u_g_current)
     moments = (config.IW1, config.IW2, config.IW3)
     lines += rotor(config.massW, config.U_s, moments, config.U_d, config.Omega)
-    return [*lines, quantity("origin", [config.l, 0.0, config.L], "m")]
+    return [*lines, *torque(config.u_s_current), quantity("origin", [config.l, 0.0, config.L], "m")]
+
+
+def torque(of):
+    """That of the motor, from the start on."""
+    return [f'torque = "{number(of)} N m"'] if float(of) else []
 
 
 def device(name, kind, position, axes):

@@ -84,7 +84,7 @@ def compare(columns, samples, channels):
             seen += 1
     if seen != len(columns):
         sys.exit(f"{seen} columns in the schemas, {len(columns)} in the run")
-    frames = channels["/frames"][1]
+    frames = channels["/scene/frames"][1]
     if not 2 <= frames <= FRAMES_MAX:
         sys.exit(f"{frames} messages with frames")
     messages = sum(count for _, count, _ in channels.values())

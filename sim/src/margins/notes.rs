@@ -97,7 +97,11 @@ fn measured(notes: &mut Vec<String>, of: &SampledController) {
             });
         }
         if gyro.rate_random_walk > 0.0 {
-            notes.push("noise is without the drift of the gyro's bias by its rate random walk, but in `jitter --controller` with an estimator; a run has it".to_owned());
+            notes.push(if of.estimator.is_some() {
+                "noise of `margins` is without the drift of the gyro's bias by its rate random walk; `jitter --controller` and a run have it".to_owned()
+            } else {
+                "noise is without the drift of the gyro's bias by its rate random walk, which grows without bound; an `estimator` bounds it, and a run has it".to_owned()
+            });
         }
         if gyro.output == GyroOutput::Sampled && of.estimator.is_some() {
             notes.push(

@@ -3,11 +3,11 @@
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/GROUP`, of `cmg1.loads` `/cmg1/loads` | `precess.GROUP`: a number for each column of the group | every sample |
-//! | `/frames` | `foxglove.FrameTransforms`: N to B, and each joint's parent body to its child body | some [`FRAMES_MAX`] samples and the last |
-//! | `/bodies` | `foxglove.SceneUpdate`: shapes that masses and inertias suggest | the first sample |
+//! | `/scene/frames` | `foxglove.FrameTransforms`: N to B, and each joint's parent body to its child body | some [`FRAMES_MAX`] samples and the last |
+//! | `/scene/bodies` | `foxglove.SceneUpdate`: shapes that masses and inertias suggest | the first sample |
 //! | `/DEVICE/lines` | `precess.lines`: frequencies and amplitudes of what a wheel exerts | with the frames |
-//! | `/log` | `foxglove.Log`: requirements and events | the end; the time of the event |
-//! | `/requirements` | `precess.requirements`: value, limit, state | the end |
+//! | `/result/log` | `foxglove.Log`: requirements and events | the end; the time of the event |
+//! | `/result/requirements` | `precess.requirements`: value, limit, state | the end |
 //!
 //! Messages are JSON with JSON Schema, the one encoding that both programs read without a compiler of schemas. A number
 //! has the digits that read back the same; NaN, which JSON lacks, is `null`. Times are those of the run, in whole
@@ -140,15 +140,15 @@ impl Open {
         let groups = groups.map(|group| Ok((channel(&group.topic, &group.schema())?, group)));
         let groups = groups.collect::<Result<_, McapError>>()?;
         let frames = match Frames::new(header, scenario) {
-            Some(frames) => Some((channel("/frames", &Schema::frames())?, frames)),
+            Some(frames) => Some((channel("/scene/frames", &Schema::frames())?, frames)),
             None => None,
         };
         let wheels = WheelLines::all(header, scenario).into_iter();
         let wheels = wheels.map(|of| Ok((channel(&of.topic, &Schema::lines())?, of)));
         let wheels = wheels.collect::<Result<_, McapError>>()?;
-        let bodies = channel("/bodies", &Schema::scene())?;
-        let log = channel("/log", &Schema::log())?;
-        let requirements = channel("/requirements", &Schema::requirements())?;
+        let bodies = channel("/scene/bodies", &Schema::scene())?;
+        let log = channel("/result/log", &Schema::log())?;
+        let requirements = channel("/result/requirements", &Schema::requirements())?;
         let expected = header.rate * header.duration / FRAMES_MAX;
         let stride = Duration::try_from_secs_f64(expected.ceil());
         let mut open = Self {

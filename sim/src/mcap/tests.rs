@@ -127,7 +127,7 @@ fn frames_place_a_point_of_a_wheel_where_its_column_does() {
     let scenario = scenario();
     let (bytes, samples) = recorded(&scenario);
     let topics = messages(&bytes);
-    let frames = &topics["/frames"];
+    let frames = &topics["/scene/frames"];
     // 3001 samples: every third one, of which the last is one.
     assert_eq!(frames.len(), 1001);
     let own = Vector3::new(0.02, 0.1, -0.05);
@@ -169,14 +169,15 @@ fn requirements_and_bodies_are_messages_of_foxglove() {
     let scenario = scenario();
     let (bytes, _) = recorded(&scenario);
     let topics = messages(&bytes);
-    let levels: Vec<_> = topics["/log"].iter().map(|(_, log)| log["level"].as_u64()).collect();
+    let levels: Vec<_> =
+        topics["/result/log"].iter().map(|(_, log)| log["level"].as_u64()).collect();
     assert_eq!(levels, [Some(4), Some(2)]);
-    let [(time, states)] = topics["/requirements"].as_slice() else { panic!("one message") };
+    let [(time, states)] = topics["/result/requirements"].as_slice() else { panic!("one message") };
     assert_eq!(*time, 300_000_000);
     let states = states["requirements"].as_array().expect("a list");
     assert_eq!([&states[0]["state"], &states[1]["state"]], ["violated", "met"]);
     assert_eq!(states[0]["unit"], "mrad/s");
-    let [(_, scene)] = topics["/bodies"].as_slice() else { panic!("one message") };
+    let [(_, scene)] = topics["/scene/bodies"].as_slice() else { panic!("one message") };
     let entities = scene["entities"].as_array().expect("a list");
     let named = |of: &str| entities.iter().find(|body| body["id"] == of).expect("a body");
     assert_eq!(named("B")["cubes"].as_array().map(Vec::len), Some(1));

@@ -20,6 +20,8 @@ const FLAGS: [&str; 8] = [
     "-Wconversion",
     "-Werror",
 ];
+/// The end stops of the unit's panel.
+const STOPS: &str = "lower_stop = \"-20 deg\"\nupper_stop = \"20 deg\"\nat_stop = \"end\"\n";
 /// Steps of 1 ms that `driver.c` and the run take.
 const STEPS: usize = 100;
 
@@ -42,11 +44,11 @@ fn compilers() -> Vec<&'static str> {
 }
 
 /// A folder with the sources of the unit and the driver, and the names of what is compiled.
-fn sources(name: &str) -> (PathBuf, Vec<String>) {
+fn sources(name: &str, unit: &str) -> (PathBuf, Vec<String>) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder");
-    let (_, files) = files(&scenario(UNIT));
+    let (_, files) = files(&scenario(unit));
     let mut compiled = Vec::new();
     for (path, text) in &files {
         let Some(name) = path.strip_prefix("sources/") else { continue };
@@ -91,7 +93,7 @@ fn co_simulation_has_the_bits_of_a_run_and_calls_out_of_order_are_errors() {
             },
         ];
         for (number, more) in sanitisers.into_iter().enumerate() {
-            let (folder, mut sources) = sources(&format!("{compiler}_{number}"));
+            let (folder, mut sources) = sources(&format!("{compiler}_{number}"), UNIT);
             fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a source");
             sources.push("driver.c".to_owned());
             let arguments = [&FLAGS, more, &["-o", "driver"]].concat();
@@ -112,10 +114,41 @@ fn co_simulation_has_the_bits_of_a_run_and_calls_out_of_order_are_errors() {
     }
 }
 
+/// A joint without a spring and one with end stops, both beyond half a turn, beside a wheel whose angle is brought back.
+#[test]
+fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
+    for (turns, stops) in [
+        ("", "angle = \"440 deg\"\n"),
+        (
+            STOPS,
+            "angle = \"440 deg\"\nlower_stop = \"400 deg\"\nupper_stop = \"450 deg\"\nat_stop = \"end\"\n",
+        ),
+    ] {
+        let unit = UNIT.replace(STOPS, stops).replace("stiffness = \"3 N m/rad\"\n", "");
+        let Some(compiler) = compilers().into_iter().next() else { return };
+        let (folder, mut sources) = sources(&format!("wrapped_{}", turns.len()), &unit);
+        fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a source");
+        sources.push("driver.c".to_owned());
+        let done = compile(compiler, &folder, &[&FLAGS, &["-o", "driver"][..]].concat(), &sources);
+        assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+        // 2^23 rad and half a turn.
+        let done = Command::new(folder.join("driver")).args(["0", "8388611.14"]).output();
+        let done = done.expect("the driver starts");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let (numbers, _) = done.stdout.as_chunks();
+        let numbers: Vec<_> = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect();
+        let (by_steps, by_event) = numbers.split_at(numbers.len() / 2);
+        for states in [by_steps, by_event] {
+            assert!(states[13].abs() <= std::f64::consts::PI, "the wheel: {}", states[13]);
+            assert!((states[14] - 440_f64.to_radians()).abs() < 1e-3, "the panel: {}", states[14]);
+        }
+    }
+}
+
 #[test]
 fn arithmetic_by_other_rules_is_refused() {
     for compiler in compilers() {
-        let (folder, _) = sources(&format!("fast_{compiler}"));
+        let (folder, _) = sources(&format!("fast_{compiler}"), UNIT);
         let core = ["precess_fmu.c".to_owned()];
         let done = compile(compiler, &folder, &["-std=c99", "-ffast-math", "-c"], &core);
         let errors = String::from_utf8_lossy(&done.stderr);
@@ -137,7 +170,7 @@ fn every_function_of_the_standard_is_exported_and_no_other_symbol() {
     let expected: std::collections::BTreeSet<_> = declared().into_iter().collect();
     assert_eq!(expected.len(), 44, "{expected:?}");
     for compiler in compilers() {
-        let (folder, sources) = sources(&format!("exported_{compiler}"));
+        let (folder, sources) = sources(&format!("exported_{compiler}"), UNIT);
         let arguments = [compiler_arguments(), &["-o", "unit.so"]].concat();
         let done = compile(compiler, &folder, &arguments, &sources);
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));

@@ -327,12 +327,40 @@ static void model_exchange(void)
     fmi2FreeInstance(c);
 }
 
+/* The states after a step of one instance with its wheel at an angle, by each type. */
+static void wrapped(double angle)
+{
+    const int wheel = FMU_STATE + 13;
+    double x[FMU_STATES];
+    fmi2EventInfo event;
+    fmi2Component c = made(fmi2CoSimulation);
+
+    IS_OK(set(c, wheel, angle));
+    initialise(c);
+    run(c, 0, 1);
+    states(c, x);
+    fmi2FreeInstance(c);
+    CHECK(fwrite(x, sizeof x[0], FMU_STATES, stdout) == FMU_STATES);
+    c = made(fmi2ModelExchange);
+    IS_OK(set(c, wheel, angle));
+    initialise(c);
+    IS_OK(fmi2NewDiscreteStates(c, &event));
+    states(c, x);
+    fmi2FreeInstance(c);
+    CHECK(fwrite(x, sizeof x[0], FMU_STATES, stdout) == FMU_STATES);
+}
+
 int main(int count, char **arguments)
 {
     const int steps = count > 1 ? atoi(arguments[1]) : 0;
     fmi2Component all[INSTANCES];
     double x[FMU_STATES];
     int k;
+
+    if (count > 2) {
+        wrapped(atof(arguments[2]));
+        return unexpected;
+    }
 
     CHECK(strcmp(fmi2GetVersion(), "2.0") == 0 && strcmp(fmi2GetTypesPlatform(), "default") == 0);
     before_initialisation();

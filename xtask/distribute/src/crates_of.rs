@@ -25,15 +25,14 @@ pub(crate) struct Crate<'m> {
 }
 
 impl Metadata {
-    /// Of a manifest, by a cargo that is set up for it; `platform` leaves out what others link.
+    /// Of a manifest, by a cargo that is set up for it; `options` are of features and platforms.
     pub(crate) fn read(
         mut cargo: Command,
         manifest: &str,
-        platform: Option<&str>,
+        options: &[&str],
     ) -> Result<Self, String> {
         cargo.args(["metadata", "--format-version", "1", "--locked", "--manifest-path", manifest]);
-        cargo.args(platform.into_iter().flat_map(|triple| ["--filter-platform", triple]));
-        let value = serde_json::from_str(&output(&mut cargo)?);
+        let value = serde_json::from_str(&output(cargo.args(options))?);
         value.map(Self).map_err(|error| format!("cargo metadata of {manifest}: {error}"))
     }
 
@@ -68,19 +67,43 @@ impl Metadata {
         dependencies.iter().filter(normal).map(|one| string(&one["pkg"])).collect()
     }
 
-    /// Identifiers of what a package links, its own among them, with what each links itself.
-    pub(crate) fn linked(&self, package: &str) -> Result<BTreeMap<&str, Vec<&str>>, String> {
-        let mut open = vec![self.package(package)?.id];
-        let (mut linked, mut seen) = (BTreeMap::new(), BTreeSet::new());
-        while let Some(id) = open.pop() {
-            if seen.insert(id) {
-                let dependencies = self.dependencies(id);
-                open.extend(&dependencies);
-                linked.insert(id, dependencies);
-            }
-        }
-        Ok(linked)
+    /// Identifiers of what a package links, its own among them, with what each of them links itself: of the lines of
+    /// [`linked_by`]. A workspace's own resolution has features of other packages, too, and macros of compilers.
+    pub(crate) fn linked(&self, lines: &str) -> BTreeMap<&str, Vec<&str>> {
+        let lines: BTreeSet<_> = lines.lines().filter_map(named).collect();
+        let linked: BTreeSet<_> = self
+            .crates()
+            .filter(|one| lines.contains(&(one.name, one.version)))
+            .map(|one| one.id)
+            .collect();
+        let own =
+            |id: &str| self.dependencies(id).into_iter().filter(|of| linked.contains(of)).collect();
+        linked.iter().map(|id| (*id, own(id))).collect()
     }
+}
+
+/// What a package links on a platform, as `cargo tree` lists it: without what only builds it or is a macro.
+pub(crate) fn linked_by(
+    mut cargo: Command,
+    manifest: &str,
+    package: &str,
+    platform: &str,
+) -> Result<String, String> {
+    cargo.args(["tree", "--locked", "--manifest-path", manifest, "--package", package]);
+    output(cargo.args([
+        "--edges",
+        "normal,no-proc-macro",
+        "--target",
+        platform,
+        "--prefix",
+        "none",
+    ]))
+}
+
+/// Name and version of a line.
+fn named(line: &str) -> Option<(&str, &str)> {
+    let mut words = line.split_whitespace();
+    Some((words.next()?, words.next()?.strip_prefix('v')?))
 }
 
 fn array(value: &Value) -> &[Value] {
@@ -116,9 +139,9 @@ pub(crate) mod tests {
     #[test]
     fn what_only_builds_or_tests_need_is_not_linked() {
         let metadata = metadata();
-        let linked = metadata.linked("root").unwrap();
+        let linked = metadata.linked("root v0.1.0 (/p)\na v1.0.0\nc v1.0.0\na v1.0.0 (*)\n");
         assert_eq!(linked.keys().copied().collect::<Vec<_>>(), ["a", "c", "r"]);
-        assert_eq!(linked["r"], ["a"]);
-        assert!(metadata.linked("a").unwrap_err().contains("no package `a`"));
+        assert_eq!((&linked["r"][..], &linked["a"][..]), (&["a"][..], &["c"][..]));
+        assert!(metadata.package("a").unwrap_err().contains("no package `a`"));
     }
 }

@@ -28,11 +28,17 @@ const WORKSPACES: [&str; 5] = [
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Rules {
-    #[serde(rename = "graph")]
-    _graph: toml::Table,
+    graph: Graph,
     licenses: Licences,
     bans: Bans,
     sources: Sources,
+}
+
+/// Which crates are looked at.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Graph {
+    all_features: bool,
 }
 
 #[derive(Deserialize)]
@@ -83,7 +89,8 @@ pub(crate) fn dependencies() -> Result<(), String> {
     for manifest in WORKSPACES {
         let mut cargo = Command::new(program());
         cargo.current_dir(root());
-        let metadata = Metadata::read(cargo, manifest, None)?;
+        let options: &[&str] = if rules.graph.all_features { &["--all-features"] } else { &[] };
+        let metadata = Metadata::read(cargo, manifest, options)?;
         let found = check(&metadata, &rules, &mut used)?;
         breaches.extend(found.into_iter().map(|breach| format!("{manifest}: {breach}")));
         let others = metadata.crates().filter(|one| one.source.is_some());
@@ -145,7 +152,7 @@ mod tests {
     use super::*;
     use crate::crates_of::tests::metadata;
 
-    const TEXT: &str = "[graph]\n[licenses]\nallow = [\"MIT\", \"GPL-3.0\"]\n[bans]\nmultiple-versions = \"deny\"\nskip = []\n\
+    const TEXT: &str = "[graph]\nall-features = true\n[licenses]\nallow = [\"MIT\", \"GPL-3.0\"]\n[bans]\nmultiple-versions = \"deny\"\nskip = []\n\
                         deny = []\n[sources]\nunknown-registry = \"deny\"\nunknown-git = \"deny\"\n\
                         allow-registry = [\"https://github.com/rust-lang/crates.io-index\"]\n";
 

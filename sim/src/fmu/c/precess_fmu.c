@@ -288,17 +288,31 @@ int precess_fmu_is_stopped(const struct precess_fmu *fmu)
     return is_beyond(fmu->values + FMU_STATE + 13);
 }
 
-/* Whether an angle is so large that it is wrapped. */
-static int is_large(const double *coordinates)
+/* Whether an angle is so large that it is wrapped: of a joint without an end stop, which counts the turns. */
+static int is_large(const double *coordinates, int joint)
 {
+    const struct precess_fmu_joint *const of = &precess_fmu_joints[joint];
+
+    return precess_magnitude(coordinates[joint]) > FMU_LARGE_ANGLE
+        && !(of->lower >= -FMU_LARGEST) && !(of->upper <= FMU_LARGEST);
+}
+
+/* Wraps the angles that are so large, and no other: one that jumped beside them would seem to have turned. */
+static void wrap_large(const struct precess_fmu *fmu, struct FMU_SOLVER_STATE *state)
+{
+    struct FMU_SOLVER_STATE wrapped;
+    int is_wrapped = 0;
     int k;
 
     for (k = 0; k < FMU_JOINTS; k++) {
-        if (precess_magnitude(coordinates[k]) > FMU_LARGE_ANGLE) {
-            return 1;
+        if (is_large(state->coordinates, k)) {
+            if (!is_wrapped) {
+                FMU_SOLVER_WRAP(&fmu->spacecraft, state, &wrapped);
+                is_wrapped = 1;
+            }
+            state->coordinates[k] = wrapped.coordinates[k];
         }
     }
-    return 0;
 }
 
 enum precess_status precess_fmu_advance(
@@ -330,9 +344,7 @@ enum precess_status precess_fmu_advance(
             *is_stopped = 1;
             return PRECESS_OK;
         }
-        if (is_large(state.coordinates)) {
-            FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
-        }
+        wrap_large(fmu, &state);
     }
     set_state(fmu, &state);
     return PRECESS_OK;
@@ -344,14 +356,15 @@ int precess_fmu_is_to_wrap(struct precess_fmu *fmu)
     struct FMU_SOLVER_STATE state;
     int k;
 
-    if (!is_large(coordinates) || prepare(fmu) != PRECESS_OK) {
+    for (k = 0; k < FMU_JOINTS && !is_large(coordinates, k); k++) {
+    }
+    if (k == FMU_JOINTS || prepare(fmu) != PRECESS_OK) {
         return 0;
     }
     state_of(fmu, &state);
-    FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+    wrap_large(fmu, &state);
     for (k = 0; k < FMU_JOINTS; k++) {
-        if (precess_magnitude(coordinates[k]) > FMU_LARGE_ANGLE
-            && precess_magnitude(state.coordinates[k]) <= FMU_LARGE_ANGLE) {
+        if (state.coordinates[k] != coordinates[k]) {
             return 1;
         }
     }
@@ -365,7 +378,7 @@ enum precess_status precess_fmu_wrap(struct precess_fmu *fmu)
 
     if (status == PRECESS_OK) {
         state_of(fmu, &state);
-        FMU_SOLVER_WRAP(&fmu->spacecraft, &state, &state);
+        wrap_large(fmu, &state);
         set_state(fmu, &state);
     }
     return status;

@@ -28,6 +28,8 @@
 /** Joint angles beyond this, rad, are brought into [-pi, pi] where no spring counts the turns. The solver takes angles up to
  * twice this. */
 #define FMU_LARGE_ANGLE 8388608.0
+/* The largest number: an end stop beyond it is none. */
+#define FMU_LARGEST 1.7976931348623157e308
 
 /** What is fixed of a joint. */
 struct precess_fmu_joint {
@@ -94,7 +96,7 @@ int precess_fmu_is_stopped(const struct precess_fmu *fmu);
 /** Whether precess_fmu_wrap would change a joint's angle, one of which is beyond FMU_LARGE_ANGLE. */
 int precess_fmu_is_to_wrap(struct precess_fmu *fmu);
 
-/** Brings joint angles into [-pi, pi] where no spring counts the turns. */
+/** Brings joint angles beyond FMU_LARGE_ANGLE into [-pi, pi], where neither a spring nor an end stop counts the turns. */
 enum precess_status precess_fmu_wrap(struct precess_fmu *fmu);
 
 /** What a status means, and what to do. */

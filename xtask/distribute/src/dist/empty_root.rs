@@ -32,9 +32,14 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
     }
     let place = folder.join("empty-root");
     if !place.join("etc/debian_version").exists() {
+        // Whole or not there: one that was interrupted is made anew.
+        let partial = folder.join("empty-root.partial");
+        remove(&partial)?;
         let mut debootstrap = Command::new("debootstrap");
-        debootstrap.args(["--variant=minbase", INCLUDE, SUITE]).arg(&place).arg(MIRROR);
+        debootstrap.args(["--variant=minbase", INCLUDE, SUITE]).arg(&partial).arg(MIRROR);
         run_there(&mut debootstrap)?;
+        fs::rename(&partial, &place)
+            .map_err(|error| format!("cannot make {}: {error}", place.display()))?;
     }
     for path in NETWORK {
         let from = Path::new("/").join(path);
@@ -43,16 +48,14 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
         }
     }
     let work = place.join("work");
-    if work.exists() {
-        fs::remove_dir_all(&work)
-            .map_err(|error| format!("cannot remove {}: {error}", work.display()))?;
-    }
+    remove(&work)?;
     copy_all(&root().join("scenarios"), &work.join("scenarios"))?;
     for package in packages {
         let name = &package.name;
         let lines = if tool::is_archive(name) {
             "tar xzf PACKAGE --strip-components=1 -C /usr/local && precess new reaction_wheel > bus.toml && \
-             precess check bus.toml && precess run bus.toml --out results"
+             precess check bus.toml && precess run bus.toml --out results && \
+             precess export fmu bus.toml --step '1 ms' --to bus.fmu"
                 .to_owned()
         } else if Path::new(name).extension().is_some_and(|ending| ending == "whl") {
             let page = fs::read_to_string(root().join(PAGE))
@@ -80,6 +83,14 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
         );
     }
     Ok(())
+}
+
+fn remove(folder: &Path) -> Result<(), String> {
+    if !folder.exists() {
+        return Ok(());
+    }
+    fs::remove_dir_all(folder)
+        .map_err(|error| format!("cannot remove {}: {error}", folder.display()))
 }
 
 fn copy_all(from: &Path, into: &Path) -> Result<(), String> {

@@ -69,7 +69,11 @@ fn tool(package: &Package, place: &Path) -> Result<bool, String> {
     ));
     let example = output(Command::new(&program).args(["new", "reaction_wheel"]))?;
     lay_out(&[Entry::file("bus.toml", example)], &place.join("first"), &[])?;
-    for arguments in [&["check", "bus.toml"][..], &["run", "bus.toml", "--out", "results"]] {
+    for arguments in [
+        &["check", "bus.toml"][..],
+        &["run", "bus.toml", "--out", "results"],
+        &["export", "fmu", "bus.toml", "--step", "1 ms", "--to", "bus.fmu"],
+    ] {
         run_there(Command::new(&program).args(arguments).current_dir(place.join("first")))?;
     }
     Ok(true)

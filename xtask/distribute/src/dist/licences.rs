@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::build::Stage;
-use crate::crates_of::{Crate, Metadata};
+use crate::crates_of::{Crate, Metadata, linked_by};
 use xtask::run::output;
 
 /// How names of files with a licence begin.
@@ -13,7 +13,8 @@ const NAMES: [&str; 5] = ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE"
 /// files that state it. Those that only run when it is built are not there.
 pub(super) fn of_others(stage: &Stage, manifest: &str, package: &str) -> Result<String, String> {
     let metadata = metadata(stage, manifest)?;
-    let linked = metadata.linked(package)?;
+    let lines = linked_by(stage.cargo()?, manifest, package, &host(stage)?)?;
+    let linked = metadata.linked(&lines);
     let mut text = format!(
         "{package} is made of the crates below, and of the core libraries of Rust, which are licensed under MIT or \
          Apache-2.0.\n"
@@ -28,7 +29,7 @@ pub(super) fn of_others(stage: &Stage, manifest: &str, package: &str) -> Result<
 
 /// The crates of a manifest, as they are linked on this machine.
 pub(super) fn metadata(stage: &Stage, manifest: &str) -> Result<Metadata, String> {
-    Metadata::read(stage.cargo()?, manifest, Some(&host(stage)?))
+    Metadata::read(stage.cargo()?, manifest, &["--filter-platform", &host(stage)?])
 }
 
 /// The triple of this machine.

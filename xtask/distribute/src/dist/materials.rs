@@ -4,11 +4,17 @@
 use serde_json::{Value, json};
 
 use super::archive::Package;
+use super::tool;
 use crate::crates_of::{Crate, Metadata};
 
 /// The bill of a package of ours, for what is distributed under a name.
-pub(super) fn bill(metadata: &Metadata, package: &str, name: &str) -> Result<Package, String> {
-    let linked = metadata.linked(package)?;
+/// `lines` are those of [`linked_by`](crate::crates_of::linked_by).
+pub(super) fn bill(
+    metadata: &Metadata,
+    (package, lines): (&str, &str),
+    name: &str,
+) -> Result<Package, String> {
+    let linked = metadata.linked(lines);
     let crates: Vec<_> = metadata.crates().filter(|one| linked.contains_key(one.id)).collect();
     let reference = |id: &str| crates.iter().find(|one| one.id == id).map(purl).unwrap_or_default();
     let mut components: Vec<_> = crates
@@ -26,11 +32,14 @@ pub(super) fn bill(metadata: &Metadata, package: &str, name: &str) -> Result<Pac
         })
         .collect();
     dependencies.sort_by_key(|one| one["ref"].to_string());
+    let mut own = component(&metadata.package(package)?);
+    let is_program = [tool::PACKAGE, tool::GENERATOR].contains(&package);
+    own["type"] = json!(if is_program { "application" } else { "library" });
     let bill = json!({
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",
         "version": 1,
-        "metadata": {"component": component(&metadata.package(package)?)},
+        "metadata": {"component": own},
         "components": components,
         "dependencies": dependencies,
     });
@@ -65,7 +74,8 @@ mod tests {
 
     #[test]
     fn a_bill_has_what_is_linked_and_by_what() {
-        let bill = bill(&metadata(), "root", "root-0.1.0").unwrap();
+        let bill =
+            bill(&metadata(), ("root", "root v0.1.0\na v1.0.0\nc v1.0.0"), "root-0.1.0").unwrap();
         assert_eq!(bill.name, "root-0.1.0.cdx.json");
         let bill: Value = serde_json::from_slice(&bill.bytes).unwrap();
         let names: Vec<_> =

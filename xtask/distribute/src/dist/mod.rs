@@ -23,6 +23,7 @@ use sha2::{Digest as _, Sha256};
 
 use self::archive::{Entry, Package, pack};
 use self::build::Stage;
+use crate::crates_of::linked_by;
 pub(crate) use wrapper::called;
 use xtask::run::target;
 use xtask::say;
@@ -108,11 +109,13 @@ fn bills(stage: &Stage, version: &str) -> Result<Vec<Package>, String> {
     let of = |manifest: &'static str, packages: &[(&'static str, &'static str)]| {
         let metadata = licences::metadata(stage, manifest)?;
         let bill = |(package, name): &(&str, &str)| {
-            materials::bill(&metadata, package, &format!("{name}-{version}"))
+            let lines = linked_by(stage.cargo()?, manifest, package, &licences::host(stage)?)?;
+            materials::bill(&metadata, (package, &lines), &format!("{name}-{version}"))
         };
         packages.iter().map(bill).collect::<Result<Vec<_>, String>>()
     };
-    let crates = ["precess-dynamics", "precess-codegen", tool::PACKAGE].map(|name| (name, name));
+    let crates = ["precess-dynamics", "precess-codegen", tool::PACKAGE, tool::GENERATOR];
+    let crates = crates.map(|name| (name, name));
     let mut bills = of(tool::MANIFEST, &crates)?;
     bills.extend(of(xtask::capi::MANIFEST, &[("precess-capi", "precess-c")])?);
     bills.extend(of(python::MANIFEST, &[("precess-python", "precess-python")])?);

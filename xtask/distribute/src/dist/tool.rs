@@ -12,7 +12,9 @@ use xtask::run::{output, run_there};
 
 /// Its package, which is also its program.
 pub(super) const PACKAGE: &str = "precess";
-/// The workspace that it is of.
+/// What derives for its commands `bake` and `export fmu`, which look for it beside them.
+pub(super) const GENERATOR: &str = "precess-bake";
+/// The workspace that they are of.
 pub(super) const MANIFEST: &str = "Cargo.toml";
 
 /// Where each shell looks for what it completes.
@@ -26,18 +28,19 @@ const COMPLETIONS: [(&str, &str); 3] = [
 pub(super) fn package(stage: &Stage, version: &str) -> Result<Package, String> {
     run_there(stage.cargo()?.args(["fetch", "--locked"]))?;
     let mut cargo = stage.cargo()?;
-    cargo.args(["build", "--release", "--quiet", "--locked", "--package", PACKAGE]);
-    run_there(cargo.args(["--bin", PACKAGE]))?;
-    let file = format!("{PACKAGE}{}", std::env::consts::EXE_SUFFIX);
-    let program = stage.target.join("release").join(&file);
-    let content = Content::File { bytes: read(&program)?, executable: true };
-    let mut entries = vec![
-        Entry { path: format!("bin/{file}"), content },
-        Entry::file(
-            "share/doc/precess/LICENSES-OF-OTHERS",
-            licences::of_others(stage, MANIFEST, PACKAGE)?,
-        ),
-    ];
+    cargo.args(["build", "--release", "--quiet", "--locked"]);
+    let programs = [PACKAGE, GENERATOR];
+    run_there(cargo.args(programs.iter().flat_map(|name| ["--package", name, "--bin", name])))?;
+    let release = stage.target.join("release");
+    let file = |name: &str| format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    let program = release.join(file(PACKAGE));
+    let (mut entries, mut others) = (Vec::new(), String::new());
+    for name in programs {
+        let content = Content::File { bytes: read(&release.join(file(name)))?, executable: true };
+        entries.push(Entry { path: format!("bin/{}", file(name)), content });
+        others.push_str(&licences::of_others(stage, MANIFEST, name)?);
+    }
+    entries.push(Entry::file("share/doc/precess/LICENSES-OF-OTHERS", others));
     for name in ["LICENSE-APACHE", "LICENSE-MIT", "README.md"] {
         let mut text = entry(&stage.sources, name)?;
         text.path = format!("share/doc/precess/{name}");
