@@ -271,6 +271,9 @@ def dependencies(unit, chance):
             # A wheel on bearings that move in all six ways acts on the rest by springs: its mass may be in no other equation.
             if depends and was == now and known.name.startswith("soft_"):
                 continue
+            # What is at rest on a hub that is at rest has no part in a motion, and is listed as where it moves.
+            if depends and was == now and unit.folder.name == "fixed":
+                continue
             if depends != (was != now):
                 sys.exit(f"{derivative.name} and {known.name}: listed {depends}, {was!r} and {now!r}")
 
