@@ -249,8 +249,11 @@ async function replay(page, name) {
   await page.keyboard.press('0');
   const still = await picture();
   await page.keyboard.press('ArrowLeft');
+  await until(async () => still !== await picture());
   check(still !== await picture(), 'an arrow key turns the view');
   await page.keyboard.press('0');
+  // A loaded machine draws later than the frames that were awaited.
+  await until(async () => still === await picture());
   check(still === await picture(), '0 restores the view');
   const box = await canvas.boundingBox();
   await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.6 * box.height);

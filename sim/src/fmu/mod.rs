@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The C between the standard's functions and the solver is in `c`, the same in every unit; what a scenario adds to it
-//! is numbers, in `model.c`. A value reference is a place in one array ([`layout`]). What the solver in C does not have is
+//! is numbers, in `model.c`. A value reference is a place in one array (`layout`). What the solver in C does not have is
 //! refused by name ([`FmuError`]); what the importer is to give instead is [noted](Fmu::notes).
 //!
 //! Invariants: names of variables are unique, at most 55 characters of `[A-Za-z0-9_]`; the same scenario gives the same

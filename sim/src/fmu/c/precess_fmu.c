@@ -294,7 +294,7 @@ static int is_large(const double *coordinates, int joint)
     const struct precess_fmu_joint *const of = &precess_fmu_joints[joint];
 
     return precess_magnitude(coordinates[joint]) > FMU_LARGE_ANGLE
-        && !(of->lower >= -FMU_LARGEST) && !(of->upper <= FMU_LARGEST);
+        && of->lower <= -DBL_MAX && of->upper >= DBL_MAX;
 }
 
 /* Wraps the angles that are so large, and no other: one that jumped beside them would seem to have turned. */

@@ -28,8 +28,6 @@
 /** Joint angles beyond this, rad, are brought into [-pi, pi] where no spring counts the turns. The solver takes angles up to
  * twice this. */
 #define FMU_LARGE_ANGLE 8388608.0
-/* The largest number: an end stop beyond it is none. */
-#define FMU_LARGEST 1.7976931348623157e308
 
 /** What is fixed of a joint. */
 struct precess_fmu_joint {
