@@ -18,6 +18,8 @@ NEEDS = {
     "docs/python.md": [],
     "docs/structure.md": [],
 }
+#: Excerpts of programs inside Basilisk, whose like tests/engines/effector.py runs.
+IN_BASILISK = {"docs/basilisk.md"}
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
@@ -29,7 +31,7 @@ def blocks(page: str) -> list[str]:
 def test_every_page_with_blocks_is_run() -> None:
     pages = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     names = [page.relative_to(ROOT).as_posix() for page in pages]
-    assert {name for name in names if blocks(name)} <= set(NEEDS)
+    assert {name for name in names if blocks(name)} - IN_BASILISK <= set(NEEDS)
     assert len(blocks("docs/python.md")) >= 4
 
 
