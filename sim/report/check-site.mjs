@@ -62,7 +62,7 @@ for (const width of WIDTHS) {
   page.on('pageerror', (error) => errors.push(error.message));
   // What is given up because the next page is opened is no fault.
   page.on('requestfailed', (request) => { if (request.failure()?.errorText !== 'net::ERR_ABORTED') errors.push(`${request.url()} did not load`); });
-  page.on('request', (request) => { if (!request.url().startsWith('file:') && !request.url().startsWith('data:')) errors.push(`asks for ${request.url()}`); });
+  page.on('request', (request) => { if (!request.url().startsWith('file:') && !request.url().startsWith('data:')) errors.push(`requests ${request.url()}`); });
   for (const path of all) {
     errors = [];
     await page.goto(pathToFileURL(path).href);

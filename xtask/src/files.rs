@@ -61,6 +61,18 @@ pub fn write<'a>(files: impl IntoIterator<Item = File<'a>>, into: &Path) -> Resu
     Ok(())
 }
 
+/// Removes a folder with all that is in it; one that is not there is none to remove.
+///
+/// # Errors
+/// A line that names the folder that cannot be removed.
+pub fn remove_folder(folder: &Path) -> Result<(), String> {
+    if !folder.exists() {
+        return Ok(());
+    }
+    fs::remove_dir_all(folder)
+        .map_err(|error| format!("cannot remove {}: {error}", folder.display()))
+}
+
 /// Where a file is written before it is renamed: a name that no other file has.
 fn beside(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();

@@ -8,6 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use xtask::files::remove_folder;
 use xtask::run::{is_there, output, root, run, run_there, target, tool};
 use xtask::say;
 use xtask::skip::skip;
@@ -61,10 +62,7 @@ pub(crate) fn reports() -> Result<(), String> {
 
 /// Builds into a folder and compares with the committed files; returns how many there are.
 fn rebuild(folder: &Path) -> Result<usize, String> {
-    if folder.exists() {
-        fs::remove_dir_all(folder)
-            .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-    }
+    remove_folder(folder)?;
     run_there(node("node", &["build.mjs", "--out"]).arg(folder))?;
     let committed = root().join(COMMITTED);
     let names: BTreeSet<_> = [names(folder)?, names(&committed)?].into_iter().flatten().collect();
@@ -157,10 +155,7 @@ const DONE: [i32; 3] = [0, 2, 3];
 fn check_figures(folder: &Path) -> Result<usize, String> {
     let [results, example] = ["figures", "fit"].map(|name| folder.join(name));
     for folder in [&results, &example] {
-        if folder.exists() {
-            fs::remove_dir_all(folder)
-                .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-        }
+        remove_folder(folder)?;
     }
     run(Command::new(tool()?).args(["fit", "--example"]).arg(&example))?;
     for (arguments, page) in PAGES {

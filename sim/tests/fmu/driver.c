@@ -300,7 +300,7 @@ static void model_exchange(void)
     CHECK(!event && !end);
     IS_ERROR(set(c, FMU_PARAMETER + 5, 91.0));
     IS_OK(set(c, FMU_INPUT, 1.0));
-    /* A wheel that has turned for hours asks for an event, and is wrapped there; beyond twice that its sine is refused. */
+    /* A wheel that has turned for hours needs an event, and is wrapped there; beyond twice that its sine is refused. */
     x[13] = 1.6e7;
     IS_OK(fmi2SetContinuousStates(c, x, FMU_STATES));
     IS_OK(fmi2CompletedIntegratorStep(c, fmi2True, &event, &end));

@@ -8,6 +8,7 @@ use std::time::Instant;
 use clap::Args;
 
 use crate::wheel;
+use xtask::files::remove_folder;
 use xtask::run::{TOOL, output, root, run, target, tool};
 use xtask::say;
 use xtask::skip::{all_required, skip};
@@ -36,10 +37,7 @@ pub(crate) fn python(options: &Options) -> Result<(), String> {
     let folder = target()?.join("python");
     let Some(python) = environment(&folder.join("environment"))? else { return Ok(()) };
     let wheels = folder.join("wheels");
-    if wheels.exists() {
-        std::fs::remove_dir_all(&wheels)
-            .map_err(|error| format!("cannot remove {}: {error}", wheels.display()))?;
-    }
+    remove_folder(&wheels)?;
     let mut build = Command::new(python.with_file_name("maturin"));
     build.args(["build", "--locked", "--manifest-path", "python/Cargo.toml"]);
     build.args(wheel::STORED).arg("--out").arg(&wheels);

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use xtask::files::remove_folder;
+
 /// A heading of a page with the text below it, for the search.
 pub(crate) struct Section {
     /// The address of the heading in its page; empty at the page's beginning.
@@ -71,16 +73,16 @@ impl Folder {
         let mut partial = out.as_os_str().to_owned();
         partial.push(".partial");
         let partial = Path::new(&partial);
-        remove(partial)?;
+        remove_folder(partial)?;
         let written =
             self.files.iter().try_for_each(|(path, bytes)| put(&partial.join(path), bytes));
         let written =
             written.and_then(|()| rust.map_or(Ok(()), |rust| copy(rust, &partial.join("rust"))));
         if let Err(error) = written {
-            remove(partial)?;
+            remove_folder(partial)?;
             return Err(error);
         }
-        remove(out)?;
+        remove_folder(out)?;
         fs::rename(partial, out).map_err(|error| format!("cannot write {}: {error}", out.display()))
     }
 }
@@ -120,14 +122,6 @@ fn copy(from: &Path, into: &Path) -> Result<(), String> {
         put(&into.join(below), &bytes.map_err(|error| format!("cannot read {path}: {error}"))?)?;
     }
     Ok(())
-}
-
-fn remove(folder: &Path) -> Result<(), String> {
-    if !folder.exists() {
-        return Ok(());
-    }
-    fs::remove_dir_all(folder)
-        .map_err(|error| format!("cannot remove {}: {error}", folder.display()))
 }
 
 #[cfg(test)]

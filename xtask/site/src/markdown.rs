@@ -16,6 +16,12 @@ pub(crate) struct Heading {
     pub(crate) title: String,
 }
 
+impl Heading {
+    pub(crate) fn new(level: usize, address: &str, title: &str) -> Self {
+        Self { level, address: address.to_owned(), title: title.to_owned() }
+    }
+}
+
 /// A text as HTML.
 #[derive(Default)]
 pub(crate) struct Rendered {

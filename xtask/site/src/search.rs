@@ -1,5 +1,5 @@
 //! What the search looks through: every section of every page, as a script that sets one variable. A file, not an
-//! answer of a server: pages of a disk may not ask for one.
+//! answer of a server: pages of a disk may not request one.
 
 use serde::Serialize;
 

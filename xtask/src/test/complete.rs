@@ -9,7 +9,15 @@ use std::process::Command;
 use xtask::run::{output, program, root};
 
 use super::description;
-use super::suites::{How, SUITES, Suite, UNTESTED};
+use super::suites::{How, SUITES, Suite};
+
+/// Folders of sources that no test can see broken, each with its reason.
+const UNTESTED: &[(&str, &str)] = &[
+    ("tests/benches", "benchmarks: timed, not asserted"),
+    ("sim/benches", "benchmarks: timed, not asserted"),
+    ("tests/measure", "`cargo xtask bench`: timed, not asserted"),
+    ("tests/peers", "scripts of `cargo xtask bench` with other engines"),
+];
 
 /// Package and target of every test program that cargo knows of.
 fn targets() -> BTreeSet<(String, String)> {

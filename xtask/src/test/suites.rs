@@ -359,15 +359,6 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
 ];
 
-/// Folders of sources that no test can see broken, each with its reason.
-#[cfg(test)]
-pub(crate) const UNTESTED: &[(&str, &str)] = &[
-    ("tests/benches", "benchmarks: timed, not asserted"),
-    ("sim/benches", "benchmarks: timed, not asserted"),
-    ("tests/measure", "`cargo xtask bench`: timed, not asserted"),
-    ("tests/peers", "scripts of `cargo xtask bench` with other engines"),
-];
-
 /// The packages whose library has tests; their documentation has examples.
 pub(crate) fn libraries() -> impl Iterator<Item = &'static str> {
     SUITES.iter().filter_map(|suite| match suite.how {

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::archive::Package;
 use super::build::Stage;
+use xtask::files::remove_folder;
 use xtask::run::run_there;
 
 /// The solver, and what derives and emits a kind in a crate of one's own.
@@ -13,10 +14,7 @@ const CRATES: [&str; 2] = ["precess-dynamics", "precess-codegen"];
 pub(super) fn packages(stage: &Stage) -> Result<Vec<Package>, String> {
     let folder = stage.target.join("package");
     // Packages of another version would be taken for these.
-    if folder.exists() {
-        fs::remove_dir_all(&folder)
-            .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-    }
+    remove_folder(&folder)?;
     let mut command = stage.cargo()?;
     // Their tests are those of the repository.
     command.args(["package", "--quiet", "--no-verify", "--allow-dirty", "--locked"]);

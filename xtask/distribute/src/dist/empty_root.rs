@@ -10,6 +10,7 @@ use std::time::Instant;
 use super::archive::Package;
 use super::first::nth_block;
 use super::tool;
+use xtask::files::remove_folder;
 use xtask::run::{is_there, root, run_there};
 use xtask::say;
 use xtask::skip::skip;
@@ -34,7 +35,7 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
     if !place.join("etc/debian_version").exists() {
         // Whole or not there: one that was interrupted is made anew.
         let partial = folder.join("empty-root.partial");
-        remove(&partial)?;
+        remove_folder(&partial)?;
         let mut debootstrap = Command::new("debootstrap");
         debootstrap.args(["--variant=minbase", INCLUDE, SUITE]).arg(&partial).arg(MIRROR);
         run_there(&mut debootstrap)?;
@@ -48,7 +49,7 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
         }
     }
     let work = place.join("work");
-    remove(&work)?;
+    remove_folder(&work)?;
     copy_all(&root().join("scenarios"), &work.join("scenarios"))?;
     for package in packages {
         let name = &package.name;
@@ -83,14 +84,6 @@ pub(super) fn examples(packages: &[Package], folder: &Path) -> Result<(), String
         );
     }
     Ok(())
-}
-
-fn remove(folder: &Path) -> Result<(), String> {
-    if !folder.exists() {
-        return Ok(());
-    }
-    fs::remove_dir_all(folder)
-        .map_err(|error| format!("cannot remove {}: {error}", folder.display()))
 }
 
 fn copy_all(from: &Path, into: &Path) -> Result<(), String> {

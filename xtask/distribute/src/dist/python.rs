@@ -10,6 +10,7 @@ use super::first::nth_block;
 use super::licences;
 use super::sources::lay_out;
 use crate::wheel;
+use xtask::files::remove_folder;
 use xtask::run::{output, root, run_there};
 use xtask::say;
 use xtask::skip::skip;
@@ -33,10 +34,7 @@ pub(super) fn packages(stage: &Stage, folder: &Path) -> Result<Vec<Package>, Str
     };
     let maturin = python.with_file_name("maturin");
     let out = folder.join("python-packages");
-    if out.exists() {
-        fs::remove_dir_all(&out)
-            .map_err(|error| format!("cannot remove {}: {error}", out.display()))?;
-    }
+    remove_folder(&out)?;
     // What `build` remaps is there only after this.
     let fetched = ["fetch", "--locked", "--manifest-path", MANIFEST];
     run_there(stage.cargo()?.args(fetched))?;

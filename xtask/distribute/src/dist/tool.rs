@@ -24,7 +24,7 @@ const COMPLETIONS: [(&str, &str); 3] = [
     ("zsh", "share/zsh/site-functions/_precess"),
 ];
 
-/// The archive. Its name has the machine in it, as `cargo binstall` asks for it.
+/// The archive. Its name has the machine in it, as `cargo binstall` wants it.
 pub(super) fn package(stage: &Stage, version: &str) -> Result<Package, String> {
     run_there(stage.cargo()?.args(["fetch", "--locked"]))?;
     let mut cargo = stage.cargo()?;

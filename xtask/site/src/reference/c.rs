@@ -24,7 +24,7 @@ pub(super) fn pages(root: &Path, add: &mut Add<'_>) -> Result<(), String> {
     let mut contents = Rendered {
         body: "<h1 id=\"c\">C</h1>\n<p>The library for flight software: its headers.</p>\n<ul>\n"
             .to_owned(),
-        headings: vec![heading(1, "c", "C")],
+        headings: vec![Heading::new(1, "c", "C")],
         sections: Vec::new(),
     };
     for (header, about) in HEADERS {
@@ -41,15 +41,11 @@ pub(super) fn pages(root: &Path, add: &mut Add<'_>) -> Result<(), String> {
     add("c/index.html", FOLDER, "C", contents)
 }
 
-fn heading(level: usize, address: &str, title: &str) -> Heading {
-    Heading { level, address: address.to_owned(), title: title.to_owned() }
-}
-
 /// A header as a page.
 fn rendered(header: &str, text: &str) -> Rendered {
     let mut rendered = Rendered {
         body: format!("<h1>{header}</h1>\n"),
-        headings: vec![heading(1, "", header)],
+        headings: vec![Heading::new(1, "", header)],
         sections: Vec::new(),
     };
     for chunk in chunks(text) {
@@ -58,7 +54,7 @@ fn rendered(header: &str, text: &str) -> Rendered {
         for name in &names {
             let kind = if code.contains(&format!("{name}(")) { "()" } else { "" };
             put!(rendered.body, "<h2 id=\"{name}\"><code>{name}{kind}</code></h2>\n");
-            rendered.headings.push(heading(2, name, name));
+            rendered.headings.push(Heading::new(2, name, name));
         }
         for paragraph in &comment {
             put!(rendered.body, "<p>{}</p>\n", escaped(paragraph));

@@ -38,7 +38,7 @@ struct Item {
 pub(super) fn pages(root: &Path, add: &mut Add<'_>) -> Result<(), String> {
     let mut contents = Rendered {
         body: "<h1 id=\"python\">Python</h1>\n".to_owned(),
-        headings: vec![heading(1, "python", "Python")],
+        headings: vec![Heading::new(1, "python", "Python")],
         sections: Vec::new(),
     };
     if !is_there("python3") {
@@ -68,15 +68,11 @@ pub(super) fn pages(root: &Path, add: &mut Add<'_>) -> Result<(), String> {
     add("python/index.html", SOURCE, "Python", contents)
 }
 
-fn heading(level: usize, address: &str, title: &str) -> Heading {
-    Heading { level, address: address.to_owned(), title: title.to_owned() }
-}
-
 fn page(module: &Module) -> Rendered {
     let name = &module.name;
     let mut rendered = Rendered {
         body: format!("<h1 id=\"{name}\"><code>{name}</code></h1>\n{}", docstring(&module.doc)),
-        headings: vec![heading(1, name, name)],
+        headings: vec![Heading::new(1, name, name)],
         sections: vec![section(name, &module.doc)],
     };
     for item in &module.items {
@@ -98,7 +94,7 @@ fn put(item: &Item, of: &str, level: usize, rendered: &mut Rendered) {
         escaped(&item.signature),
         docstring(&item.doc)
     );
-    rendered.headings.push(heading(level, &name, &name));
+    rendered.headings.push(Heading::new(level, &name, &name));
     rendered.sections.push(section(&name, &item.doc));
     for member in &item.members {
         put(member, &format!("{name}."), 3, rendered);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
+use xtask::files::remove_folder;
 use xtask::run::{program, run, target};
 
 use crate::folder::Section;
@@ -35,11 +36,8 @@ const CRATES: [(&str, &str, &str); 5] = [
 /// Documents the crates; returns the folder.
 pub(crate) fn documented() -> Result<PathBuf, String> {
     let folder = target()?.join("doc");
-    if folder.exists() {
-        // Crates that were documented for another purpose would be listed.
-        std::fs::remove_dir_all(&folder)
-            .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-    }
+    // Crates that were documented for another purpose would be listed.
+    remove_folder(&folder)?;
     let mut cargo = Command::new(program());
     // A link that leads nowhere is an error here too.
     cargo.env("RUSTDOCFLAGS", "--deny warnings");
@@ -67,7 +65,7 @@ pub(crate) fn contents(with_rust: bool) -> Rendered {
     } else {
         "<p>This copy was made without them: <code>cargo xtask site</code> without <code>--quick</code> has them.</p>\n"
     });
-    let heading = Heading { level: 1, address: "rust".to_owned(), title: "Rust".to_owned() };
+    let heading = Heading::new(1, "rust", "Rust");
     let section = Section { address: "rust".to_owned(), title: "Rust".to_owned(), text };
     Rendered { body, headings: vec![heading], sections: vec![section] }
 }
