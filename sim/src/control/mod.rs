@@ -8,13 +8,15 @@
 mod error;
 mod identity;
 mod process;
+mod protocol;
 
 use nalgebra::Vector3;
 use precess_control::{Law, Sample};
 
 pub use error::ControllerError;
 pub(crate) use identity::program_digests;
-pub use process::{Greeting, ProgramController};
+pub use process::ProgramController;
+pub use protocol::Greeting;
 
 /// What a controller reads at a sample.
 #[derive(Clone, Copy, Debug)]

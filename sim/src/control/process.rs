@@ -1,24 +1,10 @@
-//! [`ProgramController`]: a controller that is a program of its own, in lockstep over pipes.
-//!
-//! One line of JSON each way for a sample. Numbers are written in the fewest digits that read back the same, so nothing is
-//! lost on the way; what the program writes is read likewise.
-//!
-//! ```text
-//! to the program, at its start:
-//! {"protocol":1,"name":"aocs","rate":10.0,"offset":0.0,"delay":0.0,
-//!  "joints":[{"name":"rw1.wheel","commanded":"acceleration"}],"inertia":[[..],[..],[..]]}
-//! at each sample:
-//! {"time":0.1,"attitude":[q0,q1,q2,q3],"omega":[..],"momentum":[..],"external":[..],"elapsed":0.1,"limited":false,
-//!  "reference":{"attitude":[..],"omega":[..],"omega_dot":[..]},"joints":[[coordinate,rate],..]}
-//! from the program, for each sample:
-//! {"torque":[x,y,z]}    or    {"motors":[u,..]}    or    {"error":"why"}
-//! ```
+//! [`ProgramController`]: a controller that is a program of its own, in lockstep over pipes by the lines of
+//! [`protocol`](super::protocol).
 //!
 //! The time limit of a sample is that of writing its line and of reading the answer. A line that nothing has asked for is an
 //! error: it would shift every later answer. At the end of a run its standard input is closed; it then has the time limit of
 //! a sample to end, and is ended otherwise; what it still writes is not kept.
 
-use std::fmt::Write as _;
 use std::io::{self, BufRead as _, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command as Program, Stdio};
@@ -26,14 +12,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::Quaternion;
-use serde_json::Value;
-
+use super::protocol::{Greeting, answer, because, line_of, shown};
 use super::{Command, Controller, ControllerError, ControllerSample};
 
-/// The number of the protocol.
-const PROTOCOL: u32 = 1;
 /// Longest line that a program may answer, bytes.
 const LINE_MAX: u64 = 1 << 20;
 /// How often it is looked whether a program has ended.
@@ -48,6 +29,8 @@ pub struct ProgramController {
     /// Lines to write; none once its standard input is to be closed.
     lines: Option<SyncSender<String>>,
     events: Receiver<Event>,
+    /// That it writes no more, where that came with the answer to a sample: the next one finds it.
+    last: Option<Event>,
     limit: Duration,
 }
 
@@ -64,19 +47,6 @@ enum Event {
     NotRead(io::Error),
     /// It writes no more.
     Ended,
-}
-
-/// What a program receives at its start.
-#[derive(Clone, Copy, Debug)]
-pub struct Greeting<'a> {
-    /// Name of the controller.
-    pub name: &'a str,
-    /// Samples per second, Hz; time of the first; and delay, s.
-    pub times: [f64; 3],
-    /// Joints that it commands: `rw1.wheel`, and whether its rate, otherwise its acceleration, is what laws command.
-    pub joints: &'a [(String, bool)],
-    /// Inertia of the spacecraft about its centre of mass at the start, B, kg m².
-    pub inertia: Matrix3<f64>,
 }
 
 impl ProgramController {
@@ -113,14 +83,14 @@ impl ProgramController {
             thread::spawn(move || read_lines(output, &to));
         }
         let limit = Duration::try_from_secs_f64(limit).unwrap_or(Duration::MAX);
-        let mut controller = Self { child, lines: Some(lines), events, limit };
+        let mut controller = Self { child, lines: Some(lines), events, last: None, limit };
         controller.exchange(greeting.line(), false)?;
         Ok(controller)
     }
 
     /// Writes a line; returns the answer, or nothing where none is awaited.
     fn exchange(&mut self, line: String, answers: bool) -> Result<String, ControllerError> {
-        if let Ok(event) = self.events.try_recv() {
+        if let Some(event) = self.last.take().or_else(|| self.events.try_recv().ok()) {
             return Err(self.failed(event));
         }
         let begun = Instant::now();
@@ -135,6 +105,10 @@ impl ProgramController {
                 Ok(Event::Written) => written = true,
                 Ok(Event::Line(line, more)) if answers && answer.is_none() && more.is_empty() => {
                     answer = Some(line);
+                }
+                // The threads of both pipes report in any order: it may have answered and ended before its sample counts as written.
+                Ok(event @ (Event::Ended | Event::NotRead(_))) if answer.is_some() => {
+                    self.last = Some(event);
                 }
                 Ok(event) => return Err(self.failed(event)),
                 Err(RecvTimeoutError::Timeout) => {
@@ -237,97 +211,12 @@ fn read_lines(from: impl Read, to: &SyncSender<Event>) {
     }
 }
 
-impl Greeting<'_> {
-    fn line(&self) -> String {
-        let [rate, offset, delay] = self.times;
-        let joints: Vec<_> = self
-            .joints
-            .iter()
-            .map(|(name, by_rate)| {
-                let commanded = if *by_rate { "rate" } else { "acceleration" };
-                format!("{{\"name\":{},\"commanded\":\"{commanded}\"}}", Value::from(name.as_str()))
-            })
-            .collect();
-        let rows: Vec<_> =
-            (0..3).map(|k| numbers(&[0, 1, 2].map(|j| self.inertia[(k, j)]))).collect();
-        format!(
-            "{{\"protocol\":{PROTOCOL},\"name\":{},\"rate\":{rate:?},\"offset\":{offset:?},\"delay\":{delay:?},\
-             \"joints\":[{}],\"inertia\":[{}]}}\n",
-            Value::from(self.name),
-            joints.join(","),
-            rows.join(",")
-        )
-    }
-}
-
-/// The line of a sample.
-fn line_of(sample: &ControllerSample<'_>) -> String {
-    let of = &sample.of;
-    let attitude = |q: &Quaternion| numbers(&[q.q0, q.q1, q.q2, q.q3]);
-    let vector = |v: &Vector3<f64>| numbers(v.as_slice());
-    let joints: Vec<_> = sample.joints.iter().map(|joint| numbers(joint)).collect();
-    let mut line =
-        format!("{{\"time\":{:?},\"attitude\":{}", sample.time, attitude(&of.motion.attitude));
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        line,
-        ",\"omega\":{},\"momentum\":{},\"external\":{},\"elapsed\":{:?},\"limited\":{},\
-         \"reference\":{{\"attitude\":{},\"omega\":{},\"omega_dot\":{}}},\"joints\":[{}]}}",
-        vector(&of.motion.omega),
-        vector(&of.momentum),
-        vector(&of.external),
-        of.elapsed,
-        of.limited,
-        attitude(&of.reference.attitude),
-        vector(&of.reference.omega),
-        vector(&of.reference.omega_dot),
-        joints.join(",")
-    );
-    line
-}
-
-fn numbers(of: &[f64]) -> String {
-    let each: Vec<_> = of.iter().map(|number| format!("{number:?}")).collect();
-    format!("[{}]", each.join(","))
-}
-
-/// What a program answers.
-fn answer(line: &str) -> Result<Command, ControllerError> {
-    let wrong = || {
-        let shown = shown(line);
-        because(&format!("its program answers no `torque`, `motors` or `error`: {shown}"))
-    };
-    let Ok(Value::Object(map)) = serde_json::from_str::<Value>(line) else { return Err(wrong()) };
-    let list = |value: &Value| {
-        let list = value.as_array()?;
-        list.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>()
-    };
-    if let Some(Value::String(why)) = map.get("error") {
-        return Err(because(&format!("its program says: {why}")));
-    }
-    match (map.get("torque").map(list), map.get("motors").map(list)) {
-        (Some(Some(torque)), None) => {
-            let torque = <[f64; 3]>::try_from(torque).map_err(|_| wrong())?;
-            Ok(Command::Torque(Vector3::from(torque)))
-        }
-        (None, Some(Some(motors))) => Ok(Command::Motors(motors)),
-        _ => Err(wrong()),
-    }
-}
-
-/// The start of the first line of what a program writes.
-fn shown(of: &str) -> String {
-    of.lines().next().unwrap_or_default().chars().take(100).collect()
-}
-
-fn because(reason: &str) -> ControllerError {
-    ControllerError::Program { reason: reason.to_owned() }
-}
-
 #[cfg(all(test, unix))]
 mod tests {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicU64, Ordering};
+
+    use nalgebra::Matrix3;
 
     use super::*;
 
@@ -376,5 +265,31 @@ mod tests {
         let error = started.err().expect("it does not read").to_string();
         assert_eq!(error, "its program does not read its standard input within 0.2 s");
         assert!(begun.elapsed() < Duration::from_secs(15), "{:?}", begun.elapsed());
+    }
+
+    /// The threads of the pipes report in any order: the end of a program before that its sample is written.
+    #[test]
+    fn an_answer_before_the_end_is_an_answer() {
+        let child = Program::new("sh").args(["-c", "exit 3"]).spawn().expect("a program");
+        let (to, events) = sync_channel(EVENTS);
+        let (lines, to_write) = sync_channel::<String>(EVENTS);
+        let limit = Duration::from_secs(60);
+        let mut controller =
+            ProgramController { child, lines: Some(lines), events, last: None, limit };
+        let reports = thread::spawn(move || {
+            to_write.recv().expect("a sample");
+            for event in [
+                Event::Line("{\"torque\":[1,0,0]}\n".to_owned(), String::new()),
+                Event::Ended,
+                Event::Written,
+            ] {
+                to.send(event).expect("a controller");
+            }
+        });
+        let answer = controller.exchange("{}\n".to_owned(), true).expect("an answer");
+        assert_eq!(answer, "{\"torque\":[1,0,0]}\n");
+        reports.join().expect("reports");
+        let error = controller.exchange("{}\n".to_owned(), true).expect_err("it has ended");
+        assert!(error.to_string().contains("has ended (exit status: 3)"), "{error}");
     }
 }
