@@ -43,6 +43,9 @@ struct precess_batch {
     const double *inputs;
     /** The states; after a run those at its end, of a state that failed the last one before. */
     double *states;
+    /** The first samples, where these are not to be the states at the start, or null: states as they
+     * were given, before their attitudes were normalised. */
+    const double *start;
     /** Written by the kernel `accelerations`: of B along the axes of B, of the hub, of the joints. */
     double *accelerations;
     /** What samples are reduced to, each of the size of `states`, or null. */
