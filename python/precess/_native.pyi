@@ -197,9 +197,12 @@ class NativeBatch:
         parameters: tuple[Sequence[str], _Array] | None = None,
         scenarios: Sequence[NativeScenario] | None = None,
         lanes: bool = True,
+        cuda: bool = False,
     ) -> NativeBatch: ...
     @property
     def is_laned(self) -> bool: ...
+    @property
+    def fallback(self) -> str | None: ...
     def accelerations(
         self,
         y: _Array,

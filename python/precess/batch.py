@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._backend import is_cuda, warn_of
 from ._batch_arguments import is_of_key, lists, table_of, threads_of, written
 from ._wanted import finite, function, instance, names, number, whole
 from .errors import ParameterError, ScenarioError
@@ -85,6 +86,12 @@ class Batch:
         What differs: ``{"hub.m_b": array(n), "wheel1.d": array(n)}`` by the names of
         :attr:`Spacecraft.parameters`, or by keys of the scenario, ``{"device.wheel1.wheel.mass":
         array(n)}``, which are read for each element and take longer to prepare.
+    in_lanes : bool, optional
+        Whether several states are evaluated at a time within a core, where lanes support the devices.
+    backend : {"cpu", "cuda"}, optional
+        Where :meth:`accelerations` and :meth:`run` compute: on the processor, or on a GPU of NVIDIA, with the same
+        bits. Without a GPU, its driver, NVRTC or ``precess-bake`` the processor does, and a ``RuntimeWarning``
+        says why. Everything else is computed on the processor.
 
     Numbers do not depend on threads or on the other elements: they have the bits of
     :meth:`Spacecraft.accelerations` and :meth:`Spacecraft.step`. Devices of one kind on a rigid hub are
@@ -96,7 +103,10 @@ class Batch:
         A name that is neither a parameter of the spacecraft nor a key of the scenario, with the nearest
         ones. A value that is wrong is an error of its element, in :attr:`errors`.
     ValueError
-        Parameters of different lengths.
+        Parameters of different lengths, another backend.
+    UnsupportedError
+        A flexible structure, a platform, a panel that carries devices or a lumped imbalance on a GPU; a GPU in a
+        build without the feature ``cuda``.
 
     Attributes
     ----------
@@ -109,8 +119,11 @@ class Batch:
         spacecraft: Spacecraft | Scenario,
         parameters: Mapping[str, Array | Sequence[Any]] | None = None,
         in_lanes: bool = True,
+        backend: str = "cpu",
     ) -> None:
         from .scenario import Scenario
+
+        cuda = is_cuda(backend)
 
         if isinstance(spacecraft, Scenario):
             spacecraft = spacecraft.spacecraft
@@ -132,7 +145,9 @@ class Batch:
             columns = [self._column(name, given[name]) for name in given if name in known]
             rows = ([name for name in given if name in known], np.column_stack(columns))
         scenarios = self._scenarios(keys) if keys else None
-        self._native = _native.NativeBatch(self._spacecraft._native, rows, scenarios, bool(in_lanes))
+        native = _native.NativeBatch
+        self._native = native(self._spacecraft._native, rows, scenarios, bool(in_lanes), cuda)
+        self._fallback = warn_of(self._native.fallback, None)
         # Of keys also before a call: no state is needed to know that they are wrong.
         self.errors = dict(self._rejected)
 
@@ -383,6 +398,7 @@ class Batch:
 
     def _note(self, failures: list[tuple[int, Any]], rows: list[Array]) -> None:
         self.errors = dict(failures) | self._rejected
+        self._fallback = warn_of(self._native.fallback, self._fallback)
         for index in self._rejected:
             for array in rows:
                 array[index] = np.nan

@@ -99,7 +99,10 @@ def calls(text: str) -> Calls:
         "Accelerations.to_array": (found.to_array, {}),
         "Accelerations.__getitem__": (found.__getitem__, {"name": found._names[0]}),
         "AmplitudeSpectrum.strongest": (lines.strongest, {"count": 2}),
-        "Batch.__init__": (precess.Batch, {"spacecraft": craft, "parameters": None, "in_lanes": True}),
+        "Batch.__init__": (
+            precess.Batch,
+            {"spacecraft": craft, "parameters": None, "in_lanes": True, "backend": "cpu"},
+        ),
         "Batch.accelerations": (
             batch.accelerations,
             {"states": several, "inputs": inputs, "threads": 1, "progress": None},

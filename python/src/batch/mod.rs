@@ -6,6 +6,8 @@
 mod arrays;
 mod derivatives;
 mod engine;
+#[cfg(feature = "cuda")]
+mod gpu;
 mod reduce;
 mod rows;
 mod work;
@@ -31,8 +33,8 @@ use arrays::{contiguous, direction, writable};
 pub(crate) use derivatives::{Linearized, Sizes};
 use engine::{Engine, Failure};
 use reduce::{BatchHistory, Reduction};
-use rows::failed_rows;
 pub(crate) use rows::{BatchRows, InputRows};
+use rows::{Failed, failed_rows};
 use work::{Progress, share, watched};
 
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
@@ -54,13 +56,16 @@ type LinearizedFacts<'py> = (
 #[pyclass(frozen, module = "precess._native")]
 pub(crate) struct NativeBatch {
     pub(crate) rows: Arc<BatchRows>,
+    /// On a GPU, where that is wanted.
+    #[cfg(feature = "cuda")]
+    gpu: Option<gpu::GpuRows>,
 }
 
 #[pymethods]
 impl NativeBatch {
     /// `parameters`: names, and a row for each element. `scenarios`: one for each element.
     #[new]
-    #[pyo3(signature = (evaluator, parameters=None, scenarios=None, lanes=true))]
+    #[pyo3(signature = (evaluator, parameters=None, scenarios=None, lanes=true, cuda=false))]
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn new(
         py: Python<'_>,
@@ -68,7 +73,15 @@ impl NativeBatch {
         parameters: Option<(Vec<String>, PyReadonlyArray2<'_, f64>)>,
         scenarios: Option<Vec<Py<NativeScenario>>>,
         lanes: bool,
+        cuda: bool,
     ) -> PyResult<Self> {
+        #[cfg(not(feature = "cuda"))]
+        if cuda {
+            return Err(errors::class::UnsupportedError::new_err(
+                "backend \"cuda\" is not part of this build: it has not the feature `cuda`; build the wheel with `maturin \
+                 build --release --features cuda`",
+            ));
+        }
         let evaluator = evaluator.evaluator.clone();
         let each = scenarios.is_some() || parameters.is_some();
         let mut elements: Vec<Arc<Scenario>> = match &scenarios {
@@ -109,6 +122,8 @@ impl NativeBatch {
             );
             return Err(errors::class::UnsupportedError::new_err(message));
         }
+        #[cfg(feature = "cuda")]
+        let gpu = if cuda { Some(gpu::GpuRows::new(&evaluator, &elements)?) } else { None };
         let count = each.then_some(elements.len());
         let engine = py.detach(|| {
             if each { Engine::each(&elements, lanes) } else { Engine::same(&evaluator, lanes) }
@@ -116,13 +131,30 @@ impl NativeBatch {
         let scenarios = if each { elements } else { Vec::new() };
         let (each, names) = (OnceLock::new(), Mutex::new(None));
         let rows = BatchRows { evaluator, engine, count, scenarios, each, names };
-        Ok(Self { rows: Arc::new(rows) })
+        Ok(Self {
+            rows: Arc::new(rows),
+            #[cfg(feature = "cuda")]
+            gpu,
+        })
     }
 
     /// Whether it is evaluated in lanes.
     #[getter]
     fn is_laned(&self) -> bool {
         self.rows.engine.is_laned()
+    }
+
+    /// Why the processor computes what a GPU was wanted for; none where no GPU was, or one computes.
+    #[getter]
+    #[cfg_attr(
+        not(feature = "cuda"),
+        expect(clippy::unused_self, reason = "a property of Python, with the feature `cuda`")
+    )]
+    fn fallback(&self) -> Option<String> {
+        #[cfg(feature = "cuda")]
+        return self.gpu.as_ref()?.fallback();
+        #[cfg(not(feature = "cuda"))]
+        None
     }
 
     /// Accelerations, one row each; failures.
@@ -142,6 +174,10 @@ impl NativeBatch {
         let mut out = vec![f64::NAN; count * width];
         let given = (y.as_slice(), &acting);
         let failures = watched(py, Progress::new(progress), |look| {
+            #[cfg(feature = "cuda")]
+            if let Some(gpu) = self.gpu.as_ref().filter(|gpu| gpu.is_there()) {
+                return gpu.accelerations(given, &mut out, look);
+            }
             self.rows.accelerations(given, &mut out, threads, look)
         })?;
         let failures = exceptions(py, failures)?;
@@ -168,6 +204,14 @@ impl NativeBatch {
     ) -> PyResult<RunFacts<'py>> {
         let BatchArguments { mut y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
         let every = every.max(1);
+        #[cfg(feature = "cuda")]
+        if let Some(gpu) = self.gpu.as_ref().filter(|gpu| gpu.is_there()) {
+            let settings = gpu::settings(every, history, &reductions)?;
+            let (kept, reduced, failures) = watched(py, Progress::new(progress), |look| {
+                gpu.run((&mut y, &acting), (dt, steps), &settings, look)
+            })?;
+            return run_facts(py, (y, kept, reduced), [count, steps / every + 1, size], failures);
+        }
         let samples = if history { steps / every + 1 } else { 0 };
         let reductions: PyResult<Vec<Reduction>> =
             reductions.iter().map(|name| Reduction::of_name(name)).collect();
@@ -186,15 +230,8 @@ impl NativeBatch {
         };
         let failures =
             watched(py, Progress::new(progress), |look| share(threads, look, jobs, work))?;
-        let failures = exceptions(py, failures)?;
         let (histories, reduced) = kept.into_parts();
-        let histories = match histories {
-            Some(of) => Some(of.into_pyarray(py).reshape([count, samples, size])?),
-            None => None,
-        };
-        let reduced: PyResult<Vec<_>> =
-            reduced.into_iter().map(|of| of.into_pyarray(py).reshape([count, size])).collect();
-        Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
+        run_facts(py, (y, histories, reduced), [count, samples, size], failures)
     }
 
     /// Derivatives of the accelerations of each state by states and inputs, with the names of rows and columns; into the
@@ -357,6 +394,23 @@ impl NativeBatch {
         }
         Ok(InputRows { base, rows: u.as_array().iter().copied().collect(), width })
     }
+}
+
+/// Final states, samples and reductions as arrays; failures as exceptions.
+fn run_facts(
+    py: Python<'_>,
+    (y, histories, reduced): (Vec<f64>, Option<Vec<f64>>, Vec<Vec<f64>>),
+    [count, samples, size]: [usize; 3],
+    failures: Failed,
+) -> PyResult<RunFacts<'_>> {
+    let failures = exceptions(py, failures)?;
+    let histories = match histories {
+        Some(of) => Some(of.into_pyarray(py).reshape([count, samples, size])?),
+        None => None,
+    };
+    let reduced: PyResult<Vec<_>> =
+        reduced.into_iter().map(|of| of.into_pyarray(py).reshape([count, size])).collect();
+    Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
 }
 
 /// Failures in the order of the elements, as exceptions.
