@@ -162,6 +162,10 @@ fn every_command_shows_an_example() {
     }
     assert!(text(&precess(&["kinds"]).stdout).contains("dgvscmg"));
     assert!(text(&precess(&["kinds", "sgcmg"]).stdout).contains("gimbal"));
+    let kinds: serde_json::Value =
+        serde_json::from_slice(&precess(&["kinds", "--json"]).stdout).expect("JSON");
+    assert_eq!(kinds.as_object().map(serde_json::Map::len), Some(14));
+    assert_eq!(kinds["vscmg"], serde_json::json!(["gimbal", "wheel"]));
     let schema: serde_json::Value =
         serde_json::from_slice(&precess(&["schema"]).stdout).expect("JSON");
     assert_eq!(schema["properties"]["format"]["const"], 1);

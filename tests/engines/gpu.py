@@ -31,14 +31,6 @@ except ModuleNotFoundError as error:
     print(error, file=sys.stderr)
     sys.exit(MISSING)
 
-# Kinds, and how many bodies each has.
-BODIES = {
-    "balanced_dgcmg": 3, "balanced_dgvscmg": 3, "balanced_reaction_wheel": 1, "balanced_sgcmg": 2,
-    "balanced_vscmg": 2, "dgcmg": 3, "dgvscmg": 3, "flexible_reaction_wheel": 6, "flexible_vscmg": 7,
-    "hinged_panel": 1, "reaction_wheel": 1, "sgcmg": 2, "slosh_mass": 1, "vscmg": 2,
-}  # fmt: skip
-# A set of one device of each kind, and one of four devices.
-SETS = {f"one_{kind}": [kind] for kind in BODIES} | {"four_dgvscmg": ["dgvscmg"] * 4}
 FLAGS = ["--gpu-architecture=compute_90", "--fmad=false", "--device-as-default-execution-space"]
 
 BODY = """[[device.body]]
@@ -50,13 +42,25 @@ inertia = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 UNIT = "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]"
 
 
-def description(name, kinds):
+def cargo(package, *words, **more):
+    """What a program of the workspace prints."""
+    command = ["cargo", "run", "-q", "-p", package, "--bin", package, "--", *words]
+    return subprocess.run(command, text=True, check=True, cwd=ROOT, stdout=subprocess.PIPE, **more).stdout
+
+
+def bodies():
+    """How many bodies each kind has."""
+    kinds = json.loads(cargo("precess", "kinds", "--json"))
+    return {kind: len(of) for kind, of in sorted(kinds.items())}
+
+
+def description(name, kinds, count):
     """Of a set; the numbers are not used."""
     lines = [f'format = 1\nname = "{name}"\n[hub]\nmass = 1.0\ncentre_of_mass = [0.0, 0.0, 0.0]']
     lines.append(f"inertia = {UNIT}")
     for k, kind in enumerate(kinds):
         lines.append(f'[[device]]\nname = "device{k}"\nkind = "{kind}"\nmount = {UNIT}')
-        lines.append(BODY * BODIES[kind])
+        lines.append(BODY * count[kind])
     return "\n".join(lines)
 
 
@@ -117,18 +121,14 @@ def resources(name, ptx, folder):
 def compiled():
     library = ctypes.CDLL(str(package(nvrtc) / "lib" / "libnvrtc.so.12"))
     found = {}
+    count = bodies()
+    # A set of one device of each kind, and one of four devices.
+    sets = {f"one_{kind}": [kind] for kind in count} | {"four_dgvscmg": ["dgvscmg"] * 4}
     with tempfile.TemporaryDirectory() as temporary:
-        for name, kinds in SETS.items():
+        for name, kinds in sets.items():
             folder = Path(temporary) / name
-            command = ["cargo", "run", "-q", "-p", "precess-bake", "--", "--general", "--batch"]
-            subprocess.run(
-                [*command, "--out", folder],
-                input=description(name, kinds),
-                text=True,
-                check=True,
-                cwd=ROOT,
-                stdout=subprocess.DEVNULL,
-            )
+            words = ["--general", "--batch", "--out", folder]
+            cargo("precess-bake", *words, input=description(name, kinds, count))
             ptx = ptx_of(library, folder, name)
             fused = re.findall(r"\b(?:fma|mad)\.\S*f(?:32|64)", ptx)
             if fused:

@@ -28,13 +28,22 @@ fn at(what: &'static str) -> impl Fn(DriverError) -> GpuError {
 /// # Errors
 /// [`GpuError::NoDriver`], [`GpuError::NoCompiler`], or the driver has no GPU that it can use.
 pub fn open() -> Result<Box<dyn Device>, GpuError> {
+    let device = open_compiled(Vec::new())?;
+    has_compiler()?;
+    Ok(device)
+}
+
+/// The first GPU, with kernels that [`compile`] has made elsewhere: of these sets it needs no NVRTC.
+///
+/// # Errors
+/// [`GpuError::NoDriver`], or the driver has no GPU that it can use.
+pub fn open_compiled(ptx: Vec<(Sources, String)>) -> Result<Box<dyn Device>, GpuError> {
     // SAFETY: loads a library by its name and closes it, whose constructors are those of the driver.
     if !unsafe { cudarc::driver::sys::is_culib_present() } {
         return Err(GpuError::NoDriver);
     }
-    has_compiler()?;
     // A driver that is too old for a function of these bindings ends in a panic of `cudarc`.
-    let made = catch_unwind(|| {
+    let made = catch_unwind(AssertUnwindSafe(|| {
         let context = CudaContext::new(0).map_err(at("the first GPU"))?;
         let multiprocessors = context.attribute(CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT);
         let (major, minor) = context.compute_capability().map_err(at("its architecture"))?;
@@ -43,9 +52,10 @@ pub fn open() -> Result<Box<dyn Device>, GpuError> {
             multiprocessors: unsigned(multiprocessors.map_err(at("its multiprocessors"))?),
             architecture: format!("compute_{major}{minor}"),
             context,
+            ptx,
             compiled: Mutex::new(None),
         })
-    });
+    }));
     let device = made.unwrap_or_else(|_| {
         Err(GpuError::Driver { at: "the first GPU", code: "the driver is too old".to_owned() })
     });
@@ -94,6 +104,8 @@ struct CudaDevice {
     name: String,
     multiprocessors: u32,
     architecture: String,
+    /// What was compiled elsewhere.
+    ptx: Vec<(Sources, String)>,
     /// The last kernels: campaigns have one set of devices and many batches.
     compiled: Mutex<Option<(Sources, Arc<CudaModule>)>>,
 }
@@ -106,7 +118,11 @@ impl CudaDevice {
         {
             return Ok(module.clone());
         }
-        let own = compile(sources, Some(&self.architecture));
+        let elsewhere = self.ptx.iter().find(|(of, _)| of == sources);
+        let own = match elsewhere {
+            Some((_, ptx)) => Ok(ptx.clone()),
+            None => compile(sources, Some(&self.architecture)),
+        };
         // A GPU that is newer than NVRTC takes what is compiled for older ones.
         let ptx = own.or_else(|error| match &error {
             GpuError::Compile(log) if log.contains("gpu-architecture") => compile(sources, None),

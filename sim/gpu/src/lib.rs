@@ -38,7 +38,7 @@ mod solver;
 mod sources;
 
 pub use batch::{Batch, BatchResult, Progress, Steps};
-pub use cuda::{compile, open};
+pub use cuda::{compile, open, open_compiled};
 pub use device::{Array, Device, Kernels, Segment};
 pub use error::{GpuError, SetError, StateError};
 pub use inputs::{ActingInputs, BatchInputs};

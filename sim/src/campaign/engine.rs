@@ -9,7 +9,7 @@ use std::thread;
 
 use super::journal::kept;
 use super::{CampaignError, Journal, Plan, Reducer, Selection};
-use crate::engine::{RunQuantities, SIDE_BY_SIDE, run_side_by_side};
+use crate::engine::{Gpu, RunQuantities, SIDE_BY_SIDE, run_side_by_side_on};
 use crate::file::{Override, Template};
 use crate::record::columns::Quantity;
 use crate::record::{Columns, End, Outcome, Recorder, RunError};
@@ -39,6 +39,8 @@ pub struct Execution<'a> {
     pub fields: usize,
     /// Threads; the rows do not depend on them.
     pub threads: usize,
+    /// What makes the steps of RK4; the rows do not depend on it.
+    pub gpu: Option<&'a Gpu>,
 }
 
 /// The rows of a campaign.
@@ -87,7 +89,11 @@ pub fn execute(
     let stopped = || failed.load(Ordering::Relaxed) || cancelled();
     // Fewer at a time where threads would have nothing to do.
     let threads = execution.threads.clamp(1, missing.len().max(1));
-    let size = missing.len().div_ceil(threads).clamp(1, SIDE_BY_SIDE);
+    #[cfg(feature = "cuda")]
+    let most = if execution.gpu.is_some() { Gpu::SIDE_BY_SIDE } else { SIDE_BY_SIDE };
+    #[cfg(not(feature = "cuda"))]
+    let most = SIDE_BY_SIDE;
+    let size = missing.len().div_ceil(threads).clamp(1, most);
     let groups: Vec<&[usize]> = missing.chunks(size).collect();
     let work = || {
         while let Some(&group) = groups.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -162,7 +168,8 @@ fn reduced(
             Err(found) => errors.push(Some(first_message(&found))),
         }
     }
-    let mut rows = run_reduced(sound, execution.selection, cancelled).into_iter();
+    let rows = run_reduced_on(execution.gpu, sound, execution.selection, cancelled);
+    let mut rows = rows.into_iter();
     let of_sample = |error: Option<String>| match error {
         None => rows.next().flatten(),
         Some(message) => Some(Err(message)),
@@ -187,6 +194,17 @@ fn checked(result: Result<Vec<f64>, String>, fields: usize) -> Result<Vec<f64>, 
 /// computed. As many as [`SIDE_BY_SIDE`] in one call take the least time.
 #[must_use]
 pub fn run_reduced(
+    scenarios: Vec<Scenario>,
+    selection: &Selection,
+    cancelled: &dyn Fn() -> bool,
+) -> Vec<Reduced> {
+    run_reduced_on(None, scenarios, selection, cancelled)
+}
+
+/// The same, with the steps of RK4 on a GPU: as many as it takes at a time.
+#[must_use]
+pub fn run_reduced_on(
+    gpu: Option<&Gpu>,
     mut scenarios: Vec<Scenario>,
     selection: &Selection,
     cancelled: &dyn Fn() -> bool,
@@ -200,7 +218,7 @@ pub fn run_reduced(
     let runs = scenarios.iter().zip(recorders).collect();
     let keep =
         if scenarios.iter().any(shows_work) { RunQuantities::All } else { RunQuantities::Motion };
-    let outcomes = run_side_by_side(runs, keep, &mut || {
+    let outcomes = run_side_by_side_on(gpu, runs, keep, &mut || {
         if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let row_of = |(outcome, reducer): (Result<Outcome, RunError>, Reducer<'_>)| match outcome {
@@ -215,7 +233,7 @@ pub fn run_reduced(
 }
 
 /// Whether a column is the work, which is not computed otherwise.
-fn shows_work(scenario: &Scenario) -> bool {
+pub(crate) fn shows_work(scenario: &Scenario) -> bool {
     Columns::from_scenario(scenario).is_ok_and(|columns| {
         columns.as_slice().iter().any(|column| column.quantity == Quantity::Work)
     })

@@ -34,7 +34,9 @@ mod tangent;
 
 pub use axis::{Axis, Spacing};
 pub use draw::draw;
-pub use engine::{Execution, Finished, SampleResult, execute, run_reduced};
+#[cfg(feature = "tool")]
+pub(crate) use engine::shows_work;
+pub use engine::{Execution, Finished, SampleResult, execute, run_reduced, run_reduced_on};
 pub use error::CampaignError;
 pub use inference::{Estimate, by_chance, percentile, probability, probability_between, spearman};
 pub use journal::Journal;

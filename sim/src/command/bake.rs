@@ -46,6 +46,9 @@ pub(super) struct Bake {
     /// Assume nothing: the solver of every spacecraft with these kinds of devices, as C99.
     #[arg(long, conflicts_with_all = ["constants", "unlock"])]
     general: bool,
+    /// Write kernels for batches of states, too: CUDA, and C99.
+    #[arg(long, requires = "general")]
+    batch: bool,
     /// Joints that the scenario locks stay joints.
     #[arg(long)]
     unlock: bool,
@@ -90,9 +93,12 @@ impl Bake {
             generator = generator
                 .arguments(["--language", if language == Language::C { "c" } else { "rust" }]);
         }
-        for (given, flag) in
-            [(self.constants, "--constants"), (self.general, "--general"), (self.force, "--force")]
-        {
+        for (given, flag) in [
+            (self.constants, "--constants"),
+            (self.general, "--general"),
+            (self.batch, "--batch"),
+            (self.force, "--force"),
+        ] {
             if given {
                 generator = generator.arguments([flag]);
             }

@@ -17,6 +17,9 @@ use crate::scenario::{body_key, joint_key};
 pub(super) struct Kinds {
     /// One kind, in detail.
     kind: Option<String>,
+    /// For programs: a JSON object with the bodies of each kind of device, from the hub to the tip.
+    #[arg(long, conflicts_with = "kind")]
+    json: bool,
 }
 
 /// What is known of a kind of device, or of the platform that carries devices.
@@ -50,6 +53,10 @@ fn described() -> impl Iterator<Item = KindDescription> {
 
 impl Kinds {
     pub(super) fn execute(&self) -> Result<Exit, CommandError> {
+        if self.json {
+            print(&json())?;
+            return Ok(Exit::Success);
+        }
         let Some(name) = &self.kind else {
             print(&table())?;
             return Ok(Exit::Success);
@@ -62,6 +69,15 @@ impl Kinds {
         print(&kind.detail())?;
         Ok(Exit::Success)
     }
+}
+
+/// The kinds of devices with their bodies, for programs.
+fn json() -> String {
+    let kinds = BuiltInKind::ALL.iter().map(|kind| {
+        let bodies: Vec<_> = kind.joints().iter().map(body_key).collect();
+        (kind.name().to_owned(), serde_json::Value::from(bodies))
+    });
+    format!("{:#}\n", serde_json::Value::Object(kinds.collect()))
 }
 
 /// The kinds with their bodies; what a platform carries is said of it.

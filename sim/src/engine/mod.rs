@@ -28,7 +28,10 @@ pub use equations::run_quantities::RunQuantities;
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
 pub(crate) use quantities::member_loads::MemberLoads;
-pub use runs::{Advance, Run, SIDE_BY_SIDE, run, run_side_by_side, run_with_controllers};
+pub use runs::{
+    Advance, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
+    run_with_controllers,
+};
 
 use crate::record::RunError;
 use crate::scenario::Scenario;

@@ -1,5 +1,6 @@
 //! Campaigns: sweeps against closed forms, over threads, killed and continued, with samples that fail; correlated keys.
 
+mod backend;
 mod correlated;
 mod drawn;
 #[cfg(unix)]

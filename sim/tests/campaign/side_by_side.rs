@@ -11,7 +11,7 @@ use precess::scenario::Scenario;
 use super::shared::folder;
 
 /// Two imbalanced double-gimbal gyros, RK4 at 1 ms.
-const GYROS: &str = r#"format = 1
+pub(super) const GYROS: &str = r#"format = 1
 [hub]
 mass = "96 kg"
 inertia = "20, 21, 22 kg m^2"
@@ -64,7 +64,7 @@ limit = "0.04 rad/s"
 "#;
 
 /// What each run differs in.
-const CASES: [&[&str]; 13] = [
+pub(super) const CASES: [&[&str]; 13] = [
     &[],
     &["hub.mass = \"90 kg\""],
     &["hub.mass = \"101 kg\"", "device.a.imbalance.static = \"30 g cm\""],
@@ -85,13 +85,13 @@ const CASES: [&[&str]; 13] = [
     &["run.duration = \"0.05 s\""],
 ];
 
-fn scenario(template: &Template, case: &[&str]) -> Scenario {
+pub(super) fn scenario(template: &Template, case: &[&str]) -> Scenario {
     let overrides: Vec<String> = case.iter().map(|text| (*text).to_owned()).collect();
     let read = template.scenario(&overrides);
     read.unwrap_or_else(|errors| panic!("{case:?}: {errors}")).0
 }
 
-fn selection() -> Selection {
+pub(super) fn selection() -> Selection {
     let columns = ["omega", "acceleration", "a.theta", "energy"].map(str::to_owned);
     Selection { columns: columns.into(), lines: 0, from: 0.0 }
 }
@@ -106,7 +106,7 @@ fn alone(mut scenario: Scenario, selection: &Selection) -> Vec<u64> {
     bits(&reducer.row().expect("numbers"))
 }
 
-fn bits(row: &[f64]) -> Vec<u64> {
+pub(super) fn bits(row: &[f64]) -> Vec<u64> {
     row.iter().map(|number| number.to_bits()).collect()
 }
 

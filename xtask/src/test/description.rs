@@ -8,7 +8,7 @@ use xtask::run::root;
 use super::suites::{How, Suite, When};
 
 /// The packages of the suites and their folders.
-const FOLDERS: [(&str, &str); 21] = [
+const FOLDERS: [(&str, &str); 22] = [
     ("precess-codegen", "codegen"),
     ("precess-bake", "codegen/bake"),
     ("precess-description", "codegen/description"),
@@ -24,6 +24,7 @@ const FOLDERS: [(&str, &str); 21] = [
     ("imaging-satellite", "tests/baked/imaging_satellite"),
     ("precess-attack", "tests/attack"),
     ("precess-control", "sim/control"),
+    ("precess-gpu", "sim/gpu"),
     ("precess", "sim"),
     ("xtask", "xtask"),
     ("precess-distribute", "xtask/distribute"),

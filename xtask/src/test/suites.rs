@@ -256,6 +256,13 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-control", "laws", &[SOLVER, ENGINES, &["sim/control"]]),
     always("precess-control", "references", &[SOLVER, &["sim/control"]]),
     always("precess-control", "sensors", &[SOLVER, &["sim/control"]]),
+    // Batches on a GPU.
+    always("precess-gpu", "lib", &[&["sim/gpu"]]),
+    always(
+        "precess-gpu",
+        "batches",
+        &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "sim/gpu"]],
+    ),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),
@@ -333,7 +340,7 @@ pub(crate) const SUITES: &[Suite] = &[
     command(
         &["python", "--quick"],
         When::All,
-        &[SOLVER, LANES, DESKTOP, &["sim/lanes", "python", "xtask/distribute"]],
+        &[SOLVER, LANES, DESKTOP, &["sim/gpu", "sim/lanes", "python", "xtask/distribute"]],
     ),
     command(
         &["site", "--check"],

@@ -21,7 +21,7 @@ const LONG: usize = 6;
 /// Where parameters differ: a spacecraft without mass.
 const NO_MASS: usize = 7;
 /// Steps: more than one call of the device takes.
-const STEPS: usize = 300;
+const STEPS: usize = 260;
 const EVERY: usize = 7;
 /// Bytes of a device on which all states fit, and on which two or three do.
 const MEMORY: [usize; 2] = [1 << 30, 1 << 17];
@@ -122,6 +122,7 @@ fn compare(names: &[&str]) {
         let processor = found(&cases, own, Err(GpuError::NoDriver));
         assert_eq!(processor.of_run.fallback, Some(GpuError::NoDriver));
         for (bytes, threads) in MEMORY.into_iter().zip([3, 64]) {
+            let in_parts = bytes == MEMORY[1];
             let device = HostDevice { bytes, threads };
             let found = found(&cases, own, Ok(&device));
             for (result, kernels, processor) in [
@@ -149,7 +150,9 @@ fn compare(names: &[&str]) {
                 format!("{:?}", processor.of_run.states)
             );
             same_samples(&found, &processor, own);
-            by_another_suite(&cases, &found);
+            if in_parts {
+                by_another_suite(&cases, &found);
+            }
         }
     }
 }
@@ -202,10 +205,11 @@ fn batches_of_wheels_and_gyros_have_the_bits_of_the_solver() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask gpu`"]
+#[ignore = "long: `cargo xtask test --all`"]
 fn batches_of_every_other_kind_have_the_bits_of_the_solver() {
-    compare(&["balanced_reaction_wheel", "slosh_mass", "sgcmg", "balanced_sgcmg", "dgcmg"]);
-    compare(&["reaction_wheel", "balanced_dgcmg", "balanced_vscmg", "balanced_dgvscmg"]);
+    compare(&["reaction_wheel", "sgcmg", "balanced_sgcmg", "slosh_mass"]);
+    compare(&["reaction_wheel", "balanced_reaction_wheel", "dgcmg", "balanced_dgcmg"]);
+    compare(&["reaction_wheel", "balanced_vscmg", "balanced_dgvscmg"]);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! [`HostDevice`]: the emitted kernels as a library of the host's compiler, which is given the same arrays and the same struct as a
 //! GPU is; a thread after another.
 
-use std::env;
 use std::ffi::c_void;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,8 +8,10 @@ use std::process::Command;
 use std::sync::Mutex;
 
 use libloading::Library;
+use precess_bake::{batch, solver};
+use precess_codegen::emit::EmittedFile;
 use precess_dynamics::BuiltInKind;
-use precess_gpu::{Array, Device, GpuError, Kernels, PrecessBatch, Segment, Sources};
+use precess_gpu::{Array, Device, GpuError, Kernels, PrecessBatch, Segment, SourceFile, Sources};
 
 /// A device with so much memory and so many threads.
 pub(crate) struct HostDevice {
@@ -18,17 +19,14 @@ pub(crate) struct HostDevice {
     pub(crate) threads: usize,
 }
 
-/// `precess-bake`: that of `PRECESS_BAKE`, or of the build folder of the main workspace.
-pub(crate) fn generator() -> PathBuf {
-    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/debug/precess-bake");
-    let path = env::var_os("PRECESS_BAKE").map_or(built, PathBuf::from);
-    assert!(path.is_file(), "{}: build it with `cargo build -p precess-bake`", path.display());
-    path
-}
-
-/// The sources of a set.
+/// The sources of a set, as `precess-bake` writes them.
+#[expect(clippy::unnecessary_wraps, reason = "as batches take it")]
 pub(crate) fn sources(kinds: &[BuiltInKind]) -> Result<Sources, GpuError> {
-    Sources::derive(&generator(), kinds)
+    let description = Sources::description(kinds);
+    let files = solver(&description).expect("a solver").into_iter();
+    let files = files.chain(batch(&description).expect("kernels"));
+    let file = |file: EmittedFile| SourceFile { path: file.path, text: file.text };
+    Ok(Sources { name: description.name, files: files.map(file).collect() })
 }
 
 /// The library of a set, compiled once: the processor's precision does not depend on optimisation.

@@ -22,16 +22,18 @@ pub(crate) const SETTINGS: Settings = Settings {
     steps: 0,
 };
 
-/// A random case whose attitude is normalised to the last bit.
+/// A random case whose attitude stays the same to the last bit when it is normalised.
 pub(crate) fn random(kinds: &[BuiltInKind], settings: Settings, random: &mut Random) -> Case {
     let mut case = Case::random(kinds, settings, random);
-    let [q0, q1, q2, q3] = case.attitude;
-    let mut q = Quaternion { q0, q1, q2, q3 };
-    while q.normalised() != q {
-        q = q.normalised();
+    // Some are changed by every normalisation.
+    loop {
+        let [q0, q1, q2, q3] = [(); 4].map(|()| random.within(-1.0, 1.0));
+        let q = Quaternion { q0, q1, q2, q3 }.normalised().normalised();
+        if q.normalised() == q {
+            case.attitude = [q.q0, q.q1, q.q2, q.q3];
+            return case;
+        }
     }
-    case.attitude = [q.q0, q.q1, q.q2, q.q3];
-    case
 }
 
 pub(crate) fn craft(case: &Case) -> (Hub, Vec<BuiltIn>) {
@@ -105,6 +107,7 @@ pub(crate) fn expected(case: &Case, steps: usize) -> [Option<Vec<f64>>; 2] {
     let state = &all[10 + joints..];
     let (coordinates, rates) = state[13..13 + 2 * joints].split_at(joints);
     let row = [state[..13].to_vec(), by_device(case, coordinates, rates)].concat();
-    let found = |status: usize, numbers: Vec<f64>| (all[status] == 0.0).then_some(numbers);
+    let found =
+        |status: usize, numbers: Vec<f64>| (all[0] == 0.0 && all[status] == 0.0).then_some(numbers);
     [found(1, all[4..10 + joints].to_vec()), found(2, row)]
 }

@@ -1,6 +1,7 @@
 //! What campaigns have in common: options, the scenario, the journal, threads, a progress bar.
 
 mod advised;
+mod backend;
 pub(super) mod montecarlo;
 pub(super) mod sweep;
 
@@ -23,6 +24,7 @@ use super::terminal::note;
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, digits, execute, table,
 };
+use crate::engine::Gpu;
 use crate::file::{Override, PlanPlaces, Template};
 use crate::pointing::RequirementState;
 use crate::record::no_data::no_data;
@@ -72,6 +74,8 @@ pub(super) struct Prepared {
     pub(super) scenario: Scenario,
     pub(super) selection: Selection,
     pub(super) fields: Vec<Field>,
+    /// Where the steps are made, if not by the processor.
+    pub(super) gpu: Option<Gpu>,
     advised: OnceCell<Vec<String>>,
 }
 
@@ -117,7 +121,8 @@ impl CampaignOptions {
             return Err(CommandError::Other(message));
         }
         let fields = selection.fields(&header, &scenario.requirements);
-        Ok(Prepared { template, overrides, scenario, selection, fields, advised: OnceCell::new() })
+        let advised = OnceCell::new();
+        Ok(Prepared { template, overrides, scenario, selection, fields, gpu: None, advised })
     }
 
     /// Reserves the results, and rejects those that are there. Beside a journal it is the table that counts: it is written
@@ -179,6 +184,7 @@ impl CampaignOptions {
             selection: &prepared.selection,
             fields: prepared.fields.len(),
             threads,
+            gpu: prepared.gpu.as_ref(),
         };
         let finished = execute(&execution, opened, &show, &interrupted);
         let finished = finished.map_err(|error| other(error).leaving(vec![path.clone()]))?;

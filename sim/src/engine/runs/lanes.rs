@@ -6,8 +6,8 @@
 use precess_dynamics::JointStates as _;
 use precess_lanes::{Motion, SideBySide, StateInputs, side_by_side};
 
-use super::Run;
 use super::recorded::Recorded;
+use super::{Gpu, Run};
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
@@ -24,10 +24,11 @@ pub(crate) struct Lanes {
 }
 
 impl Lanes {
-    /// These runs. None where there are fewer than two, one has ended, keeps more than its motion, is not of
+    /// These runs, on a GPU where there is one. None where there are fewer than two, one has ended, keeps more than its motion, is not of
     /// RK4 or has a structure, platforms, panels that carry devices or friction that sticks, or where their devices are not
     /// of one kind.
     pub(crate) fn from_runs<'a, 's: 'a, 'r: 'a>(
+        gpu: Option<&Gpu>,
         runs: impl Iterator<Item = Option<&'a Recorded<'s, 'r>>>,
     ) -> Option<Self> {
         let mut crafts = Vec::new();
@@ -49,6 +50,12 @@ impl Lanes {
         }
         if crafts.len() < 2 {
             return None;
+        }
+        #[cfg(not(feature = "cuda"))]
+        let _ = gpu;
+        #[cfg(feature = "cuda")]
+        if let Some(gpu) = gpu {
+            return Some(Self { crafts: gpu.runs(crafts)?, at });
         }
         Some(Self { crafts: side_by_side(&crafts)?, at })
     }

@@ -3,6 +3,8 @@
 
 mod actions;
 mod friction;
+#[cfg(feature = "cuda")]
+mod gpu;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod motors;
@@ -13,8 +15,15 @@ mod side_by_side;
 use precess_dynamics::{About, JointStates, ModalState, State};
 
 use friction::Changed;
+#[cfg(feature = "cuda")]
+pub use gpu::Gpu;
 pub use recorded::{run, run_with_controllers};
-pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
+pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side, run_side_by_side_on};
+
+/// A GPU; there is none in a build without the feature `cuda`.
+#[cfg(not(feature = "cuda"))]
+#[derive(Debug)]
+pub enum Gpu {}
 
 use crate::control::Controller;
 use crate::engine::control::Controls;

@@ -6,6 +6,7 @@
 
 use std::ops::ControlFlow;
 
+use super::Gpu;
 #[cfg(feature = "lanes")]
 use super::lanes::Lanes;
 use super::recorded::Recorded;
@@ -29,6 +30,22 @@ pub fn run_side_by_side(
     quantities: RunQuantities,
     progress: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Vec<Result<Outcome, RunError>> {
+    run_side_by_side_on(None, runs, quantities, progress)
+}
+
+/// The same, with the steps of RK4 on a GPU.
+///
+/// # Errors
+///
+/// In each run those of [`run`](super::run).
+pub fn run_side_by_side_on(
+    gpu: Option<&Gpu>,
+    runs: Vec<(&Scenario, &mut dyn Recorder)>,
+    quantities: RunQuantities,
+    progress: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Vec<Result<Outcome, RunError>> {
+    #[cfg(not(feature = "lanes"))]
+    let _ = gpu;
     let runs: Vec<RunState<'_, '_>> = runs
         .into_iter()
         .map(|(scenario, recorder)| match Recorded::begin(scenario, quantities, recorder) {
@@ -37,7 +54,7 @@ pub fn run_side_by_side(
         })
         .collect();
     #[cfg(feature = "lanes")]
-    let runs = in_lanes(runs, progress);
+    let runs = in_lanes(gpu, runs, progress);
     let alone = |mut run: RunState<'_, '_>| {
         while run.running().is_some() && progress().is_continue() {
             run = run.step(Recorded::advance);
@@ -50,10 +67,12 @@ pub fn run_side_by_side(
 /// The steps that lanes support.
 #[cfg(feature = "lanes")]
 fn in_lanes<'a, 'r>(
+    gpu: Option<&Gpu>,
     mut runs: Vec<RunState<'a, 'r>>,
     progress: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Vec<RunState<'a, 'r>> {
-    let Some(mut lanes) = Lanes::from_runs(runs.iter().map(RunState::running)) else { return runs };
+    let lanes = Lanes::from_runs(gpu, runs.iter().map(RunState::running));
+    let Some(mut lanes) = lanes else { return runs };
     while runs.iter().any(|run| run.running().is_some()) {
         let advanced = lanes.advance(runs.iter_mut().map(RunState::running_mut));
         let each = runs.into_iter().zip(advanced);

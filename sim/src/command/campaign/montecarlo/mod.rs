@@ -11,6 +11,7 @@ use clap::Args;
 use csv::{correlations_csv, derivatives_csv, percentiles_csv};
 use tables::{correlation_table, derivative_table, percentile_table, results};
 
+use super::backend::Backend;
 use super::{
     CampaignOptions, Prepared, ResultColumn, Results, ending, shown, values_of, warnings,
     without_number,
@@ -69,6 +70,9 @@ pub(in crate::command) struct MonteCarlo {
     /// where the scenario can be run so, else central differences.
     #[arg(long)]
     sensitivities: bool,
+    /// What makes the steps: the processor, or a GPU of NVIDIA, with the same numbers (steps of fixed length only).
+    #[arg(long, value_enum, default_value_t = Backend::Cpu)]
+    backend: Backend,
 }
 
 fn samples(text: &str) -> Result<usize, String> {
@@ -85,7 +89,8 @@ impl MonteCarlo {
             .map_err(|source| CommandError::Io { path: self.plan.clone(), source })?;
         let plan = draw(&variations, self.samples, self.seed, self.latin_hypercube)
             .map_err(|error| other(&error))?;
-        let prepared = self.options.prepare()?;
+        let mut prepared = self.options.prepare()?;
+        prepared.gpu = self.backend.gpu(&prepared)?;
         let places = PlanPlaces::from_toml(&self.plan);
         let stem = format!("{}-montecarlo", prepared.scenario.name);
         let beside = format!("{stem}-sensitivities");
