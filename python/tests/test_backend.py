@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
+import warnings
+from pathlib import Path
+
 import numpy as np
 import precess
 import pytest
 
 
-def made(craft: object, **more: object) -> precess.Batch | None:
-    """A batch with a GPU; none in a build without one, which says so."""
-    with pytest.warns() as said:
+def made(craft: precess.Scenario, parameters: dict[str, np.ndarray]) -> precess.Batch | None:
+    """A batch with a GPU, or with a warning that there is none; none in a build without, which says so."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
         try:
-            batch = precess.Batch(craft, backend="cuda", **more)  # type: ignore[arg-type]
+            batch = precess.Batch(craft, parameters, backend="cuda")
         except precess.UnsupportedError as error:
             assert "feature `cuda`" in str(error)
-            said.list.clear()
             return None
-        finally:
-            # Of a machine with a GPU and of a build without, nothing is said.
-            precess_said = [str(of.message) for of in said.list]
-            import warnings
-
-            warnings.warn("none", UserWarning, stacklevel=1)
-    assert all("backend 'cuda': " in text and "the processor computes" in text for text in precess_said)
+    for warning in said:
+        assert warning.category is RuntimeWarning
+        assert warning.filename == __file__
+        text = str(warning.message)
+        assert text.startswith("backend 'cuda': ") and "the processor computes" in text
     return batch
 
 
@@ -31,7 +32,7 @@ def test_another_backend_has_the_same_bits(wheels: str) -> None:
     masses = np.linspace(300.0, 400.0, 5)
     masses[3] = -1.0
     cpu = precess.Batch(scenario, {"hub.m_b": masses})
-    gpu = made(scenario, parameters={"hub.m_b": masses})
+    gpu = made(scenario, {"hub.m_b": masses})
     if gpu is None:
         return
     y = cpu.states()
@@ -45,8 +46,8 @@ def test_another_backend_has_the_same_bits(wheels: str) -> None:
     assert sorted(a.errors) == sorted(b.errors) == [3]
 
 
-def test_what_no_gpu_computes_is_an_error(scenarios: object) -> None:
-    scenario = precess.Scenario.from_file(f"{scenarios}/wheels-on-isolator.toml")
+def test_what_no_gpu_computes_is_an_error(scenarios: Path) -> None:
+    scenario = precess.Scenario.from_file(scenarios / "wheels-on-isolator.toml")
     with pytest.raises(precess.UnsupportedError, match="platforms|feature `cuda`"):
         precess.Batch(scenario, backend="cuda")
 
