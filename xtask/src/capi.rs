@@ -18,11 +18,12 @@ use crate::skip::skip;
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
 /// The workspace of what is linked on board.
 pub const MANIFEST: &str = "flight/Cargo.toml";
-/// Its headers: one that programs include, what it includes, and one of its own for steering.
-pub const HEADERS: [&str; 3] = [
+/// Its headers: one that programs include, what it includes, and those of steering and of trackers.
+pub const HEADERS: [&str; 4] = [
     "flight/capi/include/precess.h",
     "flight/capi/include/precess_constants.h",
     "flight/capi/include/precess_steering.h",
+    "flight/capi/include/precess_tracking.h",
 ];
 const LAYOUTS: [(&str, &str); 2] =
     [("layout", "flight/capi/tests/layout.c"), ("layout-v2", "flight/capi/tests/layout_v2.c")];
@@ -35,6 +36,8 @@ const PLATFORMS: &[&str] = &["flight/capi/tests/platforms.c"];
 /// A program of steering: of version 1, and of 2.
 const STEERING: &[&str] = &["flight/capi/tests/steering.c"];
 const STEERING_VERSIONS: [&str; 2] = ["-DPRECESS_TABLE_VERSION=1", "-DPRECESS_TABLE_VERSION=2"];
+/// A program of trackers.
+const TRACKING: &[&str] = &["flight/capi/tests/tracking.c"];
 /// How the library is linked.
 pub const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
@@ -81,7 +84,7 @@ pub fn host() -> Result<(), String> {
     let host = built()?;
     host.exports()?;
     let (mut outputs, mut second, mut platforms) = (Vec::new(), Vec::new(), Vec::new());
-    let mut steering = Vec::new();
+    let (mut steering, mut tracking) = (Vec::new(), Vec::new());
     for compiler in &COMPILERS {
         if !is_there(compiler.name) {
             skip(&format!("C interface by {}", compiler.name), compiler.install)?;
@@ -103,6 +106,8 @@ pub fn host() -> Result<(), String> {
             let program = host.compile(compiler, "steering", STEERING, &options, true)?;
             steering.push((program.clone(), printed(&mut Command::new(&program))?));
         }
+        let program = host.compile(compiler, "tracking", TRACKING, &["-O2", "-DHOSTED"], true)?;
+        tracking.push((program.clone(), printed(&mut Command::new(&program))?));
         let first = host.guide()?;
         let first = host.compile(compiler, "first", &[&first], &["-O2"], true)?;
         printed(&mut Command::new(first))?;
@@ -119,12 +124,15 @@ pub fn host() -> Result<(), String> {
         platforms.push((program.clone(), printed(&mut Command::new(&program))?));
         let program = host.compile(gcc, "steering", STEERING, &options, true)?;
         steering.push((program.clone(), printed(&mut Command::new(&program))?));
+        let program = host.compile(gcc, "tracking", TRACKING, &options, true)?;
+        tracking.push((program.clone(), printed(&mut Command::new(&program))?));
     }
     for (what, outputs) in [
         ("version 1", &outputs),
         ("version 2", &second),
         ("platforms", &platforms),
         ("steering", &steering),
+        ("tracking", &tracking),
     ] {
         same(outputs)?;
         let count = outputs.len();

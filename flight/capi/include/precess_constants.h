@@ -35,7 +35,9 @@ enum {
     PRECESS_ERROR_SUSPENSION = 28,
     PRECESS_ERROR_COMMAND = 29,
     PRECESS_ERROR_NO_TORQUE = 30,
-    PRECESS_ERROR_NO_STEERING = 31
+    PRECESS_ERROR_NO_STEERING = 31,
+    PRECESS_ERROR_RANGE = 32,
+    PRECESS_ERROR_UNDETERMINED = 33
 };
 
 /* Kinds of devices, with their joints from the hub outwards. At zero, outer and only gimbals turn

@@ -127,6 +127,12 @@ codes! {
     /// A device that cannot be steered.
     NoSteering = 31, c"PRECESS_ERROR_NO_STEERING",
         c"a platform, or a panel that carries one, has no steering terms; steer devices on the hub";
+    /// A number of a tracker is out of range.
+    Range = 32, c"PRECESS_ERROR_RANGE",
+        c"a memory is not from 8 to 1e9 samples, an inertia not above 0, or a time below 0";
+    /// Samples do not determine what is estimated.
+    Undetermined = 33, c"PRECESS_ERROR_UNDETERMINED",
+        c"the samples determine no estimate: too few, a rotor that stands, no expected drag; go on";
 }
 
 /// Where a rejection comes from: `precess_fault`.

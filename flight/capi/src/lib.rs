@@ -30,6 +30,7 @@ mod rows;
 pub mod state;
 mod steering;
 pub mod table;
+pub mod tracking;
 pub mod types;
 mod version;
 

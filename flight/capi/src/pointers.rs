@@ -5,6 +5,7 @@
 //! against the prototypes of the header.
 
 mod structures;
+mod tracking;
 
 use core::ffi::c_void;
 
@@ -53,8 +54,8 @@ macro_rules! numbers {
 numbers! { i32 u32 usize }
 
 impl Argument for f64 {
-    fn taken(_: &mut Arguments<'_>, _: &'static str) -> Self {
-        1e-3
+    fn taken(_: &mut Arguments<'_>, name: &'static str) -> Self {
+        if name == "memory" { 100.0 } else { 1e-3 }
     }
 }
 
@@ -101,7 +102,8 @@ impl Arguments<'_> {
         // The memory of a spacecraft has no type.
         let align = if name == "memory" { ALIGN } else { align_of::<T>() };
         let in_place = ["step", "stop", "wrap"].iter().any(|of| self.function.contains(of));
-        let is_result = is_mut && !(name == "state" && in_place);
+        let tracked = ["line", "drag"].contains(&name) && self.function.ends_with("update");
+        let is_result = is_mut && !(name == "state" && in_place) && !tracked;
         let mut memory = vec![PATTERN; ROOM / 8];
         if !is_result {
             for (to, from) in memory.iter_mut().zip(self.content(name).chunks(8)) {
@@ -180,6 +182,9 @@ fn of_all_versions() -> Vec<Call> {
         Call { name: "precess_state_length", call: length },
         Call { name: "precess_error_text", call: text },
     ]
+    .into_iter()
+    .chain(tracking::calls())
+    .collect()
 }
 
 fn taken<A: Argument>(arguments: &mut Arguments<'_>, name: &'static str) -> A {
@@ -233,6 +238,8 @@ where
     stopping.mode[0][0] = 2;
     contents.push(("stopping", bytes(&stopping)));
     contents.push(("torque", bytes(&[1.0, 2.0, 3.0])));
+    let [line, drag] = tracking::contents();
+    contents.extend([("line", line), ("drag", drag)]);
     contents.push(("law", bytes(&law::<J>())));
     contents.push(("servo", bytes(&servo::<J>())));
     // A state saved: 13 numbers, and two of the wheel.
@@ -325,7 +332,8 @@ fn a_rejected_pointer_of_any_function_leaves_everything_as_it_was() {
 fn prototypes() -> Vec<(String, Vec<String>)> {
     let header = concat!(
         include_str!("../include/precess.h"),
-        include_str!("../include/precess_steering.h")
+        include_str!("../include/precess_steering.h"),
+        include_str!("../include/precess_tracking.h")
     );
     let mut text = String::new();
     for (index, part) in header.split("/*").enumerate() {

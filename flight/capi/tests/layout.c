@@ -68,6 +68,8 @@ IS(PRECESS_ERROR_SUSPENSION, 28);
 IS(PRECESS_ERROR_COMMAND, 29);
 IS(PRECESS_ERROR_NO_TORQUE, 30);
 IS(PRECESS_ERROR_NO_STEERING, 31);
+IS(PRECESS_ERROR_RANGE, 32);
+IS(PRECESS_ERROR_UNDETERMINED, 33);
 IS(sizeof(precess_fault), 32);
 IS(offsetof(precess_fault, code), 0);
 IS(offsetof(precess_fault, device), 4);

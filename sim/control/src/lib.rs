@@ -13,6 +13,7 @@
 //!   [`Noise`] by a seed;
 //! - [`SampledPlant`], [`Feedback`], [`SampledLoop`], [`LoopCurve`]: a linear loop with hold and delay, its margins and poles;
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
+//! - [`LineTracker`], [`DragTracker`]: imbalance line and drag torque of a rotor, followed on board in fixed memory;
 //! - [`MomentumDumping`]: an external torque;
 //! - [`rotation`]: quaternions as turns one after another.
 //!
@@ -124,3 +125,7 @@ pub use sensor::gyro::{Gyro, GyroOutput, GyroParameters};
 pub use sensor::noise::Noise;
 pub use sensor::quantum::Quantum;
 pub use sensor::star_tracker::StarTracker;
+
+pub use precess_tracker::{
+    DragEstimate, DragSample, DragTracker, LineEstimate, LineTracker, TrackerError,
+};

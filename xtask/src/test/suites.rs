@@ -263,6 +263,7 @@ pub(crate) const SUITES: &[Suite] = &[
         "batches",
         &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "sim/gpu"]],
     ),
+    always("precess-control", "trackers", &[SOLVER, &["sim/control"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),

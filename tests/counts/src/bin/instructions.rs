@@ -16,6 +16,7 @@ use precess_dynamics::{
     Angle, BuiltIn, Dgvscmg, Outputs, Servo, Steered, SteeringLaw, SteeringTerms,
 };
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
+use precess_tracker::{DragSample, DragTracker, LineTracker};
 
 /// What is commanded of four DGVSCMGs.
 const STEERED: [Steered; 12] = {
@@ -84,6 +85,50 @@ impl Cases {
         self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
         each_kind(self);
         self.steering();
+        self.trackers();
+    }
+
+    /// A sample of a rotor's line and of its drag, and what is estimated from the samples.
+    fn trackers(&mut self) {
+        let line = || {
+            let mut tracker = LineTracker::new(100.0).ok()?;
+            (0..200).map(f64::from).try_for_each(|k| tracker.update(2.1 * k, 1.0, k)).ok()?;
+            Some(tracker)
+        };
+        let sample = DragSample { elapsed: 0.01, torque: 0.01, drag: 4e-3, rate: 300.0 };
+        let drag = move || {
+            let mut tracker = DragTracker::new(0.02, 100.0).ok()?;
+            (0..200).try_for_each(|_| tracker.update(&sample)).ok()?;
+            Some(tracker)
+        };
+        self.case("line_tracker update", || {
+            let tracker = RefCell::new(line());
+            move || {
+                if let Some(tracker) = tracker.borrow_mut().as_mut() {
+                    let _ = black_box(tracker.update(black_box(1.25), 1.0, black_box(0.3)));
+                }
+            }
+        });
+        self.case("line_tracker estimate", || {
+            let tracker = line();
+            move || {
+                let _ = black_box(black_box(&tracker).as_ref().and_then(LineTracker::estimate));
+            }
+        });
+        self.case("drag_tracker update", || {
+            let tracker = RefCell::new(drag());
+            move || {
+                if let Some(tracker) = tracker.borrow_mut().as_mut() {
+                    let _ = black_box(tracker.update(black_box(&sample)));
+                }
+            }
+        });
+        self.case("drag_tracker estimate", || {
+            let tracker = drag();
+            move || {
+                let _ = black_box(black_box(&tracker).as_ref().and_then(DragTracker::estimate));
+            }
+        });
     }
 
     /// From a torque to motor torques of four DGVSCMGs: the terms, the allocation, and the servo.

@@ -13,9 +13,10 @@ pub(super) const SOURCE: &str = "flight/capi/include/precess.h";
 
 /// Where the headers are, and what each is about.
 const FOLDER: &str = "flight/capi/include";
-const HEADERS: [(&str, &str); 3] = [
+const HEADERS: [(&str, &str); 4] = [
     ("precess.h", "spacecraft, states, accelerations, steps"),
     ("precess_steering.h", "steering, servo"),
+    ("precess_tracking.h", "imbalance line and drag torque of a rotor"),
     ("precess_constants.h", "kinds, error codes, sizes"),
 ];
 
