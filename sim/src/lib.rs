@@ -72,5 +72,6 @@ mod shapes;
 pub mod spectra;
 pub mod structure;
 pub mod tables;
+pub mod telemetry;
 pub mod units;
 pub mod variation;

@@ -168,6 +168,13 @@ pub(crate) fn named_columns(
     names.iter().map(column).collect()
 }
 
+/// All arrays of one dimension of numbers, with their names; others are left out.
+pub(crate) fn all_columns(bytes: &[u8]) -> Result<Vec<(String, Vec<f64>)>, StructureError> {
+    let Members { names, arrays } = Members::from_bytes(bytes)?;
+    let column = |(name, array): (String, Array)| Some((name, array.numbers(None).ok()?));
+    Ok(names.into_iter().zip(arrays).filter_map(column).collect())
+}
+
 /// The bytes of an archive of arrays by their names.
 pub(crate) fn archived(members: &[(&str, Vec<u8>)]) -> std::io::Result<Vec<u8>> {
     use std::io::Write as _;
