@@ -75,3 +75,4 @@ pub mod tables;
 pub mod telemetry;
 pub mod units;
 pub mod variation;
+pub mod watch;

@@ -15,7 +15,8 @@ pub(super) const TABLE: &str = "\
 Exit codes:
   0    complete; every requirement that there is was evaluated and is met
   1    an error: nothing was computed, or what was could not be written
-  2    a requirement is violated, results differ, a fitted model does not hold, or a run ended before its time
+  2    a requirement is violated, results differ, a fitted model does not hold, an alarm was raised, or a run ended
+       before its time
   3    a requirement could not be evaluated, and none is violated
   64   the command line is wrong
   130  ended by Ctrl-C, 143 by SIGTERM: of a run by the second, where the first ends it early, with results that say so;
@@ -28,7 +29,8 @@ pub(super) enum Exit {
     Success,
     /// A requirement could not be evaluated: nothing was measured. None is violated.
     NotEvaluated,
-    /// A requirement is violated, results differ, a fitted model does not hold, or a run ended before its time.
+    /// A requirement is violated, results differ, a fitted model does not hold, an alarm was raised, or a run ended before
+    /// its time.
     Violated,
     /// An error: nothing was computed, or what was could not be written.
     Error,

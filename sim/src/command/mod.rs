@@ -32,6 +32,7 @@ mod spectrum;
 mod structure;
 mod table;
 mod terminal;
+mod watch;
 
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
@@ -106,6 +107,9 @@ enum Command {
     /// Fit imbalance, harmonics, modes and noise of a wheel to forces and moments on a rigid table
     #[command(after_help = fit::HELP)]
     Fit(fit::FitCommand),
+    /// Run a scenario's model along telemetry, and tell what has changed: imbalance, drag, torque constants, gyro bias
+    #[command(after_help = watch::HELP)]
+    Watch(Box<watch::WatchCommand>),
     /// Run a scenario over values of one key or two, and compare every run with its requirements
     #[command(after_help = sweep::HELP)]
     Sweep(Box<sweep::Sweep>),
@@ -166,6 +170,7 @@ impl Cli {
             Command::Jitter(jitter) => jitter.execute(),
             Command::Margins(margins) => margins.execute(),
             Command::Fit(fit) => fit.execute(),
+            Command::Watch(watch) => watch.execute(),
             Command::Sweep(sweep) => sweep.execute(),
             Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),

@@ -278,6 +278,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
     always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
     always("precess", "fmu", &[GENERATOR, BAKING, SOLVER, DESKTOP, &["sim/tests/fmu"]]),
+    always("precess", "health", &[SOLVER, DESKTOP, &["sim/tests/health"]]),
     always(
         "precess",
         "jitter",

@@ -81,6 +81,18 @@ rate = "10 Hz"
 const PLAN: &str = "format = 1\n[[vary]]\nkey = \"hub.mass\"\ndistribution = \"uniform\"\nfrom = \"90 kg\"\n\
                     to = \"100 kg\"\n";
 
+/// Two seconds of the wheels of [`HELD`], which keep their rates.
+fn telemetry() -> String {
+    let mut text = "time".to_owned();
+    for wheel in 1..=3 {
+        text += &format!(",rw{wheel}.spin,rw{wheel}.u_w");
+    }
+    for k in 0..200 {
+        text += &format!("\n{}{}", 0.01 * f64::from(k), ",314.15,0".repeat(3));
+    }
+    text + "\n"
+}
+
 /// A command with its arguments.
 pub(super) struct Case {
     /// As it is called: `structure show`.
@@ -152,6 +164,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         put(name, text);
     }
     put("push.csv", "time_s,f\n0,0\n1,0\n");
+    put("telemetry.csv", &telemetry());
     let structure =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/imaging-satellite-modes.npz");
     fs::copy(structure, folder.join("bus.npz")).expect("a file");
@@ -169,6 +182,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     };
     let scenario: &[&str] = &["wheel.toml", "hub.toml", "push.csv"];
     let budget: &[&str] = &["budget.toml", "wheel.toml", "hub.toml", "push.csv"];
+    let watched: &[&str] = &["held.toml", "telemetry.csv"];
     let plan: &[&str] = &["plan.toml", "wheel.toml", "hub.toml", "push.csv"];
     let before = of("run", scenario, &["wheel.toml", "--out", "results"]).output();
     assert!(before.status.success(), "{}", error_of(&before));
@@ -204,6 +218,21 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         ),
         of("jitter", budget, &["budget.toml", "--out", "out"]),
         of("margins", &["held.toml"], &["held.toml", "--out", "out"]),
+        of(
+            "watch",
+            watched,
+            &[
+                "held.toml",
+                "--data",
+                "telemetry.csv",
+                "--block",
+                "100 ms",
+                "--learn",
+                "1 s",
+                "--out",
+                "out",
+            ],
+        ),
         of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
         of("sweep", scenario, &["wheel.toml", "--over", "hub.mass=90..110 kg:3", "--out", "out"]),
         of(

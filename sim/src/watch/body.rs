@@ -1,0 +1,201 @@
+//! [`BodyFit`]: one block of the gyro: what is left of its readings beside the model, as lines of the rotors and a jump from the block
+//! before.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Complex, Vector3};
+use precess_control::GyroOutput;
+use precess_dynamics::Angle;
+
+use super::model::{Signature, WatchedModel};
+use super::regression::{Estimated, Regression};
+use crate::scenario::Scenario;
+
+/// Parameters of the block itself: rates at its start and accelerations by torques from outside.
+const OWN: usize = 6;
+
+/// Above this square of their correlation static and dynamic imbalance of a rotor have one line: it is called dynamic.
+const ALIKE: f64 = 0.98;
+
+/// A rotor slower than this has no line, rad/s.
+const SLOWEST: f64 = 1.0;
+
+/// The angle of a rotor, and its line in the block.
+#[derive(Clone, Debug)]
+struct Line {
+    /// Whether its angle is known.
+    turning: bool,
+    /// Integral of its tachometer, rad, when that was read last, and the time since then, s.
+    angle: f64,
+    since: f64,
+    /// Rate that was read last, rad/s.
+    rate: f64,
+    signature: Option<Signature>,
+    /// Whether static imbalance has a line of its own; known from the first block on.
+    separate: Option<bool>,
+    /// Phases of the block before, rad, with their variances.
+    before: [Option<[f64; 2]>; 2],
+}
+
+/// A block of the gyro.
+#[derive(Clone, Debug)]
+pub(super) struct BodyFit {
+    lines: Vec<Line>,
+    /// Of an integrating gyro the sampling period, s.
+    integrating: Option<f64>,
+    regression: Regression,
+    row: Vec<f64>,
+    /// Integral of the model's acceleration since the start of the block, rad/s.
+    predicted: Vector3<f64>,
+    /// The block before: its estimate, length, s, and integral.
+    before: Option<(Estimated, f64, Vector3<f64>)>,
+}
+
+/// Amplitudes of static and dynamic imbalance and steps of their phases, with variances.
+pub(super) type RotorValues = [Option<[f64; 2]>; 4];
+
+impl BodyFit {
+    /// Of rotors of which each is turning where its tachometer is read.
+    pub(super) fn new(scenario: &Scenario, turning: Vec<bool>) -> Self {
+        let integrates = scenario.controllers.iter().find_map(|of| {
+            let gyro = of.sensors.gyro.as_ref()?;
+            (gyro.output == GyroOutput::Integrating).then(|| of.rate.recip())
+        });
+        let count = OWN + 4 * turning.len();
+        let line = |turning| Line {
+            turning,
+            angle: 0.0,
+            since: 0.0,
+            rate: 0.0,
+            signature: None,
+            separate: None,
+            before: [None; 2],
+        };
+        Self {
+            lines: turning.into_iter().map(line).collect(),
+            integrating: integrates,
+            regression: Regression::new(count),
+            row: vec![0.0; count],
+            predicted: Vector3::zeros(),
+            before: None,
+        }
+    }
+
+    /// Forgets what joins a block with the one before.
+    pub(super) fn forget(&mut self) {
+        self.before = None;
+        for line in &mut self.lines {
+            line.before = [None; 2];
+            line.since = 0.0;
+        }
+    }
+
+    pub(super) fn start(&mut self, signatures: Vec<Signature>) {
+        self.regression.clear();
+        self.predicted = Vector3::zeros();
+        let mut signatures = signatures.into_iter();
+        for line in &mut self.lines {
+            line.signature = signatures.next().filter(|of| line.turning && of.rate.abs() > SLOWEST);
+            if let (None, Some(signature)) = (line.separate, &line.signature) {
+                let [a, b] = &signature.by_imbalance;
+                let common = a.dotc(b).norm_sqr();
+                line.separate = Some(common < ALIKE * a.norm_squared() * b.norm_squared());
+            }
+        }
+    }
+
+    /// Moves on by a time with this acceleration of the hub.
+    pub(super) fn advance(&mut self, elapsed: f64, hub: &Vector3<f64>, model: &WatchedModel) {
+        self.predicted += hub * elapsed;
+        for (line, rotor) in self.lines.iter_mut().zip(model.rotors()) {
+            line.since += elapsed;
+            line.rate = model.joint_rate(rotor.joint);
+        }
+    }
+
+    /// Takes a reading of a rotor's rate: its angle by the mean of two readings.
+    pub(super) fn read_tachometer(&mut self, joint: usize, rate: f64, model: &WatchedModel) {
+        let own = self.lines.iter_mut().zip(model.rotors()).find(|(_, of)| of.joint == joint);
+        if let Some((line, _)) = own {
+            let angle = line.angle + f64::midpoint(line.rate, rate) * line.since;
+            // No angle grows until its digits are lost.
+            line.angle = angle - TAU * (angle / TAU).floor();
+            (line.since, line.rate) = (0.0, rate);
+        }
+    }
+
+    /// Takes a reading of the gyro, so long after the start.
+    pub(super) fn read(&mut self, elapsed: f64, omega: &Vector3<f64>, model: &WatchedModel) {
+        let mut numbers = vec![[Vector3::<f64>::zeros(); 4]; self.lines.len()];
+        for ((to, line), rotor) in numbers.iter_mut().zip(&self.lines).zip(model.rotors()) {
+            let Some(signature) = &line.signature else { continue };
+            let rate = model.joint_rate(rotor.joint);
+            if rate.abs() < SLOWEST {
+                continue;
+            }
+            let (sine, cosine) = Angle::sin_cos(line.angle + rate * line.since);
+            // From acceleration to rate, and to what the gyro makes of it.
+            let mut factor = Complex::new(cosine, sine) / Complex::new(0.0, rate)
+                * (rate / signature.rate).powi(2);
+            if let Some(period) = self.integrating {
+                let half = 0.5 * rate * period;
+                let sinc = if half == 0.0 { 1.0 } else { libm::sin(half) / half };
+                factor *= Complex::new(libm::cos(half), -libm::sin(half)) * sinc;
+            }
+            let [first, second] = signature.by_imbalance.map(|of| of.map(|of| of * factor));
+            if line.separate == Some(true) {
+                (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
+            }
+            (to[2], to[3]) = (second.map(|of| of.re), second.map(|of| -of.im));
+        }
+        let observed = omega - self.predicted;
+        for axis in 0..3 {
+            self.row.fill(0.0);
+            let (own, lines) = self.row.split_at_mut(OWN);
+            for (index, to) in own.iter_mut().enumerate() {
+                if index % 3 == axis {
+                    *to = if index < 3 { 1.0 } else { elapsed };
+                }
+            }
+            for (to, from) in lines.iter_mut().zip(numbers.iter().flatten()) {
+                *to = from[axis];
+            }
+            self.regression.add(&self.row, observed[axis]);
+        }
+    }
+
+    /// What the block says: of each rotor, and the jump of the gyro about each axis.
+    pub(super) fn end(&mut self, length: f64) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
+        let Some(found) = self.regression.solve() else {
+            self.forget();
+            return (Vec::new(), [None; 3]);
+        };
+        let lines = self.lines.iter_mut().enumerate().map(|(index, line)| {
+            let mut values = [None; 4];
+            for kind in 0..2 {
+                let of = found.line(OWN + 4 * index + 2 * kind);
+                let phase = of.and_then(|(_, phase)| phase);
+                values[kind] = of.map(|(amplitude, _)| amplitude);
+                values[2 + kind] = line.before[kind].zip(phase).map(|(before, now)| {
+                    let turned = now[0] - before[0];
+                    [turned - TAU * ((turned + PI) / TAU).floor(), now[1] + before[1]]
+                });
+                line.before[kind] = phase;
+            }
+            values
+        });
+        let lines = lines.collect();
+        let jump = |axis: usize| {
+            let (before, length, predicted) = self.before.as_ref()?;
+            let (start, slope) = (before.of(axis)?, before.of(3 + axis)?);
+            let now = found.of(axis)?;
+            let common = before.covariance[(3 + axis, axis)];
+            let expected = start[0] + slope[0] * length + predicted[axis];
+            let variance = start[1] + length * (length * slope[1] + 2.0 * common) + now[1];
+            Some([now[0] - expected, variance])
+        };
+        let jumps = [0, 1, 2].map(jump);
+        self.before = Some((found, length, self.predicted));
+        (lines, jumps)
+    }
+}

@@ -1,0 +1,319 @@
+//! [`Watch`]: a scenario's model run along its telemetry, and tests of what is left over: what has changed, when, by how much.
+//!
+//! ```text
+//! readings --model--> residuals --least squares of a block--> quantities with variances --tests--> alarms
+//! ```
+//!
+//! Within a block the accelerations of the coupled equations, at measured rates and motor torques, are integrated. The gyro less that is a
+//! start, a constant torque from outside, noise, and a line of each rotor: linear in its static and dynamic imbalance, by exact
+//! derivatives, at the angle that its tachometer integrates to. Angles of rotors are not telemetered: phases are from block to
+//! block. A tachometer less that is a start, a drag torque and, of a gimbal, a torque constant. Quantities of blocks are compared
+//! with those of the first blocks, the reference. Memory does not grow with the length of the telemetry.
+//!
+//! Lines are those of a rigid hub; `omega x h` of the whole spacecraft, about a thousandth at the rotation frequency, is not in
+//! them. Blocks across a gap are left out.
+//!
+//! | file | what |
+//! |---|---|
+//! | `model` | accelerations and lines |
+//! | `body`, `joint` | the block of the gyro, that of a joint |
+//! | `regression` | least squares, what a block does not determine |
+//! | `quantity` | names, units, what looks the same |
+//! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
+
+mod body;
+mod detector;
+mod error;
+mod joint;
+mod model;
+mod quantity;
+mod regression;
+mod thresholds;
+
+use nalgebra::Vector3;
+
+pub use detector::{Shift, Test};
+pub use error::WatchError;
+pub use quantity::{Alarm, Watched};
+
+use crate::scenario::Scenario;
+use crate::telemetry::{Reading, Sensor, SensorColumns};
+use body::BodyFit;
+use detector::Detector;
+use joint::JointFit;
+use model::{Accelerations, WatchedModel};
+use quantity::Quantity;
+use thresholds::Thresholds;
+
+/// Onsets that the likelihood ratio is searched over.
+const ONSETS: usize = 60;
+
+/// A time without readings that is longer than this share of a block ends the block.
+const GAP: f64 = 0.1;
+
+/// Lengths and the rate of false alarms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WatchSettings {
+    /// Length of a block, s.
+    pub block: f64,
+    /// From the first block on, the time in which the reference is taken, s.
+    pub learn: f64,
+    /// False alarms an hour, of all tests together.
+    pub false_alarms: f64,
+}
+
+/// What a block says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Start and end, s.
+    pub times: [f64; 2],
+    /// Each quantity with its variance, in the order of [`Watch::quantities`]; none where the block does not determine it.
+    pub values: Vec<Option<[f64; 2]>>,
+    /// What was found at its end.
+    pub alarms: Vec<Alarm>,
+}
+
+/// The watch over one record.
+pub struct Watch {
+    settings: WatchSettings,
+    sensors: Vec<Sensor>,
+    /// Sensors that have not read anything yet.
+    unseen: Vec<bool>,
+    model: WatchedModel,
+    /// Accelerations at what was read last; none where that has changed.
+    present: Option<Accelerations>,
+    last: f64,
+    start: Option<f64>,
+    body: Option<BodyFit>,
+    joints: Vec<JointFit>,
+    quantities: Vec<Quantity>,
+    remarks: Vec<String>,
+}
+
+impl Watch {
+    /// Of a scenario and the sensors that a file has.
+    ///
+    /// # Errors
+    ///
+    /// A scenario that cannot be evaluated, lengths and rates that are not in their range, and sensors from which nothing can be
+    /// watched.
+    pub fn new(
+        scenario: &Scenario,
+        sensors: &[SensorColumns],
+        settings: &WatchSettings,
+    ) -> Result<Self, WatchError> {
+        let WatchSettings { block, learn, false_alarms } = *settings;
+        for (what, value) in
+            [("the length of a block", block), ("the time of the reference", learn)]
+        {
+            let sound = value > 0.0 && value.is_finite();
+            if !sound {
+                return Err(WatchError::Length { what, value });
+            }
+        }
+        let sensors: Vec<Sensor> = sensors.iter().map(|of| of.sensor).collect();
+        let has = |sensor: Sensor| sensors.contains(&sensor);
+        let count = scenario.joint_count();
+        let motors: Vec<usize> = (0..count).filter(|joint| has(Sensor::Motor(*joint))).collect();
+        let model = WatchedModel::new(scenario, &motors)?;
+        let own = |joint: &usize| has(Sensor::Tachometer(*joint)) && has(Sensor::Motor(*joint));
+        let joints: Vec<_> = (0..count)
+            .filter(own)
+            .map(|joint| JointFit::new(joint, model.is_wheel(joint)))
+            .collect();
+        let mut remarks = Vec::new();
+        let turning: Vec<bool> =
+            model.rotors().iter().map(|of| has(Sensor::Tachometer(of.joint))).collect();
+        let body = has(Sensor::Gyro).then(|| BodyFit::new(scenario, turning));
+        if body.is_none() && joints.is_empty() {
+            return Err(WatchError::Nothing);
+        }
+        let mut all = Vec::new();
+        if body.is_some() {
+            match model.signatures() {
+                Ok(_) => all.extend(model.rotors().iter().flat_map(|of| {
+                    let kinds = [
+                        Watched::StaticImbalance,
+                        Watched::DynamicImbalance,
+                        Watched::StaticPhase,
+                        Watched::DynamicPhase,
+                    ];
+                    kinds.map(|kind| (kind, of.name.clone()))
+                })),
+                Err(error) => remarks.push(format!("imbalance is not watched: {error}")),
+            }
+            all.extend(["x", "y", "z"].map(|axis| (Watched::GyroJump, axis.to_owned())));
+        }
+        let names: Vec<String> = scenario.joints().map(|(_, name, _)| name.to_owned()).collect();
+        all.extend(joints.iter().map(|of| {
+            let kind = if of.wheel { Watched::Drag } else { Watched::TorqueConstant };
+            (kind, names.get(of.joint).cloned().unwrap_or_default())
+        }));
+        #[expect(clippy::cast_precision_loss, reason = "a hundred")]
+        let alpha = false_alarms * block / 3600.0 / all.len() as f64;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "positive, bounded"
+        )]
+        let reference = (learn / block).round().clamp(1.0, 1e6) as usize;
+        let at_once = Thresholds::new(alpha, 1, reference)?;
+        let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
+        let quantities = all.into_iter().map(|(watched, of)| {
+            let single =
+                matches!(watched, Watched::StaticPhase | Watched::DynamicPhase | Watched::GyroJump);
+            let (thresholds, onsets) = if single { (at_once, 1) } else { (over_onsets, ONSETS) };
+            Quantity::new(watched, &of, Detector::new(thresholds, [reference, onsets]))
+        });
+        Ok(Self {
+            settings: *settings,
+            unseen: vec![true; sensors.len()],
+            quantities: quantities.collect(),
+            sensors,
+            model,
+            present: None,
+            last: 0.0,
+            start: None,
+            body,
+            joints,
+            remarks,
+        })
+    }
+
+    /// Names and units of the quantities.
+    pub fn quantities(&self) -> impl Iterator<Item = (&str, &Watched)> {
+        self.quantities.iter().map(|of| (of.name.as_str(), &of.watched))
+    }
+
+    /// What is not watched, with the reason.
+    #[must_use]
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// The reference of each quantity, and the scatter about it by the stated variance; none while it is taken.
+    pub fn references(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
+        self.quantities.iter().map(Quantity::reference)
+    }
+
+    /// Takes a reading; the block that ends before it, where one does.
+    ///
+    /// # Errors
+    ///
+    /// A state that the model cannot solve.
+    pub fn take(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
+        let time = reading.time;
+        let Some(sensor) = self.sensors.get(reading.index).copied() else { return Ok(None) };
+        let mut ended = None;
+        if let Some(start) = self.start {
+            if time - self.last > GAP * self.settings.block {
+                // The angles of the rotors are lost, too.
+                if let Some(body) = &mut self.body {
+                    body.forget();
+                }
+                self.start = None;
+            } else {
+                self.advance(time)?;
+                if time - start >= self.settings.block {
+                    ended = Some(self.end([start, time]));
+                    self.begin(time)?;
+                }
+            }
+        }
+        self.last = time;
+        if let Some(unseen) = self.unseen.get_mut(reading.index) {
+            *unseen = false;
+        }
+        self.read(sensor, reading);
+        if self.start.is_none() && !self.unseen.contains(&true) {
+            self.begin(time)?;
+        }
+        Ok(ended)
+    }
+
+    /// Integrates the model to a time.
+    fn advance(&mut self, time: f64) -> Result<(), WatchError> {
+        let elapsed = time - self.last;
+        if elapsed <= 0.0 {
+            return Ok(());
+        }
+        let present = match self.present.take() {
+            Some(present) => present,
+            None => self.model.mean()?,
+        };
+        if let Some(body) = &mut self.body {
+            body.advance(elapsed, &present.hub, &self.model);
+        }
+        for joint in &mut self.joints {
+            let acceleration = present.joints.get(joint.joint).copied().unwrap_or(0.0);
+            joint.advance(elapsed, acceleration, self.model.motor(joint.joint));
+        }
+        self.present = Some(present);
+        Ok(())
+    }
+
+    fn read(&mut self, sensor: Sensor, reading: &Reading) {
+        let [first, second, third, _] = reading.value;
+        let elapsed = self.start.map(|start| reading.time - start);
+        match sensor {
+            Sensor::Gyro => {
+                let omega = Vector3::new(first, second, third);
+                if let (Some(body), Some(elapsed)) = (&mut self.body, elapsed) {
+                    body.read(elapsed, &omega, &self.model);
+                }
+                self.model.set_rate(omega);
+            }
+            Sensor::Tachometer(joint) => {
+                if let Some(body) = &mut self.body {
+                    body.read_tachometer(joint, first, &self.model);
+                }
+                let own = self.joints.iter_mut().find(|of| of.joint == joint);
+                if let (Some(own), Some(elapsed)) = (own, elapsed) {
+                    own.read(elapsed, first);
+                }
+                self.model.set_joint_rate(joint, first);
+            }
+            Sensor::Encoder(joint) => self.model.set_coordinate(joint, first),
+            Sensor::Motor(joint) => self.model.set_motor(joint, first),
+            Sensor::StarTracker => return,
+        }
+        self.present = None;
+    }
+
+    fn begin(&mut self, time: f64) -> Result<(), WatchError> {
+        for joint in &mut self.joints {
+            let by_torque = self.model.by_motor(joint.joint)?;
+            joint.start(by_torque, self.model.joint_rate(joint.joint));
+        }
+        if let Some(body) = &mut self.body {
+            // Without signatures there are no lines, which a remark says.
+            body.start(self.model.signatures().unwrap_or_default());
+        }
+        self.start = Some(time);
+        Ok(())
+    }
+
+    /// What the block says, and what the tests say to that.
+    fn end(&mut self, times: [f64; 2]) -> Block {
+        let mut lines = Vec::new();
+        let mut jumps = [None; 3];
+        if let Some(body) = &mut self.body {
+            (lines, jumps) = body.end(times[1] - times[0]);
+        }
+        let rotors = self.model.rotors().len();
+        let mut values = Vec::with_capacity(self.quantities.len());
+        if self.body.is_some() {
+            let watches_lines =
+                self.quantities.iter().any(|of| of.watched == Watched::StaticImbalance);
+            if watches_lines {
+                let of = |rotor: usize| lines.get(rotor).copied().unwrap_or([None; 4]);
+                values.extend((0..rotors).flat_map(of));
+            }
+            values.extend(jumps);
+        }
+        values.extend(self.joints.iter().map(JointFit::estimate));
+        let own = self.quantities.iter_mut().zip(&values);
+        let alarms = own.filter_map(|(of, value)| of.take(times, (*value)?)).collect();
+        Block { times, values, alarms }
+    }
+}

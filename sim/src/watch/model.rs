@@ -1,0 +1,192 @@
+//! [`WatchedModel`]: the equations of a scenario along its telemetry: accelerations at what is measured, lines of the rotors' imbalances in
+//! the body rate, what a torque of a motor accelerates.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Complex, Vector3};
+use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
+
+use super::WatchError;
+use crate::evaluation::{CraftInputs, CraftState, EvaluationError, Evaluator};
+use crate::scenario::mass::imbalance;
+use crate::scenario::{Scenario, body_key};
+
+/// A rotor whose imbalance is a parameter.
+#[derive(Clone, Debug)]
+pub(super) struct Rotor {
+    /// Its device.
+    pub(super) name: String,
+    /// Its joint.
+    pub(super) joint: usize,
+}
+
+/// Angular acceleration of the hub by static and dynamic imbalance, 1/(kg m s²) and 1/(kg m² s²), as the real part times
+/// `exp(i theta)`, and the rate of the rotor at which it is that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Signature {
+    pub(super) by_imbalance: [Vector3<Complex<f64>>; 2],
+    pub(super) rate: f64,
+}
+
+pub(super) struct WatchedModel {
+    evaluator: Evaluator,
+    /// What was measured last.
+    state: CraftState,
+    inputs: CraftInputs,
+    rotors: Vec<Rotor>,
+    /// Whether each joint is that of a wheel.
+    wheels: Vec<bool>,
+}
+
+/// Accelerations of hub and joints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Accelerations {
+    pub(super) hub: Vector3<f64>,
+    pub(super) joints: Vec<f64>,
+}
+
+impl WatchedModel {
+    /// Of a scenario whose joints with a motor in the telemetry are driven by it; the others keep their rates.
+    pub(super) fn new(scenario: &Scenario, motors: &[usize]) -> Result<Self, WatchError> {
+        let evaluator = Evaluator::new(scenario).map_err(WatchError::Scenario)?;
+        let state = evaluator.initial();
+        let mut inputs = evaluator.no_inputs();
+        for (joint, mode) in inputs.modes.values_mut().enumerate() {
+            if !motors.contains(&joint) {
+                *mode = Mode::Prescribed(0.0);
+            }
+        }
+        let wheels = scenario.joints().map(|(.., info)| info.body == "wheel").collect();
+        let imbalanced: Vec<bool> = scenario
+            .members()
+            .map(|(_, member)| member.device().is_some_and(|of| imbalance(&of).is_some()))
+            .collect();
+        let rotors = scenario.joints().enumerate().filter_map(|(joint, (device, name, info))| {
+            let known = body_key(info) == "wheel" && imbalanced.get(device) == Some(&true);
+            known.then(|| Rotor { name: name.to_owned(), joint })
+        });
+        let rotors = rotors.collect();
+        Ok(Self { evaluator, state, inputs, rotors, wheels })
+    }
+
+    pub(super) fn rotors(&self) -> &[Rotor] {
+        &self.rotors
+    }
+
+    pub(super) fn is_wheel(&self, joint: usize) -> bool {
+        self.wheels.get(joint).copied().unwrap_or(false)
+    }
+
+    /// Takes a measured body rate, rad/s.
+    pub(super) fn set_rate(&mut self, omega: Vector3<f64>) {
+        self.state.omega = omega;
+    }
+
+    /// Takes a measured rate of a joint, rad/s.
+    pub(super) fn set_joint_rate(&mut self, joint: usize, value: f64) {
+        if let Some([_, rate]) = self.state.devices.states_mut().nth(joint) {
+            *rate = value;
+        }
+    }
+
+    /// Takes a measured coordinate of a joint, rad.
+    pub(super) fn set_coordinate(&mut self, joint: usize, value: f64) {
+        if let Some([coordinate, _]) = self.state.devices.states_mut().nth(joint) {
+            *coordinate = value;
+        }
+    }
+
+    /// Takes the torque of a motor, N m.
+    pub(super) fn set_motor(&mut self, joint: usize, value: f64) {
+        if let Some(motor) = self.inputs.motors.values_mut().nth(joint) {
+            *motor = value;
+        }
+    }
+
+    pub(super) fn joint_rate(&self, joint: usize) -> f64 {
+        self.state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate)
+    }
+
+    pub(super) fn motor(&self, joint: usize) -> f64 {
+        self.inputs.motors.values().nth(joint).unwrap_or(0.0)
+    }
+
+    /// Turns all wheels.
+    fn turn(&self, angle: f64) -> CraftState {
+        let mut state = self.state.clone();
+        for ([coordinate, _], _) in
+            state.devices.states_mut().zip(&self.wheels).filter(|(_, wheel)| **wheel)
+        {
+            *coordinate = angle;
+        }
+        state
+    }
+
+    fn at(&self, state: &CraftState, inputs: &CraftInputs) -> Result<Accelerations, WatchError> {
+        let found = self.evaluator.accelerations(state, inputs).map_err(WatchError::Solve)?;
+        Ok(Accelerations { hub: found.omega_dot, joints: found.devices.values().collect() })
+    }
+
+    /// Accelerations at what was measured last, without the imbalance of the wheels: the mean over two angles half a turn apart.
+    pub(super) fn mean(&self) -> Result<Accelerations, WatchError> {
+        let [mut first, second] = [0.0, PI].map(|angle| self.at(&self.turn(angle), &self.inputs));
+        if let (Ok(first), Ok(second)) = (&mut first, second) {
+            first.hub = (first.hub + second.hub) * 0.5;
+            for (to, other) in first.joints.iter_mut().zip(second.joints) {
+                *to = f64::midpoint(*to, other);
+            }
+        }
+        first
+    }
+
+    /// What one N m of a joint's motor accelerates the joint by, rad/s².
+    pub(super) fn by_motor(&self, joint: usize) -> Result<f64, WatchError> {
+        let mut inputs = self.inputs.clone();
+        let without = self.at(&self.state, &inputs)?;
+        if let Some(motor) = inputs.motors.values_mut().nth(joint) {
+            *motor += 1.0;
+        }
+        let with = self.at(&self.state, &inputs)?;
+        Ok(with.joints.get(joint).zip(without.joints.get(joint)).map_or(0.0, |(a, b)| a - b))
+    }
+
+    /// The line of each rotor at the present rates and gimbal angles; exact in the coupled equations of a rigid hub at rest.
+    pub(super) fn signatures(&self) -> Result<Vec<Signature>, EvaluationError> {
+        let names: Vec<String> = self
+            .rotors
+            .iter()
+            .flat_map(|of| {
+                ["static", "dynamic"].map(|kind| format!("{}.{kind}_imbalance", of.name))
+            })
+            .collect();
+        let mut columns = Vec::new();
+        for angle in [0.0, FRAC_PI_2] {
+            let mut state = self.turn(angle);
+            state.omega = Vector3::zeros();
+            let inputs = self.evaluator.no_inputs();
+            let found =
+                self.evaluator.linearize(&state, &inputs, &Outputs::accelerations(), &names)?;
+            let row =
+                |axis: &str| found.states.iter().position(|name| *name == format!("omega_{axis}"));
+            let rows = ["x", "y", "z"].map(row);
+            let column = |index: usize| {
+                let numbers = rows.map(|row| row.map_or(0.0, |row| found.p[(row, index)]));
+                Vector3::from(numbers)
+            };
+            columns.push((0..names.len()).map(column).collect::<Vec<_>>());
+        }
+        let [start, quarter] = [0, 1].map(|index| columns.get(index).cloned().unwrap_or_default());
+        // Re(A exp(i theta)) is Re A at zero and -Im A at a quarter of a turn.
+        let line = |index: usize| -> Vector3<Complex<f64>> {
+            match (start.get(index), quarter.get(index)) {
+                (Some(re), Some(im)) => re.zip_map(im, |re, im| Complex::new(re, -im)),
+                _ => Vector3::zeros(),
+            }
+        };
+        let each = self.rotors.iter().enumerate().map(|(index, rotor)| Signature {
+            by_imbalance: [line(2 * index), line(2 * index + 1)],
+            rate: self.joint_rate(rotor.joint),
+        });
+        Ok(each.collect())
+    }
+}

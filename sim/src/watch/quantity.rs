@@ -1,0 +1,124 @@
+//! [`Quantity`]: what is watched: its name, unit and tests, and what else would look the same.
+
+use super::detector::{Detector, Shift};
+
+/// What a quantity is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Watched {
+    /// Static imbalance of a rotor, kg m.
+    StaticImbalance,
+    /// Dynamic imbalance, kg m².
+    DynamicImbalance,
+    /// Phase of the line of static imbalance from block to block, rad.
+    StaticPhase,
+    /// Of dynamic imbalance, rad.
+    DynamicPhase,
+    /// Drag torque of a wheel beyond that of the scenario, N m.
+    Drag,
+    /// Torque constant of a gimbal's motor by that of the scenario, less one.
+    TorqueConstant,
+    /// Jump of the gyro's reading between two blocks, about an axis, rad/s.
+    GyroJump,
+}
+
+impl Watched {
+    /// SI unit.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::StaticImbalance => "kg m",
+            Self::DynamicImbalance => "kg m^2",
+            Self::StaticPhase | Self::DynamicPhase => "rad",
+            Self::Drag => "N m",
+            Self::TorqueConstant => "1",
+            Self::GyroJump => "rad/s",
+        }
+    }
+
+    /// What it is, of a joint, rotor or axis.
+    fn name(&self, of: &str) -> String {
+        match self {
+            Self::StaticImbalance => format!("static imbalance of {of}"),
+            Self::DynamicImbalance => format!("dynamic imbalance of {of}"),
+            Self::StaticPhase => format!("phase step of the static imbalance of {of}"),
+            Self::DynamicPhase => format!("phase step of the dynamic imbalance of {of}"),
+            Self::Drag => format!("drag torque of {of}"),
+            Self::TorqueConstant => format!("torque constant of {of}"),
+            Self::GyroJump => format!("gyro bias about {of}"),
+        }
+    }
+
+    /// What would look the same in these sensors.
+    fn alike(&self, of: &str) -> Vec<String> {
+        let texts: &[&str] = match self {
+            Self::StaticImbalance | Self::DynamicImbalance => &[
+                "a disturbance from elsewhere at the rotation frequency of {}",
+                "of all rotors at once: another inertia of the hub, or another scale factor of the gyro",
+            ],
+            Self::StaticPhase | Self::DynamicPhase => &[
+                "a jump of the angle of {}, which is the integral of its tachometer",
+                "an imbalance that moves about the axis, such as a loose part",
+            ],
+            Self::Drag => &[
+                "another torque constant of the motor of {}, where its torque does not change",
+                "an offset of the telemetered torque",
+                "a torque from outside about its axis on the hub, by the share of the rotor in the inertia",
+            ],
+            Self::TorqueConstant => &[
+                "friction or a cable of {} that grows with the torque",
+                "another scale of the telemetered torque",
+            ],
+            Self::GyroJump => &[
+                "an angular impulse from outside about {}",
+                "a motor torque that the telemetry does not have",
+            ],
+        };
+        texts.iter().map(|text| text.replace("{}", of)).collect()
+    }
+}
+
+/// A quantity with its tests.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    pub(super) watched: Watched,
+    pub(super) name: String,
+    of: String,
+    detector: Detector,
+}
+
+/// A change that a test has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alarm {
+    /// What has changed.
+    pub name: String,
+    /// Which quantity that is.
+    pub watched: Watched,
+    /// When it was raised, s.
+    pub time: f64,
+    /// From when on, and by how much.
+    pub shift: Shift,
+    /// What else would look the same.
+    pub alike: Vec<String>,
+}
+
+impl Quantity {
+    pub(super) fn new(watched: Watched, of: &str, detector: Detector) -> Self {
+        Self { name: watched.name(of), of: of.to_owned(), watched, detector }
+    }
+
+    /// The reference and the scatter about it by the stated variance; none while it is taken.
+    pub(super) fn reference(&self) -> Option<[f64; 2]> {
+        self.detector.reference()
+    }
+
+    /// Takes the estimate, with its variance, of a block.
+    pub(super) fn take(
+        &mut self,
+        [start, end]: [f64; 2],
+        [value, variance]: [f64; 2],
+    ) -> Option<Alarm> {
+        let shift = self.detector.take(start, value, variance)?;
+        let (name, watched) = (self.name.clone(), self.watched.clone());
+        Some(Alarm { name, watched, time: end, shift, alike: self.watched.alike(&self.of) })
+    }
+}
