@@ -256,6 +256,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-control", "laws", &[SOLVER, ENGINES, &["sim/control"]]),
     always("precess-control", "references", &[SOLVER, &["sim/control"]]),
     always("precess-control", "sensors", &[SOLVER, &["sim/control"]]),
+    always("precess-control", "trackers", &[SOLVER, &["sim/control"]]),
     // Batches on a GPU.
     always("precess-gpu", "lib", &[&["sim/gpu"]]),
     always(
@@ -263,7 +264,6 @@ pub(crate) const SUITES: &[Suite] = &[
         "batches",
         &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "sim/gpu"]],
     ),
-    always("precess-control", "trackers", &[SOLVER, &["sim/control"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),
