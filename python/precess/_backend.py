@@ -41,9 +41,9 @@ def _load_compiler() -> None:
                     continue
 
 
-def warn_of(reason: str | None, before: str | None) -> str | None:
-    """Says once why the processor computes."""
+def warn_of(reason: str | None, before: str | None, level: int) -> str | None:
+    """Says once why the processor computes, to the caller so many calls above."""
     if reason is not None and reason != before:
         text_of = f"backend 'cuda': {reason}; the processor computes, with the same bits"
-        warnings.warn(text_of, RuntimeWarning, stacklevel=4)
+        warnings.warn(text_of, RuntimeWarning, stacklevel=level + 1)
     return reason

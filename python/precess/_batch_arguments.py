@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-__all__ = ["is_of_key", "lists", "table_of", "threads_of", "written"]
+__all__ = ["is_of_key", "lists", "rows_of_inputs", "table_of", "threads_of", "written"]
 
 
 def threads_of(threads: int | None) -> int:
@@ -44,6 +44,19 @@ def table_of(name: str, of: npt.ArrayLike) -> Array:
     if found.ndim != 2:
         raise ValueError(f"`{name}` has the shape {found.shape}; it needs a row for each state")
     return found
+
+
+def rows_of_inputs(inputs: npt.ArrayLike, shape: tuple[int, int]) -> Array:
+    """Force, torque and motors of each state."""
+    try:
+        u = np.asarray(inputs, dtype=np.float64)
+    except TypeError:
+        raise TypeError(
+            f"inputs are a {type(inputs).__name__}; they need precess.Inputs, or an array"
+        ) from None
+    if u.shape != shape:
+        raise ValueError(f"inputs have the shape {u.shape}; they need {shape}: force, torque, motors")
+    return u
 
 
 def lists(parameters: Mapping[str, Any]) -> dict[str, Sequence[Any]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._backend import is_cuda, warn_of
-from ._batch_arguments import is_of_key, lists, table_of, threads_of, written
+from ._batch_arguments import is_of_key, lists, rows_of_inputs, table_of, threads_of, written
 from ._wanted import finite, function, instance, names, number, whole
 from .errors import ParameterError, ScenarioError
 from .inputs import Inputs
@@ -147,7 +147,7 @@ class Batch:
         scenarios = self._scenarios(keys) if keys else None
         native = _native.NativeBatch
         self._native = native(self._spacecraft._native, rows, scenarios, bool(in_lanes), cuda)
-        self._fallback = warn_of(self._native.fallback, None)
+        self._fallback = warn_of(self._native.fallback, None, 2)
         # Of keys also before a call: no state is needed to know that they are wrong.
         self.errors = dict(self._rejected)
 
@@ -383,22 +383,11 @@ class Batch:
         base = self._spacecraft.inputs()._native
         if inputs is None:
             return y, base, None
-        try:
-            u = np.asarray(inputs, dtype=np.float64)
-        except TypeError:
-            raise TypeError(
-                f"inputs are a {type(inputs).__name__}; they need precess.Inputs, or an array"
-            ) from None
-        shape = (len(y), 6 + len(self._spacecraft.joints))
-        if u.shape != shape:
-            raise ValueError(
-                f"inputs have the shape {u.shape}; they need {shape}: force, torque, motors"
-            )
-        return y, base, u
+        return y, base, rows_of_inputs(inputs, (len(y), 6 + len(self._spacecraft.joints)))
 
     def _note(self, failures: list[tuple[int, Any]], rows: list[Array]) -> None:
         self.errors = dict(failures) | self._rejected
-        self._fallback = warn_of(self._native.fallback, self._fallback)
+        self._fallback = warn_of(self._native.fallback, self._fallback, 3)
         for index in self._rejected:
             for array in rows:
                 array[index] = np.nan

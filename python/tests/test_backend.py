@@ -47,7 +47,7 @@ def test_another_backend_has_the_same_bits(wheels: str) -> None:
 
 
 def test_what_no_gpu_computes_is_an_error(scenarios: Path) -> None:
-    scenario = precess.Scenario.from_file(scenarios / "wheels-on-isolator.toml")
+    scenario = precess.Scenario.from_toml(scenarios / "wheels-on-isolator.toml")
     with pytest.raises(precess.UnsupportedError, match="platforms|feature `cuda`"):
         precess.Batch(scenario, backend="cuda")
 

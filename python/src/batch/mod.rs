@@ -9,14 +9,14 @@ mod engine;
 #[cfg(feature = "cuda")]
 mod gpu;
 mod reduce;
+mod results;
 mod rows;
 mod work;
 
 use std::sync::{Arc, Mutex, OnceLock};
 
 use numpy::{
-    IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2,
-    PyUntypedArrayMethods as _,
+    IntoPyArray as _, PyArray3, PyArrayMethods as _, PyReadonlyArray2, PyUntypedArrayMethods as _,
 };
 use precess::evaluation::{CraftInputs, Parameter};
 use precess::scenario::Scenario;
@@ -31,17 +31,13 @@ use crate::scenario::NativeScenario;
 
 use arrays::{contiguous, direction, writable};
 pub(crate) use derivatives::{Linearized, Sizes};
-use engine::{Engine, Failure};
+use engine::Engine;
 use reduce::{BatchHistory, Reduction};
+use results::{Failures, Rows, RunFacts, exceptions, run_facts};
+use rows::failed_rows;
 pub(crate) use rows::{BatchRows, InputRows};
-use rows::{Failed, failed_rows};
 use work::{Progress, share, watched};
 
-type Rows<'py> = Bound<'py, PyArray2<f64>>;
-/// Index and exception of each element that failed.
-type Failures = Vec<(usize, Py<PyAny>)>;
-/// Final states, samples, reductions in the order of the request, failures.
-type RunFacts<'py> = (Rows<'py>, Option<Bound<'py, PyArray3<f64>>>, Vec<Rows<'py>>, Failures);
 /// Names of accelerations, states and inputs; derivatives by states and by inputs; failures.
 type LinearizedFacts<'py> = (
     Vec<String>,
@@ -394,31 +390,4 @@ impl NativeBatch {
         }
         Ok(InputRows { base, rows: u.as_array().iter().copied().collect(), width })
     }
-}
-
-/// Final states, samples and reductions as arrays; failures as exceptions.
-fn run_facts(
-    py: Python<'_>,
-    (y, histories, reduced): (Vec<f64>, Option<Vec<f64>>, Vec<Vec<f64>>),
-    [count, samples, size]: [usize; 3],
-    failures: Failed,
-) -> PyResult<RunFacts<'_>> {
-    let failures = exceptions(py, failures)?;
-    let histories = match histories {
-        Some(of) => Some(of.into_pyarray(py).reshape([count, samples, size])?),
-        None => None,
-    };
-    let reduced: PyResult<Vec<_>> =
-        reduced.into_iter().map(|of| of.into_pyarray(py).reshape([count, size])).collect();
-    Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
-}
-
-/// Failures in the order of the elements, as exceptions.
-fn exceptions(py: Python<'_>, mut of: Vec<(usize, Failure)>) -> PyResult<Failures> {
-    of.sort_by_key(|(index, _)| *index);
-    let one = |(index, failure): (usize, Failure)| {
-        let exception = failure.exception().into_value(py);
-        Ok((index, exception.into_any()))
-    };
-    of.into_iter().map(one).collect()
 }
