@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Matrix3, Vector3};
 use precess_control::GyroOutput;
 use precess_dynamics::Angle;
 
@@ -19,6 +19,9 @@ const ALIKE: f64 = 0.98;
 
 /// A rotor slower than this has no line, rad/s.
 const SLOWEST: f64 = 1.0;
+
+/// A line nearer than this to a multiple of the sampling rate, rad a sample, is a constant.
+const FOLDED: f64 = 1e-6;
 
 /// The angle of a rotor, and its line in the block.
 #[derive(Clone, Debug)]
@@ -47,6 +50,8 @@ pub(super) struct BodyFit {
     row: Vec<f64>,
     /// Integral of the model's acceleration since the start of the block, rad/s.
     predicted: Vector3<f64>,
+    /// Time since the reading before, s.
+    interval: f64,
     /// The block before: its estimate, length, s, and integral.
     before: Option<(Estimated, f64, Vector3<f64>)>,
 }
@@ -77,6 +82,7 @@ impl BodyFit {
             regression: Regression::new(count),
             row: vec![0.0; count],
             predicted: Vector3::zeros(),
+            interval: 0.0,
             before: None,
         }
     }
@@ -107,6 +113,7 @@ impl BodyFit {
     /// Moves on by a time with this acceleration of the hub.
     pub(super) fn advance(&mut self, elapsed: f64, hub: &Vector3<f64>, model: &WatchedModel) {
         self.predicted += hub * elapsed;
+        self.interval += elapsed;
         for (line, rotor) in self.lines.iter_mut().zip(model.rotors()) {
             line.since += elapsed;
             line.rate = model.joint_rate(rotor.joint);
@@ -135,19 +142,32 @@ impl BodyFit {
             }
             let (sine, cosine) = Angle::sin_cos(line.angle + rate * line.since);
             // From acceleration to rate, and to what the gyro makes of it.
-            let mut factor = Complex::new(cosine, sine) / Complex::new(0.0, rate)
-                * (rate / signature.rate).powi(2);
+            let mut factor = Complex::new(cosine, sine) * (rate / signature.rate).powi(2);
             if let Some(period) = self.integrating {
                 let half = 0.5 * rate * period;
                 let sinc = if half == 0.0 { 1.0 } else { libm::sin(half) / half };
                 factor *= Complex::new(libm::cos(half), -libm::sin(half)) * sinc;
             }
-            let [first, second] = signature.by_imbalance.map(|of| of.map(|of| of * factor));
+            // i Omega x = K x + A. The model is integrated at the readings before, which have the line: of that
+            // integral, T / (exp(i Omega T) - 1) K x, nothing is left.
+            let coupling = signature.coupling.map(|of| Complex::new(of, 0.0));
+            let turning = Matrix3::from_diagonal_element(Complex::new(0.0, rate)) - coupling;
+            let Some(inverse) = turning.try_inverse() else { continue };
+            let (sine, cosine) = Angle::sin_cos(rate * self.interval);
+            let step = Complex::new(cosine - 1.0, sine);
+            let integrated = if step.norm() > FOLDED {
+                coupling * (Complex::new(self.interval, 0.0) / step)
+            } else {
+                Matrix3::zeros()
+            };
+            let left = (Matrix3::identity() - integrated) * inverse;
+            let [first, second] = signature.by_imbalance.map(|of| left * of * factor);
             if line.separate == Some(true) {
                 (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
             }
             (to[2], to[3]) = (second.map(|of| of.re), second.map(|of| -of.im));
         }
+        self.interval = 0.0;
         let observed = omega - self.predicted;
         for axis in 0..3 {
             self.row.fill(0.0);

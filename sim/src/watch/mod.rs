@@ -10,8 +10,7 @@
 //! block. A tachometer less that is a start, a drag torque and, of a gimbal, a torque constant. Quantities of blocks are compared
 //! with those of the first blocks, the reference. Memory does not grow with the length of the telemetry.
 //!
-//! Lines are those of a rigid hub; `omega x h` of the whole spacecraft, about a thousandth at the rotation frequency, is not in
-//! them. Blocks across a gap are left out.
+//! Lines are those of a rigid hub. Blocks across a gap are left out.
 //!
 //! | file | what |
 //! |---|---|
@@ -49,7 +48,7 @@ use thresholds::Thresholds;
 const ONSETS: usize = 60;
 
 /// A time without readings that is longer than this share of a block ends the block.
-const GAP: f64 = 0.1;
+const GAP: f64 = 0.25;
 
 /// Lengths and the rate of false alarms.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Matrix3, Vector3};
 use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 
 use super::WatchError;
@@ -26,6 +26,8 @@ pub(super) struct Rotor {
 pub(super) struct Signature {
     pub(super) by_imbalance: [Vector3<Complex<f64>>; 2],
     pub(super) rate: f64,
+    /// Derivative of the hub's angular acceleration by its angular velocity, 1/s: the wheels' momenta.
+    pub(super) coupling: Matrix3<f64>,
 }
 
 pub(super) struct WatchedModel {
@@ -150,7 +152,8 @@ impl WatchedModel {
         Ok(with.joints.get(joint).zip(without.joints.get(joint)).map_or(0.0, |(a, b)| a - b))
     }
 
-    /// The line of each rotor at the present rates and gimbal angles; exact in the coupled equations of a rigid hub at rest.
+    /// The line of each rotor at the present rates and gimbal angles; exact in the coupled equations of a rigid hub
+    /// at rest.
     pub(super) fn signatures(&self) -> Result<Vec<Signature>, EvaluationError> {
         let names: Vec<String> = self
             .rotors
@@ -160,6 +163,7 @@ impl WatchedModel {
             })
             .collect();
         let mut columns = Vec::new();
+        let mut coupling = Matrix3::zeros();
         for angle in [0.0, FRAC_PI_2] {
             let mut state = self.turn(angle);
             state.omega = Vector3::zeros();
@@ -173,6 +177,11 @@ impl WatchedModel {
                 let numbers = rows.map(|row| row.map_or(0.0, |row| found.p[(row, index)]));
                 Vector3::from(numbers)
             };
+            let element = |i: usize, j: usize| match (rows.get(i), rows.get(j)) {
+                (Some(Some(i)), Some(Some(j))) => found.a[(*i, *j)],
+                _ => 0.0,
+            };
+            coupling += Matrix3::from_fn(element) * 0.5;
             columns.push((0..names.len()).map(column).collect::<Vec<_>>());
         }
         let [start, quarter] = [0, 1].map(|index| columns.get(index).cloned().unwrap_or_default());
@@ -186,6 +195,7 @@ impl WatchedModel {
         let each = self.rotors.iter().enumerate().map(|(index, rotor)| Signature {
             by_imbalance: [line(2 * index), line(2 * index + 1)],
             rate: self.joint_rate(rotor.joint),
+            coupling,
         });
         Ok(each.collect())
     }

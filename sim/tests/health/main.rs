@@ -127,13 +127,13 @@ fn value(names: &[String], block: &Block, name: &str) -> [f64; 2] {
     block.values[index].unwrap_or_else(|| panic!("{name} is not determined"))
 }
 
-/// From body rates without noise every block has the imbalance of the scenario, to what lines leave out: `omega x h` of the whole spacecraft,
-/// 2 N m s by 10 kg m² and 94 rad/s, and what a rate that changes does.
+/// From body rates without noise every block has the imbalance of the scenario, to what a rate that changes and angles from a tachometer
+/// at 100 Hz leave.
 #[test]
 fn the_imbalance_of_each_wheel_is_that_of_the_run() {
     let scenario = scenario(BUS);
     let (names, blocks) = watched(&scenario, &rows(&scenario), &SETTINGS, [0.0; 2]);
-    assert_eq!(blocks.len(), 5);
+    assert_eq!(blocks.len(), 6);
     for block in &blocks {
         for (name, expected) in [
             ("static imbalance of rw1", 1e-5),
@@ -147,7 +147,7 @@ fn the_imbalance_of_each_wheel_is_that_of_the_run() {
                 found / expected - 1.0,
                 variance.sqrt()
             );
-            assert!((found / expected - 1.0).abs() < 0.01, "{name}: {found:e}");
+            assert!((found / expected - 1.0).abs() < 2e-4, "{name}: {found:e}");
         }
         for name in ["drag torque of rw1", "drag torque of rw2"] {
             let [found, _] = value(&names, block, name);
@@ -179,8 +179,8 @@ fn variances_are_those_of_the_noise() {
     }
     let mean = squares / count;
     println!("{count} normalised squares, mean {mean}");
-    // Chi-square with 44 degrees of freedom, by 44: from 0.44 to 1.83 in 9999 of 10,000.
-    assert!(count == 44.0 && (0.44..1.83).contains(&mean), "{mean}");
+    // Chi-square with 48 degrees of freedom, by 48: from 0.46 to 1.79 in 9999 of 10,000.
+    assert!(count == 48.0 && (0.46..1.79).contains(&mean), "{mean}");
 }
 
 /// A drag that grows in the middle of a record is found, dated and sized; nothing else is, and nothing before.
