@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Complex, Matrix3, Vector3};
 use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 
-use super::WatchError;
+use super::error::WatchError;
 use crate::evaluation::{CraftInputs, CraftState, EvaluationError, Evaluator};
 use crate::scenario::mass::imbalance;
 use crate::scenario::{Scenario, body_key};

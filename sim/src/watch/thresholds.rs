@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
-use super::WatchError;
+use super::error::WatchError;
 
 /// What a cumulative sum takes off at each block, deviations: changes of twice that are found fastest.
 pub(super) const DRIFT: f64 = 0.75;

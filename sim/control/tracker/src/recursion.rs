@@ -190,7 +190,6 @@ fn add_product<const N: usize>(matrix: &mut [[f64; N]; N], by: f64, phi: &[f64; 
 }
 
 /// The whole of a lower triangle.
-#[expect(clippy::needless_range_loop, reason = "elements of a triangle")]
 fn symmetric<const N: usize>(lower: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut whole = *lower;
     for i in 0..N {
@@ -201,7 +200,6 @@ fn symmetric<const N: usize>(lower: &[[f64; N]; N]) -> [[f64; N]; N] {
     whole
 }
 
-#[expect(clippy::needless_range_loop, reason = "elements of a square")]
 fn transposed<const N: usize>(of: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut to = *of;
     for i in 0..N {
