@@ -27,6 +27,8 @@ mod joint;
 mod model;
 mod quantity;
 mod regression;
+#[cfg(test)]
+mod tests;
 mod thresholds;
 
 use nalgebra::Vector3;
