@@ -8,7 +8,7 @@ use crate::model::parameters::Hub;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Real, Scalar, half};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, sub};
+use crate::numbers::vec3::{Columns, Vec3, add, components, cross, dot, scale, sub};
 
 /// Constants of the hub, all expressed in B. In this order two copies bring them into the sums of an
 /// evaluation, which have the first moment before the inertia: one of both would be a call.
@@ -54,6 +54,13 @@ impl<T: Copy> HubConstants<T> {
 }
 
 impl<T: Real> HubConstants<T> {
+    /// Of its mass matrix, the force by angular accelerations: `-tilde(m c)`, column by column.
+    #[inline(always)]
+    pub(crate) fn coupling(&self) -> Columns<T> {
+        let ([x, y, z], zero) = (self.first_moment, self.m_b.like(0.0));
+        [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    }
+
     /// Second moment of the hub about B, kg m^2.
     #[inline(always)]
     pub(crate) fn second_moment(&self) -> Symmetric<T> {
@@ -64,14 +71,13 @@ impl<T: Real> HubConstants<T> {
     /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
     #[inline(always)]
     pub(crate) fn system(&self, omega: Vec3<T>, force: Vec3<T>, torque_b: Vec3<T>) -> System<T> {
-        let ([x, y, z], zero) = (self.first_moment, self.m_b.like(0.0));
+        let zero = self.m_b.like(0.0);
         let centrifugal = cross(omega, cross(omega, self.first_moment));
         let gyroscopic = cross(omega, self.i_b_b.times(omega));
         let m = self.m_b;
         System {
             m_vv: Symmetric { xx: m, xy: zero, xz: zero, yy: m, yz: zero, zz: m },
-            // -tilde(m c), column by column.
-            m_vw: [[zero, -z, y], [z, zero, -x], [-y, x, zero]],
+            m_vw: self.coupling(),
             m_ww: self.i_b_b,
             h_v: sub(force, centrifugal),
             h_w: sub(torque_b, gyroscopic),

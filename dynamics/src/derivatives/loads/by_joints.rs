@@ -9,15 +9,18 @@ use nalgebra::DMatrix;
 use crate::derivatives::loads::by_loads::{ByLoads, Change, Own};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
 use crate::derivatives::loads::load_columns::JointColumns;
-use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER};
+use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER};
 use crate::derivatives::slopes::{OF_HUB, Slopes};
 use crate::derivatives::variable::Variable;
 use crate::equations::arithmetic::Arithmetic;
 use crate::numbers::real::{Scalar, one, zero};
-use crate::numbers::vec3::{Columns as Axes, rotate_transposed};
+use crate::numbers::vec3::{Columns as Axes, Vec3, rotate_transposed, zeros};
 
 /// By states or inputs: derivatives of the accelerations, and of the slopes of the states.
 pub(crate) type Both<'a, T> = [&'a mut DMatrix<T>; 2];
+
+/// Position, attitude and velocity of B: the states of a hub before its angular velocity.
+const BEFORE_OMEGA: usize = 9;
 
 /// Columns of both.
 type BothColumns<'a, T> = [&'a mut [T]; 2];
@@ -66,7 +69,7 @@ impl<T: Scalar> Matrices<'_, T> {
     #[inline(always)]
     fn fill(self) -> Option<bool> {
         let Self { loads, slopes, states, inputs, by_states, by_inputs } = self;
-        let joints = loads.devices.joints.as_slice();
+        let joints = loads.devices.joints();
         let of_hub = states.len().checked_sub(joints.len().checked_mul(2)?)?;
         let (states_of_hub, of_joints) = states.split_at_checked(of_hub)?;
         let (coordinates, rates) = of_joints.split_at_checked(joints.len())?;
@@ -96,22 +99,29 @@ impl<T: Scalar> Matrices<'_, T> {
         let (given, by_drives) = split(by_inputs.0, heights, given)?;
         let columns = Columns { loads, turned: slopes.hub.then_some(&slopes.bn) };
         let mut all = Finiteness::of_none();
-        let mut finite = true;
-        for (variables, [accelerations, slopes_of]) in
-            [(states_of_hub, hub), (inputs_of_hub, given)]
-        {
-            let both = [&mut *accelerations, &mut *slopes_of];
-            for (variable, both) in variables.iter().zip(each(both, heights)) {
-                columns.fill_hub(*variable, both, &mut all)?;
+        let [accelerations, slopes_of] = hub;
+        // Most of these stay zero.
+        let (still, _) =
+            split([&mut *accelerations, &mut *slopes_of], heights, BEFORE_OMEGA.min(of_hub))?;
+        still.into_iter().for_each(|columns| columns.fill(zero()));
+        let both = [&mut *accelerations, &mut *slopes_of];
+        for (variable, both) in states_of_hub.iter().zip(each(both, heights)) {
+            if let Some(change) = loads.change(*variable) {
+                columns.fill_hub(change, both, &mut all)?;
             }
-            finite &= slopes.of_variables(variables, heights[1], slopes_of, true).is_ok();
+        }
+        let finite = slopes.of_variables(states_of_hub, heights[1], slopes_of, true).is_ok();
+        for (variable, both) in inputs_of_hub.iter().zip(each(given, heights)) {
+            columns.fill_hub(loads.change(*variable)?, both, &mut all)?;
         }
         let of_joints = each(by_coordinates, heights).zip(each(by_rates, heights));
         let of_joints = of_joints.zip(each(by_drives, heights)).zip(joints).enumerate();
         for (joint, (((by_coordinate, [accelerations, slopes]), by_drive), of)) in of_joints {
-            columns.fill_joint(of, COORDINATE, by_coordinate, &mut all)?;
-            columns.fill_joint(of, DRIVE, by_drive, &mut all)?;
-            columns.fill_joint(of, RATE, [accelerations, &mut *slopes], &mut all)?;
+            let in_n = columns.in_n_of_group(&of.hub);
+            of.hub.iter().chain(&in_n).for_each(|row| all.see(row));
+            columns.fill_joint(of, &in_n, COORDINATE, by_coordinate, &mut all)?;
+            columns.fill_joint(of, &in_n, DRIVE, by_drive, &mut all)?;
+            columns.fill_joint(of, &in_n, RATE, [accelerations, &mut *slopes], &mut all)?;
             let first = if columns.turned.is_some() { OF_HUB } else { 0 };
             *slopes.get_mut(first.wrapping_add(joint))? = one();
         }
@@ -127,27 +137,41 @@ struct Columns<'a, T> {
 }
 
 impl<T: Scalar> Columns<'_, T> {
-    /// By the variable of a joint in this place.
+    /// The acceleration of B along N, of some columns; zeros where the hub is fixed.
+    #[inline(always)]
+    fn in_n_of_group(&self, [a, b, c, ..]: &HubGroup<T>) -> [[T; TOGETHER]; 3] {
+        let mut found = [[zero(); TOGETHER]; 3];
+        for (to, [x, y, z]) in found.iter_mut().zip(self.turned.into_iter().flatten()) {
+            for (k, to) in to.iter_mut().enumerate() {
+                *to = *x * a[k] + *y * b[k] + *z * c[k];
+            }
+        }
+        found
+    }
+
+    /// By the variable of a joint in this place, with the acceleration of B along N; sees those of the joints.
     #[inline(always)]
     fn fill_joint(
         &self,
         of: &JointColumns<T>,
+        [x, y, z]: &[[T; TOGETHER]; 3],
         place: usize,
         both: BothColumns<'_, T>,
-        all: &mut Finiteness<T>,
+        finite: &mut Finiteness<T>,
     ) -> Option<()> {
-        let base = of.hub.map(|row| row[place % TOGETHER]);
-        let mut finite = Finiteness::of_none();
-        let [joints, rates] = self.follow(&base, &base, both, &mut finite)?;
+        let place = place % TOGETHER;
+        let [a, b, c, d, e, f] = &of.hub;
+        let base = [a[place], b[place], c[place], d[place], e[place], f[place]];
+        let in_n = [x[place], y[place], z[place]];
+        let [joints, rates] = self.follow(&base, (&base, in_n), both, finite)?;
         let own = joints.get_mut(of.first..)?.iter_mut().zip(rates.get_mut(of.first..)?);
         let mut sum = zero::<T>();
         for (line, (to, rate)) in of.less.get(..of.count)?.iter().zip(own) {
-            *to = *to - line[place % TOGETHER];
-            *rate = *to;
-            sum = sum + *to * zero();
+            let found = *to - line[place];
+            (*to, *rate) = (found, found);
+            sum = sum + found;
         }
         finite.see_each(&[sum]);
-        all.merge(&finite);
         Some(())
     }
 
@@ -155,49 +179,43 @@ impl<T: Scalar> Columns<'_, T> {
     #[inline(always)]
     fn fill_hub(
         &self,
-        by: Variable,
-        [accelerations, slopes]: BothColumns<'_, T>,
-        all: &mut Finiteness<T>,
+        Change { base, field, own }: Change<'_, T>,
+        both: BothColumns<'_, T>,
+        finite: &mut Finiteness<T>,
     ) -> Option<()> {
-        let Some(Change { base, field, own }) = self.loads.change(by) else {
-            accelerations.fill(zero());
-            slopes.fill(zero());
-            return Some(());
-        };
-        let mut hub = base;
-        let field = field.into_iter().flatten();
-        hub.iter_mut().zip(field).for_each(|(to, field)| *to = *to + field);
-        let mut finite = Finiteness::of_none();
-        let [joints, rates] = self.follow(&base, &hub, [accelerations, slopes], &mut finite)?;
+        let ([a, b, c, d, e, f], [x, y, z]) = (base, field.unwrap_or_else(zeros));
+        let hub = [a + x, b + y, c + z, d, e, f];
+        let of_b = [hub[0], hub[1], hub[2]];
+        let in_n = self.turned.map_or_else(zeros, |bn| rotate_transposed(bn, of_b));
+        finite.see_each(&of_b);
+        finite.see_each(&[d, e, f]);
+        finite.see_each(&in_n);
+        let [joints, rates] = self.follow(&base, (&hub, in_n), both, finite)?;
         if let Own::All(axis) = own {
             self.loads.devices.gains.subtract_by_omega(axis as usize, joints);
             rates.iter_mut().zip(&*joints).for_each(|(to, from)| *to = *from);
             joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
         }
-        all.merge(&finite);
         Some(())
     }
 
-    /// What follows these accelerations of the base, and the hub's; the rows of the joints of both columns, of as many
-    /// each.
+    /// What follows these accelerations of the base, and the hub's, of B also along N; the rows of the joints of both
+    /// columns, of as many each.
     #[inline(always)]
     fn follow<'b>(
         &self,
         base: &Six<T>,
-        hub: &Six<T>,
+        (hub, [x, y, z]): (&Six<T>, Vec3<T>),
         [accelerations, slopes]: BothColumns<'b, T>,
         finite: &mut Finiteness<T>,
     ) -> Option<BothColumns<'b, T>> {
         let (of_hub, joints) = accelerations.split_first_chunk_mut::<6>()?;
         *of_hub = *hub;
-        let [a, b, c, d, e, f] = *hub;
         let mut rest = slopes;
-        if let Some(bn) = self.turned {
+        if self.turned.is_some() {
             let (of_hub, of_joints) = rest.split_first_chunk_mut::<OF_HUB>()?;
-            let ([x, y, z], o) = (rotate_transposed(bn, [a, b, c]), zero());
+            let ([_, _, _, d, e, f], o) = (*hub, zero());
             *of_hub = [o, o, o, o, o, o, x, y, z, d, e, f];
-            finite.see(&[x, y, z, d]);
-            finite.see_each(&[e, f]);
             rest = of_joints;
         }
         let (coordinates, rates) = rest.split_at_mut_checked(joints.len())?;

@@ -13,7 +13,7 @@ use crate::derivatives::loads::each_device::{EachDevice, Moving};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
 use crate::derivatives::loads::load_columns::{JointColumns, LoadColumns, LoadsWorkspace};
 use crate::derivatives::loads::mass_system::MassSystem;
-use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER};
+use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER, are_finite};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -71,14 +71,13 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
         let devices = &mut workspace.columns;
-        let system = MassSystem::new(&craft.hub, craft.mass(), &devices.matrix(), hub_is_free);
-        match by {
+        let reduction = HubReduction { hub: &craft.hub, mass: craft.mass(), devices, hub_is_free };
+        let system = match by {
             #[cfg(feature = "lanes")]
-            Arithmetic::Dispatched(cpu) => {
-                cpu.dispatch(DispatchedHub { system: &system, joints: &mut devices.joints });
-            }
-            Arithmetic::Portable => hub_of_joints(&system, &mut devices.joints),
-        }
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(reduction),
+            Arithmetic::Portable => reduction.run(),
+        };
+        let devices = &mut workspace.columns;
         Some(Self { by, devices, system, hub: craft.hub, omega, gravity, hub_is_free })
     }
 
@@ -107,17 +106,16 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         first.map_or(Ok(()), Err)
     }
 
-    /// The columns of a matrix of so many rows; whether all of them are finite.
+    /// The columns of a matrix of so many rows; whether all of them are finite, which may be false where they are.
     #[inline(always)]
     fn fill(&self, variables: &[Variable], rows: usize, into: &mut [T]) -> bool {
-        let mut all = Finiteness::of_none();
+        let mut finite = Finiteness::of_none();
         for (variable, column) in variables.iter().zip(into.chunks_exact_mut(rows)) {
             let Some((hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
             let Some(Change { base, field, own }) = self.change(*variable) else {
                 column.fill(zero());
                 continue;
             };
-            let mut finite = Finiteness::of_none();
             self.devices.gains.follow(&base, joints, &mut finite);
             *hub = base;
             match own {
@@ -141,9 +139,8 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
             let [a, b, c, d, rest @ ..] = *hub;
             finite.see(&[a, b, c, d]);
             finite.see_each(&rest);
-            all.merge(&finite);
         }
-        all.holds()
+        finite.holds()
     }
 
     /// What changes with one variable; none where nothing does.
@@ -187,21 +184,35 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
     /// By the coordinate of a joint, by its rate, or by what drives it.
     #[inline(always)]
     fn by_joint(&self, joint: usize, place: usize) -> Option<Change<'_, T>> {
-        let of = self.devices.joints.get(joint)?;
+        let of = self.devices.joints().get(joint)?;
         let base = of.hub.map(|row| row[place % TOGETHER]);
         Some(Change { base, field: None, own: Own::Device { of, place } })
     }
 
     fn is_free(&self, joint: usize) -> bool {
-        self.devices.joints.get(joint).is_some_and(|of| of.free)
+        self.devices.joints().get(joint).is_some_and(|of| of.free)
     }
 }
 
-/// The hub's accelerations for the right sides of all joints.
-#[inline(always)]
-fn hub_of_joints<T: Scalar>(system: &MassSystem<T>, joints: &mut [JointColumns<T>]) {
-    for joint in joints {
-        system.hub_of_group(&mut joint.hub);
+/// The hub's equations, to be solved for the right sides of all joints.
+struct HubReduction<'a, T> {
+    hub: &'a HubConstants<T>,
+    /// Of the whole.
+    mass: T,
+    devices: &'a mut LoadColumns<T>,
+    hub_is_free: bool,
+}
+
+impl<T: Scalar> HubReduction<'_, T> {
+    /// In place of the right sides the hub's accelerations.
+    #[inline(always)]
+    fn run(self) -> MassSystem<T> {
+        let Self { hub, mass, devices, hub_is_free } = self;
+        let system = MassSystem::new(hub, mass, &devices.matrix, hub_is_free);
+        for joint in devices.joints_mut() {
+            system.hub_of_group(&mut joint.hub);
+        }
+        system
     }
 }
 
@@ -245,33 +256,15 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
     }
 }
 
-/// The hub's accelerations by the instructions of this CPU.
+/// The same by the instructions of this CPU.
 #[cfg(feature = "lanes")]
-struct DispatchedHub<'a, T> {
-    system: &'a MassSystem<T>,
-    joints: &'a mut [JointColumns<T>],
-}
-
-#[cfg(feature = "lanes")]
-impl<T: Scalar> pulp::WithSimd for DispatchedHub<'_, T> {
-    type Output = ();
+impl<T: Scalar> pulp::WithSimd for HubReduction<'_, T> {
+    type Output = MassSystem<T>;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        hub_of_joints(self.system, self.joints);
+    fn with_simd<S: pulp::Simd>(self, _: S) -> MassSystem<T> {
+        self.run()
     }
-}
-
-/// Whether all numbers are finite: zero times each, summed side by side, is.
-#[inline(always)]
-pub(crate) fn are_finite<T: Scalar>(numbers: &[T]) -> bool {
-    let (fours, rest) = numbers.as_chunks::<TOGETHER>();
-    let mut finite = Finiteness::of_none();
-    for four in fours {
-        finite.see(four);
-    }
-    finite.see_each(rest);
-    finite.holds()
 }
 
 /// Force and moment about B.

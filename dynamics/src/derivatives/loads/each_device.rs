@@ -7,9 +7,10 @@
 
 use alloc::vec::Vec;
 
+use crate::derivatives::loads::device_reduction::JointModes;
 use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled};
 #[cfg(feature = "lanes")]
-use crate::derivatives::loads::kernel_in_lanes::GroupKernel;
+use crate::derivatives::loads::kernel_in_lanes::{Found, GroupKernel, Slopes};
 use crate::derivatives::loads::kernel_loads::{KernelInputs, KernelLoads};
 use crate::derivatives::loads::load_columns::{GivenJoints, LoadColumns, LoadsWorkspace};
 use crate::equations::arithmetic::Arithmetic;
@@ -20,11 +21,14 @@ use crate::equations::side_by_side::fallbacks;
 #[cfg(feature = "lanes")]
 use crate::equations::side_by_side::group::DeviceGroup;
 use crate::isolation::carrier::Carrier;
+use crate::model::joint_array::MAX_JOINTS;
 #[cfg(feature = "lanes")]
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
-#[cfg(feature = "lanes")]
 use crate::model::mode::Mode;
+use crate::numbers::each::Each;
+#[cfg(feature = "lanes")]
+use crate::numbers::each::JointStates;
 #[cfg(feature = "lanes")]
 use crate::numbers::laned::WIDEST;
 use crate::numbers::real::Scalar;
@@ -73,6 +77,20 @@ impl<'a, T: Scalar> EachDevice<'a, T> {
     }
 }
 
+impl JointModes {
+    /// Of a device whose joints have these modes.
+    fn of<K: Kind>(modes: &K::PerJoint<Mode<K::Scalar>>) -> Self {
+        let (mut free, mut accelerated) = ([false; MAX_JOINTS], [false; MAX_JOINTS]);
+        let modes = modes.values().zip(K::JOINTS);
+        for ((free, accelerated), (mode, info)) in free.iter_mut().zip(&mut accelerated).zip(modes)
+        {
+            *free = mode == Mode::Driven && info.driven;
+            *accelerated = matches!(mode, Mode::Prescribed(_)) && info.driven;
+        }
+        Self { free, accelerated }
+    }
+}
+
 /// State, inputs and accelerations of the joints.
 pub(crate) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
 
@@ -96,12 +114,14 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, '_, T> {
 }
 
 /// Eliminates the joints of a device.
-fn eliminate<T: Scalar>(
+fn eliminate<K: Kind>(
     by: Arithmetic,
-    given: &GivenJoints<'_, T>,
-    loads: &KernelLoads<T>,
-    found: &mut LoadColumns<T>,
+    device: &Device<K>,
+    modes: JointModes,
+    loads: &KernelLoads<K::Scalar>,
+    found: &mut LoadColumns<K::Scalar>,
 ) {
+    let given = &GivenJoints { mount: &device.mount, count: K::JOINTS.len(), modes };
     match by {
         #[cfg(feature = "lanes")]
         Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { given, loads, found }),
@@ -139,27 +159,57 @@ impl<T: Scalar> EachDevice<'_, T> {
     ) -> Option<()> {
         check_count::<K>().ok()?;
         let width = group.registers.width();
-        // Of the widest group so far: a narrower one has the first of them.
-        self.loads.resize(width.max(self.loads.len()), KernelLoads::none());
-        let lanes = self.loads.get_mut(..width)?;
-        GroupKernel {
+        let modes = members.each_ref().map(|(_, modes, _)| JointModes::of::<K>(modes));
+        let [first, ..] = modes;
+        let alike = modes.iter().all(|of| *of == first) && self.found.eliminated.is_none();
+        let mut kernel = GroupKernel {
             group,
             joints: members.each_ref().map(|(joints, ..)| *joints),
             accelerations: members.each_ref().map(|(.., accelerations)| *accelerations),
             omega: self.omega,
             hub: self.hub,
-            loads: &mut *lanes,
+            to: Found::Eliminated { modes: first, slopes: None, columns: &mut *self.found },
+        };
+        if alike {
+            let slopes = (!group.blocks.free).then(|| slopes(devices, &kernel.joints));
+            if let Found::Eliminated { slopes: to, .. } = &mut kernel.to {
+                *to = slopes.as_ref();
+            }
+            return kernel.run();
         }
-        .run()?;
+        // Of the widest group so far: a narrower one has the first of them.
+        self.loads.resize(width.max(self.loads.len()), KernelLoads::none());
+        let lanes = self.loads.get_mut(..width)?;
+        kernel.to = Found::Loads(&mut *lanes);
+        kernel.run()?;
         // The rest of the row follows the group, and members beyond it repeat its last.
-        for ((device, (joints, modes, _)), loads) in
-            devices.zip(members).zip(lanes).take(group.devices)
-        {
+        let each = devices.zip(members).zip(modes).zip(lanes).take(group.devices);
+        for (((device, (joints, ..)), modes), loads) in each {
             loads.add_passive(device, joints);
-            eliminate(self.by, &GivenJoints::of(device, modes), loads, self.found);
+            eliminate(self.by, device, modes, loads, self.found);
         }
         Some(())
     }
+}
+
+/// The slopes of springs and friction of each device: by coordinates, by rates.
+#[cfg(feature = "lanes")]
+fn slopes<'d, K: Kind>(
+    devices: impl Iterator<Item = &'d Device<K>>,
+    joints: &[&K::Joints<K::Scalar>; WIDEST],
+) -> Slopes<K> {
+    let none = <K as Kind>::all(0.0);
+    let mut slopes = [[none; WIDEST]; 2];
+    let [stiffness, damping] = &mut slopes;
+    let lanes = stiffness.iter_mut().zip(damping).zip(devices.zip(joints));
+    for ((stiffness, damping), (device, joints)) in lanes {
+        let passive = joints.states().zip(device.passive.values());
+        let to = stiffness.values_mut().zip(damping.values_mut());
+        for ((stiffness, damping), ([_, rate], of)) in to.zip(passive) {
+            (*stiffness, *damping) = (of.stiffness.to_f64(), of.damping(rate).to_f64());
+        }
+    }
+    slopes
 }
 
 /// The row of an enumeration's devices that begins with one whose kind is to be found.
@@ -229,7 +279,7 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<'_, T> {
         let inputs = KernelInputs { device, joints, accelerations, omega, hub };
         let [loads, ..] = self.loads.as_mut_slice() else { return Ok(()) };
         loads.evaluate(self.by, &inputs)?;
-        eliminate(self.by, &GivenJoints::of(device, given.modes), loads, self.found);
+        eliminate(self.by, device, JointModes::of::<K>(given.modes), loads, self.found);
         Ok(())
     }
 

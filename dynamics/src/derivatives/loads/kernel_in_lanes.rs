@@ -5,13 +5,17 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::derivatives::loads::columns_of_group::GroupColumns;
+use crate::derivatives::loads::device_reduction::JointModes;
 use crate::derivatives::loads::kernel_loads::{KernelLoads, show};
+use crate::derivatives::loads::load_columns::LoadColumns;
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::side_by_side::checks::within_reach;
 use crate::equations::side_by_side::gather::{accelerations_in_lanes, joints_in_lanes};
 use crate::equations::side_by_side::group::DeviceGroup;
 use crate::equations::system::Solution;
+use crate::model::kernels::Kernels;
 use crate::model::kind::{Kind, LoadDerivatives};
 use crate::numbers::lane::Lane;
 use crate::numbers::laned::{Block, Number, WIDEST};
@@ -26,9 +30,24 @@ pub(crate) struct GroupKernel<'a, K: Kind> {
     /// How their base moves, in its axes.
     pub(crate) omega: Vec3<K::Scalar>,
     pub(crate) hub: HubAccelerations<K::Scalar>,
-    /// Of the device of each lane, to be written.
-    pub(crate) loads: &'a mut [KernelLoads<K::Scalar>],
+    pub(crate) to: Found<'a, K>,
 }
+
+/// What is to be written.
+pub(crate) enum Found<'a, K: Kind> {
+    /// Of the device of each lane, but for springs and friction.
+    Loads(&'a mut [KernelLoads<K::Scalar>]),
+    /// Of all devices, their joints eliminated, of which all devices have the same modes.
+    Eliminated {
+        modes: JointModes,
+        /// None where there are no springs and no friction.
+        slopes: Option<&'a Slopes<K>>,
+        columns: &'a mut LoadColumns<K::Scalar>,
+    },
+}
+
+/// The slopes of springs and friction of the device of each lane: by coordinates, by rates.
+pub(crate) type Slopes<K> = [[<K as Kernels>::PerJoint<f64>; WIDEST]; 2];
 
 impl<K: Kind> GroupKernel<'_, K> {
     /// Evaluates it. None where lanes do not support the devices or the angles: then nothing was written.
@@ -52,7 +71,7 @@ impl<K: Kind> WithSimd for GroupKernel<'_, K> {
 impl<K: Kind> GroupKernel<'_, K> {
     #[inline(always)]
     fn evaluate<T: Number>(self, zero: T) -> Option<()> {
-        let Self { group, joints, accelerations, omega, hub, loads } = self;
+        let Self { group, joints, accelerations, omega, hub, to } = self;
         if group.blocks.is_lumped() {
             return None;
         }
@@ -71,10 +90,16 @@ impl<K: Kind> GroupKernel<'_, K> {
         let pose = K::pose(&joints);
         let constants = group.blocks.in_lanes(zero).constants;
         let found = K::load_derivatives(&constants, &pose, &joints, &omega, &hub, &accelerations)?;
-        match T::WIDTH {
-            2 => write::<K, T, 2>(&found, loads),
-            4 => write::<K, T, 4>(&found, loads),
-            _ => write::<K, T, WIDEST>(&found, loads),
+        match to {
+            Found::Loads(loads) => match T::WIDTH {
+                2 => write::<K, T, 2>(&found, loads),
+                4 => write::<K, T, 4>(&found, loads),
+                _ => write::<K, T, WIDEST>(&found, loads),
+            },
+            Found::Eliminated { modes, slopes, columns } => {
+                let to = GroupColumns { group, mount: &mount, modes, slopes, columns };
+                to.add(zero, &found)
+            }
         }
     }
 }

@@ -2,21 +2,22 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+use crate::derivatives::loads::device_reduction::DeviceGroups;
 use crate::derivatives::loads::kernel::{NotEmitted, load_derivatives};
-use crate::derivatives::loads::side_by_side::LoadGroup;
+use crate::derivatives::loads::side_by_side::{LoadGroup, TOGETHER};
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::device::Device;
 use crate::equations::load_sums::HubAccelerations;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kernels, Kind, LoadColumn, LoadDerivatives};
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Real, Scalar};
+use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{Vec3, components};
 
 /// Groups of variables: of each joint its coordinate, rate and acceleration; the hub's angular velocity and its
 /// derivative.
-const OMEGA: usize = MAX_JOINTS;
-const OMEGA_DOT: usize = OMEGA + 1;
+pub(crate) const OMEGA: usize = MAX_JOINTS;
+pub(crate) const OMEGA_DOT: usize = OMEGA + 1;
 const GROUPS: usize = OMEGA_DOT + 1;
 
 /// Places in the group of a joint.
@@ -43,7 +44,7 @@ pub(crate) struct KernelLoads<T> {
 
 impl<T: Scalar> KernelLoads<T> {
     pub(crate) fn none() -> Self {
-        Self { groups: [LoadGroup::none(); GROUPS] }
+        Self { groups: [LoadGroup::none(zero()); GROUPS] }
     }
 
     /// Evaluates the kernel of a device.
@@ -75,10 +76,8 @@ impl<T: Scalar> KernelLoads<T> {
     /// Sets a number.
     #[inline(always)]
     pub(crate) fn put(&mut self, [group, row, place]: [usize; 3], number: T) {
-        let Some(LoadGroup { hub, joints }) = self.groups.get_mut(group) else { return };
-        let row = if row < 6 { hub.get_mut(row) } else { joints.get_mut(row.wrapping_sub(6)) };
-        if let Some(to) = row.and_then(|row| row.get_mut(place)) {
-            *to = number;
+        if let Some(group) = self.groups.get_mut(group) {
+            group.put(row, place, number);
         }
     }
 
@@ -97,21 +96,11 @@ impl<T: Scalar> KernelLoads<T> {
         }
     }
 
-    /// By coordinate, rate and acceleration of each joint, and of joints that the device does not have.
+    /// As a reduction takes them, and of joints that the device does not have.
     #[inline(always)]
-    pub(crate) fn joints(&self) -> &[LoadGroup<T>; MAX_JOINTS] {
-        let [joints @ .., _, _] = &self.groups;
-        joints
-    }
-
-    /// By the hub's angular velocity, along the axes of the device.
-    pub(crate) fn omega(&self) -> &LoadGroup<T> {
-        &self.groups[OMEGA]
-    }
-
-    /// By its derivative.
-    pub(crate) fn omega_dot(&self) -> &LoadGroup<T> {
-        &self.groups[OMEGA_DOT]
+    pub(crate) fn groups(&self) -> DeviceGroups<'_, T, MAX_JOINTS, TOGETHER> {
+        let [joints @ .., omega, omega_dot] = &self.groups;
+        DeviceGroups { joints, omega, omega_dot: &omega_dot.hub }
     }
 }
 

@@ -8,7 +8,8 @@ use std::vec::Vec;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::each_device::{EachDevice, Moving};
-use super::load_columns::LoadsWorkspace;
+use super::load_columns::{LoadColumns, LoadsWorkspace};
+use super::side_by_side::TOGETHER;
 use crate::equations::load_sums::HubAccelerations;
 use crate::equations::side_by_side::fallbacks::FALLBACKS;
 use crate::equations::side_by_side::registers::Registers;
@@ -31,6 +32,15 @@ const ALONE: [usize; 18] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 1
 /// Lengths of a row of a kind and of a row of wheels.
 const TWO_ROWS: [[usize; 2]; 4] = [[8, 5], [5, 8], [13, 3], [3, 13]];
 
+/// What joints have: any mode and springs, or motors and springs or nothing. Joints of devices side by side are eliminated
+/// side by side where they have the same modes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Joints {
+    OfAnyMode,
+    Driven,
+    DrivenWithoutSprings,
+}
+
 /// Numbers in no order, the same in every run.
 struct Numbers(u64);
 
@@ -46,7 +56,7 @@ impl Numbers {
     }
 
     /// The mass of a body, and so on: no two devices have one number alike.
-    fn device<K: Kind<Scalar = f64>>(&mut self) -> K {
+    fn device<K: Kind<Scalar = f64>>(&mut self, joints: Joints) -> K {
         let (mut bodies, mut passive) = (K::all(no_body()), K::all(Passive::none()));
         let of_joints = bodies.values_mut().zip(passive.values_mut()).zip(K::JOINTS);
         for ((body, passive), JointInfo { rate, .. }) in of_joints {
@@ -61,6 +71,9 @@ impl Numbers {
             for ([row, column], product) in [[0, 1], [0, 2], [1, 2]].into_iter().zip(&products) {
                 body.inertia[(row, column)] = *product;
                 body.inertia[(column, row)] = *product;
+            }
+            if joints == Joints::DrivenWithoutSprings {
+                continue;
             }
             *passive = Passive {
                 stiffness: 200.0 + 100.0 * self.next(),
@@ -82,6 +95,7 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
     state: &State<D>,
     inputs: &Inputs<D>,
     numbers: &mut Numbers,
+    keeping: bool,
 ) -> String {
     let mut accelerations = craft.no_accelerations();
     accelerations.devices.values_mut().for_each(|to| *to = 2.0 * numbers.next());
@@ -92,18 +106,36 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
     let omega = components(&state.omega);
     let joints = craft.joints().count();
     let mut workspace = LoadsWorkspace::new();
-    let each = EachDevice::new(craft.arithmetic, (omega, hub), joints, &mut workspace);
+    let mut each = EachDevice::new(craft.arithmetic, (omega, hub), joints, &mut workspace);
+    if keeping {
+        each = each.keeping_eliminations();
+    }
     let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
-    D::visit::<Moving, _>(&craft.devices, data, &mut each.keeping_eliminations()).unwrap();
-    format!("{:?}", workspace.columns)
+    D::visit::<Moving, _>(&craft.devices, data, &mut each).unwrap();
+    let columns = &workspace.columns;
+    let three = |rows: &[[f64; TOGETHER]]| -> Vec<_> {
+        rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect()
+    };
+    let of_joints = columns.joints().iter().map(|of| {
+        let less = three(of.less.get(..of.count).unwrap_or_default());
+        (of.first, of.count, of.free, three(&of.hub), less)
+    });
+    let (of_joints, omega) = (of_joints.collect::<Vec<_>>(), three(&columns.omega));
+    let LoadColumns { gains, eliminated, matrix, .. } = columns;
+    format!("{of_joints:?} {omega:?} {gains:?} {eliminated:?} {matrix:?}")
 }
 
-fn compare<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2]) {
+fn compare<K: Kind<Scalar = f64>>(rows: [usize; 2]) {
+    let joints = [Joints::OfAnyMode, Joints::Driven, Joints::DrivenWithoutSprings];
+    joints.into_iter().for_each(|joints| compare_with::<K>(rows, joints));
+}
+
+fn compare_with<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2], joints: Joints) {
     let numbers = &mut Numbers((first * 100 + wheels) as u64);
     let hub = Hub { m_b: 500.0, r_bc_b: numbers.vector(0.1), i_b_bc: Matrix3::identity() * 90.0 };
     let devices: Set<K> = (
-        (0..first).map(|_| numbers.device()).collect(),
-        (0..wheels).map(|_| numbers.device()).collect(),
+        (0..first).map(|_| numbers.device(joints)).collect(),
+        (0..wheels).map(|_| numbers.device(joints)).collect(),
     );
     let craft = Spacecraft::new(&hub, &devices).unwrap_or_else(|error| panic!("{error}"));
     let mut state: State<Set<K>> = State::at_rest_for(&craft);
@@ -113,7 +145,8 @@ fn compare<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2]) {
         (*coordinate, *rate) = (numbers.next(), 5.0 * numbers.next());
     }
     let infos: Vec<_> = craft.joints().map(|(_, info)| info).collect();
-    for (mode, info) in inputs.modes.values_mut().zip(infos) {
+    let modes = inputs.modes.values_mut().zip(infos);
+    for (mode, info) in modes.filter(|_| joints == Joints::OfAnyMode) {
         let number = numbers.next();
         match number {
             ..-0.7 => *mode = Mode::Locked,
@@ -126,10 +159,12 @@ fn compare<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2]) {
     single.devices.1.iter_mut().for_each(|device| device.group = None);
     let seed = numbers.0;
     FALLBACKS.set(0);
-    let side_by_side = found(&craft, &state, &inputs, &mut Numbers(seed));
-    assert_eq!(FALLBACKS.get(), 0, "{} and wheels: {first}, {wheels}", K::NAME);
-    let one_by_one = found(&single, &state, &inputs, &mut Numbers(seed));
-    assert!(side_by_side == one_by_one, "{} and wheels: {first}, {wheels}", K::NAME);
+    for keeping in [false, true] {
+        let side_by_side = found(&craft, &state, &inputs, &mut Numbers(seed), keeping);
+        assert_eq!(FALLBACKS.get(), 0, "{} and wheels: {first}, {wheels}", K::NAME);
+        let one_by_one = found(&single, &state, &inputs, &mut Numbers(seed), keeping);
+        assert!(side_by_side == one_by_one, "{} and wheels: {first}, {wheels}", K::NAME);
+    }
     if first.max(wheels) >= 4 && Registers::widest().is_some() {
         let [of_kind, of_wheels] = [
             craft.devices.0.iter().any(|device| device.group.is_some()),
@@ -155,8 +190,8 @@ fn compare_list<K: Kind<Scalar = f64> + Into<BuiltIn>>([first, wheels]: [usize; 
     let numbers = &mut Numbers((first * 1000 + wheels) as u64);
     let hub = Hub { m_b: 500.0, r_bc_b: numbers.vector(0.1), i_b_bc: Matrix3::identity() * 90.0 };
     let typed: Set<K> = (
-        (0..first).map(|_| numbers.device()).collect(),
-        (0..wheels).map(|_| numbers.device()).collect(),
+        (0..first).map(|_| numbers.device(Joints::OfAnyMode)).collect(),
+        (0..wheels).map(|_| numbers.device(Joints::OfAnyMode)).collect(),
     );
     let of_kind = typed.0.iter().map(|device| (*device).into());
     let list: Vec<BuiltIn> = of_kind.chain(typed.1.iter().map(|wheel| (*wheel).into())).collect();
@@ -169,7 +204,7 @@ fn compare_list<K: Kind<Scalar = f64> + Into<BuiltIn>>([first, wheels]: [usize; 
     for [coordinate, rate] in state.devices.states_mut() {
         (*coordinate, *rate) = (numbers.next(), 5.0 * numbers.next());
     }
-    if let Some(mode) = inputs.modes.values_mut().next() {
+    if let Some(mode) = inputs.modes.values_mut().next().filter(|_| first % 4 < 2) {
         *mode = Mode::Locked;
     }
     let (mut state_of_list, mut inputs_of_list) =
@@ -180,9 +215,9 @@ fn compare_list<K: Kind<Scalar = f64> + Into<BuiltIn>>([first, wheels]: [usize; 
     }
     let seed = numbers.0;
     FALLBACKS.set(0);
-    let of_list = found(&list, &state_of_list, &inputs_of_list, &mut Numbers(seed));
+    let of_list = found(&list, &state_of_list, &inputs_of_list, &mut Numbers(seed), first % 2 == 0);
     assert_eq!(FALLBACKS.get(), 0, "{} and wheels: {first}, {wheels}", K::NAME);
-    let of_typed = found(&one_by_one, &state, &inputs, &mut Numbers(seed));
+    let of_typed = found(&one_by_one, &state, &inputs, &mut Numbers(seed), first % 2 == 0);
     assert!(of_list == of_typed, "{} and wheels: {first}, {wheels}", K::NAME);
 }
 

@@ -10,14 +10,14 @@ use alloc::vec::Vec;
 use crate::derivatives::loads::joint_elimination::inverse;
 use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER, add_product};
 use crate::equations::hub::HubConstants;
-use crate::equations::system::System;
 use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::Vec3;
 
 /// Of some joints in a row.
 type Block<T> = [[T; TOGETHER]; 9];
 
-/// By how much less free joints accelerate: `M_jj⁻¹ M_jh` by each acceleration of the hub, then by each component of its
-/// angular velocity. Some joints after one another side by side.
+/// How free joints follow the hub: `-M_jj⁻¹ M_jh` by each of its accelerations; then by how much less they accelerate by
+/// each component of its angular velocity. Some joints after one another side by side.
 #[derive(Debug)]
 pub(crate) struct Gains<T> {
     blocks: Vec<Block<T>>,
@@ -33,12 +33,13 @@ impl<T: Scalar> Gains<T> {
         self.blocks.resize(joints.div_ceil(TOGETHER), [[zero(); TOGETHER]; 9]);
     }
 
-    /// Sets those of a joint: by the hub's accelerations, by its angular velocity.
+    /// Sets those of a joint, by how much less it accelerates: by the hub's accelerations, by its angular velocity.
     #[inline(always)]
-    pub(crate) fn set(&mut self, joint: usize, of: &Six<T>, by_omega: &[T; TOGETHER]) {
+    pub(crate) fn set(&mut self, joint: usize, of: &Six<T>, by_omega: &Vec3<T>) {
         let Some(block) = self.blocks.get_mut(joint / TOGETHER) else { return };
-        for (line, gain) in block.iter_mut().zip(of.iter().chain(by_omega)) {
-            line[joint % TOGETHER] = *gain;
+        let ([a, b, c, d, e, f], [p, q, r]) = (*of, *by_omega);
+        for (line, gain) in block.iter_mut().zip([-a, -b, -c, -d, -e, -f, p, q, r]) {
+            line[joint % TOGETHER] = gain;
         }
     }
 
@@ -58,7 +59,7 @@ impl<T: Scalar> Gains<T> {
         }
     }
 
-    /// The same, twice, and zeros.
+    /// The same, twice, and zeros: three lists of as many joints.
     #[inline(always)]
     pub(crate) fn follow_twice(
         &self,
@@ -69,20 +70,19 @@ impl<T: Scalar> Gains<T> {
         let (fours, last) = out.as_chunks_mut::<TOGETHER>();
         let (copies, last_copy) = copy.as_chunks_mut::<TOGETHER>();
         let (cleared, last_zeros) = zeros.as_chunks_mut::<TOGETHER>();
-        let mut blocks = self.blocks.iter();
-        for (((to, copy), zeros), block) in
-            fours.iter_mut().zip(copies).zip(cleared).zip(&mut blocks)
-        {
+        let whole = fours.iter_mut().zip(copies).zip(cleared);
+        for (((to, copy), zeros), block) in whole.zip(&self.blocks) {
             let found = followed(block, base);
             (*to, *copy, *zeros) = (found, found, [zero(); TOGETHER]);
             finite.see(&found);
         }
-        if let Some(block) = blocks.next() {
+        if let (Some(block), false) = (self.blocks.last(), last.is_empty()) {
             let found = followed(block, base);
-            last.iter_mut().zip(found).for_each(|(to, from)| *to = from);
-            last_copy.iter_mut().zip(found).for_each(|(to, from)| *to = from);
-            last_zeros.fill(zero());
-            finite.see_each(last);
+            finite.see(&found);
+            let few = last.iter_mut().zip(last_copy).zip(last_zeros);
+            for (((to, copy), cleared), found) in few.zip(found) {
+                (*to, *copy, *cleared) = (found, found, zero());
+            }
         }
     }
 
@@ -101,8 +101,8 @@ impl<T: Scalar> Gains<T> {
 fn followed<T: Scalar>(block: &Block<T>, base: &Six<T>) -> [T; TOGETHER] {
     let ([a, b, c, d, e, f, ..], mut found) = (block, [zero(); TOGETHER]);
     for (k, to) in found.iter_mut().enumerate() {
-        let linear = -(a[k] * base[0]) - b[k] * base[1] - c[k] * base[2];
-        *to = linear - d[k] * base[3] - e[k] * base[4] - f[k] * base[5];
+        let linear = a[k] * base[0] + b[k] * base[1] + c[k] * base[2];
+        *to = linear + d[k] * base[3] + e[k] * base[4] + f[k] * base[5];
     }
     found
 }
@@ -115,7 +115,9 @@ pub(crate) struct MassSystem<T> {
 }
 
 impl<T: Scalar> MassSystem<T> {
-    /// Of a hub whose accelerations are free or not, with the mass of the whole and what the devices add.
+    /// Of a hub whose accelerations are free or not, with the mass of the whole and what the devices add, by columns of
+    /// which those numbers are read that are not below the diagonal.
+    #[inline(always)]
     pub(crate) fn new(
         hub: &HubConstants<T>,
         mass: T,
@@ -158,21 +160,20 @@ impl<T: Scalar> MassSystem<T> {
     }
 }
 
-/// The hub's six equations with everything that it carries, by rows: above the diagonal, and it.
+/// The hub's six equations with everything that it carries, by columns: above the diagonal, and it.
+#[inline(always)]
 fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[Six<T>; 6]) -> [Six<T>; 6] {
-    let System { m_vw, m_ww, .. } = hub.system([zero(); 3], [zero(); 3], [zero(); 3]);
+    let (coupling, inertia) = (hub.coupling(), hub.i_b_b.columns());
     let mut matrix = *devices;
-    for (axis, (force, moment)) in m_vw.iter().zip(m_ww.columns()).enumerate() {
+    for axis in 0..3 {
         matrix[axis][axis] = matrix[axis][axis] + mass;
-        let own = force.iter().chain(&moment);
-        let column = matrix[axis.wrapping_add(3)].iter_mut().zip(own);
-        column.for_each(|(to, from)| *to = *to + *from);
     }
-    let mut rows = matrix;
-    for (row, line) in rows.iter_mut().enumerate() {
-        for (to, column) in line.iter_mut().zip(&matrix) {
-            *to = column[row];
+    for axis in 0..3_usize {
+        let column = &mut matrix[axis.wrapping_add(3) % 6];
+        for row in 0..3 {
+            column[row] = column[row] + coupling[axis][row];
+            column[row.wrapping_add(3)] = column[row.wrapping_add(3)] + inertia[axis][row];
         }
     }
-    rows
+    matrix
 }

@@ -5,6 +5,10 @@
 pub(crate) mod by_joints;
 #[cfg(feature = "alloc")]
 pub(crate) mod by_loads;
+#[cfg(feature = "lanes")]
+mod columns_of_group;
+#[cfg(feature = "alloc")]
+pub(crate) mod device_reduction;
 #[cfg(feature = "alloc")]
 pub(crate) mod each_device;
 #[cfg(feature = "alloc")]

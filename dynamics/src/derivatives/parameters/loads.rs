@@ -99,7 +99,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
                 bodies: inputs.bodies.as_ref(),
             },
             device: (DeviceMotion::none(), None),
-            system: MassSystem::new(&craft.hub, craft.mass(), &loads.matrix(), hub_is_free),
+            system: MassSystem::new(&craft.hub, craft.mass(), &loads.matrix, hub_is_free),
             columns: loads,
             bn: columns(&state.attitude.dcm()),
             accelerations: vec![zero(); joints],

@@ -11,7 +11,7 @@ use nalgebra::DMatrix;
 use crate::attitude::quaternion::Quaternion;
 use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::loads::by_loads::are_finite;
+use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::direction::ParameterDirection;
 use crate::derivatives::parameters::loads::ParameterLoads;
 use crate::derivatives::variable::Variable;

@@ -11,7 +11,7 @@ use crate::attitude::quaternion::{Quaternion, rate};
 use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::linearization::columns_of;
-use crate::derivatives::loads::by_loads::are_finite;
+use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::step::stage_chain::{StageChain, StageDerivatives, numbers};

@@ -11,7 +11,7 @@ use alloc::vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::loads::by_loads::are_finite;
+use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::loads::side_by_side::{Load, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::tree::base_motion::{BaseMotion, Moments};
