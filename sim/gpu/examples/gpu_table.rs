@@ -106,6 +106,9 @@ fn sets() -> Vec<(String, Vec<BuiltInKind>)> {
     one.chain(several).collect()
 }
 
+/// States at the end, whether each is computed, seconds.
+type Ran = (Vec<f64>, Vec<bool>, f64);
+
 /// States of one spacecraft, all different.
 struct States {
     case: Case,
@@ -137,7 +140,7 @@ impl States {
         kinds: &[BuiltInKind],
         count: usize,
         steps: usize,
-    ) -> Result<(Vec<f64>, Vec<bool>, f64), Box<dyn Error>> {
+    ) -> Result<Ran, Box<dyn Error>> {
         let wanted = device.is_ok();
         let craft = vec![spacecraft::craft(&self.case)];
         let mut batch = Batch::new(craft, false, device, |_| sources(kinds))?;

@@ -63,7 +63,7 @@ impl Device for HostDevice {
         // SAFETY: the library has no constructors.
         let library = unsafe { Library::new(path) }.expect("the kernels");
         let mut kernels = HostKernels {
-            _library: library,
+            library,
             name: sources.name.clone(),
             bytes: self.bytes,
             threads: self.threads,
@@ -87,7 +87,7 @@ impl Device for HostDevice {
 type BatchKernel = unsafe extern "C" fn(PrecessBatch, usize, usize);
 
 struct HostKernels {
-    _library: Library,
+    library: Library,
     name: String,
     bytes: usize,
     threads: usize,
@@ -105,7 +105,7 @@ impl HostKernels {
     unsafe fn kernel<F: Copy>(&self, name: &str) -> F {
         let name = format!("{}_batch_{name}", self.name);
         // SAFETY: by the caller.
-        *unsafe { self._library.get::<F>(name.as_bytes()) }.expect("a kernel")
+        *unsafe { self.library.get::<F>(name.as_bytes()) }.expect("a kernel")
     }
 
     fn launch(&mut self, kernel: &str, mut batch: PrecessBatch) {
