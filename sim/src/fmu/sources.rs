@@ -2,7 +2,7 @@
 
 /// Names and texts. The three headers of the standard are the Modelica Association's, under the 2-clause BSD licence
 /// that each of them contains.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 13] = [
     ("fmi2FunctionTypes.h", include_str!("c/fmi2FunctionTypes.h")),
     ("fmi2Functions.h", include_str!("c/fmi2Functions.h")),
     ("fmi2TypesPlatform.h", include_str!("c/fmi2TypesPlatform.h")),
@@ -10,9 +10,12 @@ const FILES: [(&str, &str); 10] = [
     ("precess_fmi2.h", include_str!("c/precess_fmi2.h")),
     ("precess_fmi2_co_simulation.c", include_str!("c/precess_fmi2_co_simulation.c")),
     ("precess_fmi2_model_exchange.c", include_str!("c/precess_fmi2_model_exchange.c")),
-    ("precess_fmi2_state.c", include_str!("c/precess_fmi2_state.c")),
     ("precess_fmu.c", include_str!("c/precess_fmu.c")),
     ("precess_fmu.h", include_str!("c/precess_fmu.h")),
+    ("precess_instance.c", include_str!("c/precess_instance.c")),
+    ("precess_instance.h", include_str!("c/precess_instance.h")),
+    ("precess_instance_motion.c", include_str!("c/precess_instance_motion.c")),
+    ("precess_instance_state.c", include_str!("c/precess_instance_state.c")),
 ];
 
 /// All of them.

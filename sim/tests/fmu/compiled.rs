@@ -22,7 +22,7 @@ const FLAGS: [&str; 8] = [
 ];
 /// The end stops of the unit's panel.
 const STOPS: &str = "lower_stop = \"-20 deg\"\nupper_stop = \"20 deg\"\nat_stop = \"end\"\n";
-/// Steps of 1 ms that `driver.c` and the run take.
+/// Steps of 1 ms that the driver and the run take.
 const STEPS: usize = 100;
 
 /// The compilers that this machine has; one that is missing is named, or refused.
@@ -94,7 +94,7 @@ fn co_simulation_has_the_bits_of_a_run_and_calls_out_of_order_are_errors() {
         ];
         for (number, more) in sanitisers.into_iter().enumerate() {
             let (folder, mut sources) = sources(&format!("{compiler}_{number}"), UNIT);
-            fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a source");
+            fs::write(folder.join("driver.c"), include_str!("driver_fmi2.c")).expect("a source");
             sources.push("driver.c".to_owned());
             let arguments = [&FLAGS, more, &["-o", "driver"]].concat();
             let done = compile(compiler, &folder, &arguments, &sources);
@@ -127,7 +127,7 @@ fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
         let unit = UNIT.replace(STOPS, stops).replace("stiffness = \"3 N m/rad\"\n", "");
         let Some(compiler) = compilers().into_iter().next() else { return };
         let (folder, mut sources) = sources(&format!("wrapped_{}", turns.len()), &unit);
-        fs::write(folder.join("driver.c"), include_str!("driver.c")).expect("a source");
+        fs::write(folder.join("driver.c"), include_str!("driver_fmi2.c")).expect("a source");
         sources.push("driver.c".to_owned());
         let done = compile(compiler, &folder, &[&FLAGS, &["-o", "driver"][..]].concat(), &sources);
         assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));

@@ -1,6 +1,6 @@
 //! Functional mock-up units: descriptions, refusals, and the C, which has the bits of a run.
 //!
-//! The C is compiled by each compiler at hand with its warnings as errors, and once with sanitisers; `driver.c` is the importer.
+//! The C is compiled by each compiler at hand with its warnings as errors, and once with sanitisers; `driver_fmi2.c` is the importer.
 //! Validation by others, and Model Exchange, are in `tests/engines/units.py`.
 
 mod compiled;

@@ -1,5 +1,5 @@
-/* FMI 2.0 of precess_fmu.h: life of an instance, and its variables. Every function of the standard is in one of the files
- * precess_fmi2*.c, also those that this unit does not offer, which return an error. Compile with -std=c99
+/* FMI 2.0 of precess_instance.h: life of an instance, its variables and its state. Every function of the standard is in one
+ * of the files precess_fmi2*.c, also those that this unit does not offer, which return an error. Compile with -std=c99
  * -ffp-contract=off. */
 
 #include <stdlib.h>
@@ -7,44 +7,17 @@
 
 #include "precess_fmi2.h"
 
-fmi2Status precess_fmi2_refuse(const struct precess_fmi2 *of, const char *text)
+fmi2Status precess_fmi2_answer(fmi2Component c, const char *why)
 {
-    if (of && of->log) {
-        of->log(of->environment, of->name, fmi2Error, "logStatusError", "%s", text);
-    }
-    return fmi2Error;
-}
+    const struct precess_fmi2 *const of = c;
 
-fmi2Status precess_fmi2_status(const struct precess_fmi2 *of, enum precess_status status)
-{
-    const char *const text = precess_fmu_message(status);
-
-    if (status == PRECESS_OK) {
+    if (!why) {
         return fmi2OK;
     }
-    if (status == PRECESS_BAD_PARAMETER && of->log) {
-        of->log(
-            of->environment, of->name, fmi2Error, "logStatusError", "%s: %s",
-            precess_fmu_names[of->state.fmu.device], text);
-        return fmi2Error;
+    if (of && of->log) {
+        of->log(of->environment, of->name, fmi2Error, "logStatusError", "%s", why);
     }
-    return precess_fmi2_refuse(of, text);
-}
-
-int precess_fmi2_is_in(const struct precess_fmi2 *of, unsigned phases)
-{
-    return of && (phases >> (unsigned)of->state.phase & 1u);
-}
-
-fmi2Status precess_fmi2_enter(fmi2Component c, unsigned from, enum precess_fmi2_phase to)
-{
-    struct precess_fmi2 *const of = c;
-
-    if (!precess_fmi2_is_in(of, from)) {
-        return precess_fmi2_refuse(of, OUT_OF_ORDER);
-    }
-    of->state.phase = to;
-    return fmi2OK;
+    return fmi2Error;
 }
 
 const char *fmi2GetTypesPlatform(void)
@@ -84,7 +57,7 @@ fmi2Component fmi2Instantiate(
     if (!callbacks || !name || !guid) {
         return NULL;
     }
-    if (strcmp(guid, FMU_TOKEN) != 0 || (type != fmi2ModelExchange && type != fmi2CoSimulation)) {
+    if (!precess_instance_is_token(guid) || (type != fmi2ModelExchange && type != fmi2CoSimulation)) {
         if (callbacks->logger) {
             callbacks->logger(
                 callbacks->componentEnvironment, name, fmi2Error, "logStatusError", "%s",
@@ -102,11 +75,9 @@ fmi2Component fmi2Instantiate(
         return NULL;
     }
     memcpy(of->name, name, length);
-    of->type = type;
     of->log = callbacks->logger;
     of->environment = callbacks->componentEnvironment;
-    of->state.phase = PHASE_INSTANTIATED;
-    precess_fmu_reset(&of->state.fmu);
+    precess_instance_begin(&of->instance, type == fmi2ModelExchange, 0);
     return of;
 }
 
@@ -128,141 +99,47 @@ fmi2Status fmi2SetupExperiment(
     fmi2Boolean has_stop,
     fmi2Real stop)
 {
-    struct precess_fmi2 *const of = c;
-
     /* Of Model Exchange the tolerance is the importer's, of Co-Simulation the parameter `step` sets it. */
     (void)has_tolerance;
     (void)tolerance;
-    if (!precess_fmi2_is_in(of, IN(PHASE_INSTANTIATED))) {
-        return precess_fmi2_refuse(of, OUT_OF_ORDER);
-    }
-    if (!precess_is_finite(start) || (has_stop && !(stop >= start))) {
-        return precess_fmi2_refuse(of, "the start is not finite, or the stop is before it");
-    }
-    of->state.fmu.values[0] = start;
-    return fmi2OK;
+    return precess_fmi2_answer(c, precess_instance_set_start(c, start, has_stop != fmi2False, stop));
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    return precess_fmi2_enter(c, IN(PHASE_INSTANTIATED), PHASE_INITIALISING);
+    return precess_fmi2_answer(
+        c, precess_instance_enter(c, IN(PHASE_INSTANTIATED), PHASE_INITIALISING));
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    struct precess_fmi2 *const of = c;
-    fmi2Status status;
-
-    if (!precess_fmi2_is_in(of, IN(PHASE_INITIALISING))) {
-        return precess_fmi2_refuse(of, OUT_OF_ORDER);
-    }
-    if (precess_fmu_is_stopped(&of->state.fmu)) {
-        return precess_fmi2_refuse(of, IS_STOPPED);
-    }
-    status = precess_fmi2_status(of, precess_fmu_check(&of->state.fmu));
-    if (status == fmi2OK) {
-        of->state.phase = of->type == fmi2ModelExchange ? PHASE_EVENT : PHASE_STEPPING;
-    }
-    return status;
+    return precess_fmi2_answer(c, precess_instance_initialise(c));
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    return precess_fmi2_enter(c, RUNNING, PHASE_TERMINATED);
+    return precess_fmi2_answer(c, precess_instance_enter(c, RUNNING, PHASE_TERMINATED));
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    struct precess_fmi2 *const of = c;
-
-    if (!of) {
-        return fmi2Error;
-    }
-    precess_fmu_reset(&of->state.fmu);
-    of->is_stopped = 0;
-    of->state.phase = PHASE_INSTANTIATED;
-    return fmi2OK;
+    return precess_fmi2_answer(c, precess_instance_reset(c));
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t count, fmi2Real value[])
 {
-    struct precess_fmi2 *const of = c;
-    int evaluated = 0;
-    size_t k;
-
-    if (!of || (count && (!vr || !value))) {
-        return precess_fmi2_refuse(of, IS_NULL);
-    }
-    for (k = 0; k < count; k++) {
-        if (vr[k] >= FMU_VALUES) {
-            return precess_fmi2_refuse(of, "no variable has this value reference");
-        }
-        if (vr[k] >= FMU_DERIVATIVE && vr[k] < FMU_INPUT && !evaluated) {
-            const fmi2Status status = precess_fmi2_status(of, precess_fmu_evaluate(&of->state.fmu));
-
-            if (status != fmi2OK) {
-                return status;
-            }
-            evaluated = 1;
-        }
-        value[k] = of->state.fmu.values[vr[k]];
-    }
-    return fmi2OK;
-}
-
-/* Why a variable may not be set now; null where it may. */
-static const char *forbidden(const struct precess_fmi2 *of, fmi2ValueReference vr)
-{
-    const int before = precess_fmi2_is_in(of, BEFORE);
-
-    if (vr >= FMU_VALUES) {
-        return "no variable has this value reference";
-    }
-    if (vr < FMU_STATE || (vr >= FMU_DERIVATIVE && vr < FMU_INPUT)) {
-        return "time and derivatives are computed";
-    }
-    if (vr < FMU_DERIVATIVE) {
-        return before ? NULL : "a state is set before the end of initialisation, later by fmi2SetContinuousStates";
-    }
-    if (vr < FMU_PARAMETER) {
-        return precess_fmi2_is_in(of, BEFORE | RUNNING) ? NULL : OUT_OF_ORDER;
-    }
-    if (vr == FMU_PARAMETER || (vr >= FMU_PARAMETER + 15 && vr < FMU_PARAMETER + 15 + 9 * FMU_DEVICES)) {
-        return before ? NULL : "a fixed parameter is set before the end of initialisation";
-    }
-    return precess_fmi2_is_in(of, BEFORE | IN(PHASE_EVENT) | IN(PHASE_STEPPING))
-        ? NULL
-        : "a tunable parameter is set in event mode or between steps";
+    return precess_fmi2_answer(c, precess_instance_get(c, vr, count, value));
 }
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t count, const fmi2Real value[])
 {
-    struct precess_fmi2 *const of = c;
-    size_t k;
-
-    if (!of || (count && (!vr || !value))) {
-        return precess_fmi2_refuse(of, IS_NULL);
-    }
-    for (k = 0; k < count; k++) {
-        const char *const why = precess_is_finite(value[k]) ? forbidden(of, vr[k]) : "the value is not finite";
-
-        if (why) {
-            return precess_fmi2_refuse(of, why);
-        }
-    }
-    for (k = 0; k < count; k++) {
-        of->state.fmu.values[vr[k]] = value[k];
-        if (vr[k] >= FMU_PARAMETER) {
-            of->state.fmu.is_prepared = 0;
-        }
-    }
-    return fmi2OK;
+    return precess_fmi2_answer(c, precess_instance_set(c, vr, count, value));
 }
 
 /* Reads and writes of another type. */
 static fmi2Status none_of(fmi2Component c, size_t count)
 {
-    return c && count == 0 ? fmi2OK : precess_fmi2_refuse(c, "all variables are real");
+    return c && count == 0 ? fmi2OK : precess_fmi2_answer(c, "all variables are real");
 }
 
 #define WITHOUT(type)                                                                               \
@@ -284,3 +161,34 @@ static fmi2Status none_of(fmi2Component c, size_t count)
 WITHOUT(Integer)
 WITHOUT(Boolean)
 WITHOUT(String)
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return precess_fmi2_answer(c, precess_instance_save(c, state));
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+{
+    return precess_fmi2_answer(c, precess_instance_restore(c, state));
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return precess_fmi2_answer(c, precess_instance_free_state(c, state));
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+{
+    return precess_fmi2_answer(c, precess_instance_size(c, state, size));
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+{
+    return precess_fmi2_answer(c, precess_instance_write(c, state, bytes, size));
+}
+
+fmi2Status fmi2DeSerializeFMUstate(
+    fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+{
+    return precess_fmi2_answer(c, precess_instance_read(c, bytes, size, state));
+}

@@ -1,4 +1,4 @@
-/* FMI 2.0 of precess_fmu.h: Co-Simulation. Inputs are held over each step of the solver. */
+/* FMI 2.0 of precess_instance.h: Co-Simulation. Inputs are held over each step of the solver. */
 
 #include "precess_fmi2.h"
 
@@ -11,7 +11,7 @@ fmi2Status fmi2SetRealInputDerivatives(
     (void)count;
     (void)order;
     (void)value;
-    return precess_fmi2_refuse(c, "inputs are held over a step");
+    return precess_fmi2_answer(c, "inputs are held over a step");
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(
@@ -21,51 +21,28 @@ fmi2Status fmi2GetRealOutputDerivatives(
     (void)count;
     (void)order;
     (void)value;
-    return precess_fmi2_refuse(c, "the derivatives of outputs are variables of their own");
+    return precess_fmi2_answer(c, NO_OUTPUT_DERIVATIVES);
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real point, fmi2Real size, fmi2Boolean no_earlier)
 {
-    struct precess_fmi2 *const of = c;
-    fmi2Status status;
-    double *time;
-    double off;
+    int is_end;
+    const fmi2Status status = precess_fmi2_answer(c, precess_instance_step(c, point, size, &is_end));
 
     (void)no_earlier;
-    if (!precess_fmi2_is_in(of, IN(PHASE_STEPPING))) {
-        return precess_fmi2_refuse(of, OUT_OF_ORDER);
-    }
-    time = &of->state.fmu.values[0];
-    off = precess_magnitude(point - *time);
-    /* Times that are sums of steps differ by rounding. */
-    if (!(size >= 0.0) || !(off <= 1e-9 * (1.0 + precess_magnitude(point)))
-        || !precess_is_finite(point + size)) {
-        return precess_fmi2_refuse(
-            of,
-            "the step does not start where the last one ended, or its size is negative or not finite");
-    }
-    status = precess_fmi2_status(
-        of, precess_fmu_advance(&of->state.fmu, point, size, &of->is_stopped));
-    if (of->is_stopped) {
-        (void)precess_fmi2_refuse(of, IS_STOPPED);
-        return fmi2Discard;
-    }
-    if (status == fmi2OK) {
-        *time = point + size;
-    }
-    return status;
+    return is_end ? fmi2Discard : status;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
-    return precess_fmi2_refuse(c, NO_STATUS);
+    return precess_fmi2_answer(c, NO_STATUS);
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
     (void)kind;
     (void)value;
-    return precess_fmi2_refuse(c, NO_STATUS);
+    return precess_fmi2_answer(c, NO_STATUS);
 }
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
@@ -73,9 +50,9 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     const struct precess_fmi2 *const of = c;
 
     if (!of || !value || kind != fmi2LastSuccessfulTime) {
-        return precess_fmi2_refuse(of, NO_STATUS);
+        return precess_fmi2_answer(c, NO_STATUS);
     }
-    *value = of->state.fmu.values[0];
+    *value = of->instance.state.fmu.values[0];
     return fmi2OK;
 }
 
@@ -83,7 +60,7 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 {
     (void)kind;
     (void)value;
-    return precess_fmi2_refuse(c, NO_STATUS);
+    return precess_fmi2_answer(c, NO_STATUS);
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
@@ -91,9 +68,9 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
     const struct precess_fmi2 *const of = c;
 
     if (!of || !value || kind != fmi2Terminated) {
-        return precess_fmi2_refuse(of, NO_STATUS);
+        return precess_fmi2_answer(c, NO_STATUS);
     }
-    *value = of->is_stopped ? fmi2True : fmi2False;
+    *value = of->instance.is_stopped ? fmi2True : fmi2False;
     return fmi2OK;
 }
 
@@ -101,5 +78,5 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
 {
     (void)kind;
     (void)value;
-    return precess_fmi2_refuse(c, NO_STATUS);
+    return precess_fmi2_answer(c, NO_STATUS);
 }
