@@ -2,10 +2,10 @@
 
     python units.py --check   exports, validates, compiles, simulates and compares
 
-Of each scenario, with fixed steps: FMPy validates the unit without a finding and compiles it without a warning; outputs of
-Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them; Model Exchange by
-CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and on nothing
-else; a restored state, and one of bytes, repeats what followed it.
+Of each scenario, with fixed steps, and of FMI 2.0 and FMI 3.0: FMPy validates the unit without a finding and compiles it without
+a warning; outputs of Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them;
+Model Exchange by CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and
+on nothing else; a restored state, and one of bytes, repeats what followed it.
 
 Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
 requirements.txt.
@@ -32,8 +32,8 @@ try:
     import fmpy
     import numpy as np
     from fmpy.build import build_platform_binary
-    from fmpy.fmi2 import FMU2Model, FMU2Slave
     from fmpy.validation import validate_fmu
+    from importers import instance
 except ModuleNotFoundError as error:
     if error.name not in ("fmpy", "numpy"):
         raise
@@ -127,35 +127,28 @@ def ran(program, *arguments):
 class Unit:
     """A unit that is exported, validated, unpacked and compiled."""
 
-    def __init__(self, folder, programs, file, step):
-        self.archive = folder / f"{file.stem}.fmu"
-        ran(programs / "precess", "export", "fmu", file, "--step", f"{step} s", "--to", self.archive)
+    def __init__(self, folder, programs, file, step, version):
+        self.name = f"{file.stem}, FMI {version}.0"
+        self.folder = folder / f"{file.stem}-{version}"
+        self.archive = self.folder.with_suffix(".fmu")
+        options = ("--step", f"{step} s", "--fmi", version, "--to", self.archive)
+        ran(programs / "precess", "export", "fmu", file, *options)
         if findings := validate_fmu(str(self.archive)):
-            sys.exit(f"{file.stem}: {findings}")
-        self.folder = folder / file.stem
+            sys.exit(f"{self.name}: {findings}")
         fmpy.extract(str(self.archive), unzipdir=str(self.folder))
         build_platform_binary(self.folder, all_warnings=True, cmake_options={"CMAKE_C_FLAGS:STRING": "-Werror"})
         self.description = fmpy.read_model_description(str(self.folder))
+        if self.description.fmiVersion != f"{version}.0":
+            sys.exit(f"{self.name}: it says {self.description.fmiVersion}")
         self.variables = self.description.modelVariables
         self.place = {variable.name: variable.valueReference for variable in self.variables}
         self.outputs = [v.name for v in self.variables if v.causality == "output"]
 
-    def instance(self, kind=FMU2Slave, name="unit"):
-        side = self.description.coSimulation
-        one = kind(
-            guid=self.description.guid,
-            unzipDirectory=str(self.folder),
-            modelIdentifier=side.modelIdentifier,
-            instanceName=name,
-        )
-        one.instantiate()
-        one.setupExperiment(startTime=0.0)
-        one.enterInitializationMode()
-        one.exitInitializationMode()
-        return one
+    def instance(self, exchanges=False, name="unit"):
+        return instance(self.description, self.folder, exchanges, name)
 
     def read(self, one):
-        return one.getReal([self.place[name] for name in self.outputs])
+        return one.get([self.place[name] for name in self.outputs])
 
 
 def stepped(unit, one, inputs, step, start, count):
@@ -166,8 +159,8 @@ def stepped(unit, one, inputs, step, start, count):
         time = index * step
         if inputs:
             given = inputs(time)
-            one.setReal([unit.place[name] for name in given], list(given.values()))
-        one.doStep(currentCommunicationPoint=time, communicationStepSize=step)
+            one.set([unit.place[name] for name in given], list(given.values()))
+        one.step(time, step)
     rows.append(unit.read(one))
     return rows
 
@@ -190,24 +183,23 @@ def recorded(folder, programs, file, step, duration, rate):
     return columns, rows
 
 
-def co_simulation(unit, folder, programs, file, case):
+def co_simulation(unit, run, case):
     """Bits of every sample; how many numbers."""
     _, step, rate, duration, _, inputs = case
     length = float(step)
     one = unit.instance()
     rows = stepped(unit, one, inputs, length, 0, round(duration / length))
-    one.terminate()
-    one.freeInstance()
-    columns, samples = recorded(folder, programs, file, step, duration, rate)
+    one.close()
+    columns, samples = run
     every = round(1.0 / (rate * length))
     picked = rows[::every]
     if len(picked) != len(samples):
-        sys.exit(f"{file.stem}: {len(samples)} samples against {len(picked)}")
+        sys.exit(f"{unit.name}: {len(samples)} samples against {len(picked)}")
     for index, (mine, sample) in enumerate(zip(picked, samples, strict=True)):
         for name, value in zip(unit.outputs, mine, strict=True):
             stored = float(sample[columns[name]])
             if value != stored:
-                sys.exit(f"{file.stem}, sample {index}, {name}: {value!r} against {stored!r}")
+                sys.exit(f"{unit.name}, sample {index}, {name}: {value!r} against {stored!r}")
     return len(picked) * len(unit.outputs)
 
 
@@ -231,21 +223,21 @@ def model_exchange(unit, case):
         size = max(1.0, np.abs(by_step[output]).max())
         worst = max(worst, np.abs(by_step[output] - by_cvode[output]).max() / size)
     if not worst <= AGREEMENT:
-        sys.exit(f"{name}: Model Exchange differs by {worst:e}, above {AGREEMENT:g}")
+        sys.exit(f"{unit.name}: Model Exchange differs by {worst:e}, above {AGREEMENT:g}")
     return worst
 
 
 def dependencies(unit, chance):
     """Every derivative changes with what is listed, and with nothing else; how many pairs."""
-    one = unit.instance(FMU2Model)
+    one = unit.instance(exchanges=True)
     states = [v for v in unit.variables if v.causality == "output"]
     derivatives = [v for v in unit.variables if v.derivative is not None]
     # Springs and offsets wherever they may be: in a scenario that has none of them less depends on less.
     tuned = [v for v in unit.variables if v.variability == "tunable"]
     springs = [v for v in tuned if v.name.endswith(("_stiffness", "_rest", "_damping"))]
     offsets = [v for v in tuned if "_origin_" in v.name or "_centre_of_mass_" in v.name]
-    one.setReal([v.valueReference for v in springs], [chance.uniform(1.0, 2.0) for _ in springs])
-    one.setReal([v.valueReference for v in offsets], [chance.uniform(0.01, 0.03) for _ in offsets])
+    one.set([v.valueReference for v in springs], [chance.uniform(1.0, 2.0) for _ in springs])
+    one.set([v.valueReference for v in offsets], [chance.uniform(0.01, 0.03) for _ in offsets])
     listed = {d.name: {} for d in derivatives}
     initial = {d.name: {} for d in derivatives}
     for found, unknowns in (
@@ -254,16 +246,15 @@ def dependencies(unit, chance):
     ):
         for unknown in unknowns:
             found[unknown.variable.name] = {known.name for known in unknown.dependencies}
-    one.newDiscreteStates()
-    one.enterContinuousTimeMode()
+    one.enter_continuous_time()
     x = np.array([float(state.start) for state in states])
     for index, state in enumerate(states):
         x[index] += chance.uniform(-0.1, 0.1) * float(state.nominal or 1.0)
     inputs = [v for v in unit.variables if v.causality == "input"]
-    one.setReal([v.valueReference for v in inputs], [chance.uniform(0.01, 0.05) for _ in inputs])
+    one.set([v.valueReference for v in inputs], [chance.uniform(0.01, 0.05) for _ in inputs])
 
     def rates():
-        return one.getReal([d.valueReference for d in derivatives])
+        return one.get([d.valueReference for d in derivatives])
 
     def differs(known, changed, lists):
         for derivative, was, now in zip(derivatives, base, changed, strict=True):
@@ -275,35 +266,34 @@ def dependencies(unit, chance):
             if depends and was == now and unit.folder.name == "fixed":
                 continue
             if depends != (was != now):
-                sys.exit(f"{derivative.name} and {known.name}: listed {depends}, {was!r} and {now!r}")
+                sys.exit(f"{unit.name}: {derivative.name} and {known.name}: listed {depends}, {was!r} and {now!r}")
 
-    one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*x), len(x))
+    one.set_states(x)
     base = rates()
     pairs = 0
     for index, state in enumerate(states):
         y = x.copy()
         y[index] += 0.01 * float(state.nominal or 1.0)
-        one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*y), len(x))
+        one.set_states(y)
         differs(state, rates(), listed)
         pairs += len(derivatives)
-    one.setContinuousStates((fmpy.fmi2.fmi2Real * len(x))(*x), len(x))
+    one.set_states(x)
     for known in inputs:
-        was = one.getReal([known.valueReference])
-        one.setReal([known.valueReference], [was[0] + 0.05])
+        was = one.get([known.valueReference])
+        one.set([known.valueReference], [was[0] + 0.05])
         differs(known, rates(), listed)
         pairs += len(derivatives)
-        one.setReal([known.valueReference], was)
-    one.enterEventMode()
+        one.set([known.valueReference], was)
+    one.enter_event_mode()
     for known in tuned:
         if not known.name.endswith(("_mass", "_stiffness", "gravity_mu")):
             continue
-        was = one.getReal([known.valueReference])
-        one.setReal([known.valueReference], [was[0] * 1.01 + 1e-3])
+        was = one.get([known.valueReference])
+        one.set([known.valueReference], [was[0] * 1.01 + 1e-3])
         differs(known, rates(), initial)
         pairs += len(derivatives)
-        one.setReal([known.valueReference], was)
-    one.terminate()
-    one.freeInstance()
+        one.set([known.valueReference], was)
+    one.close()
     return pairs
 
 
@@ -312,20 +302,20 @@ def restored(unit, case):
     step = float(case[1])
     one, other = unit.instance(), unit.instance(name="other")
     stepped(unit, one, None, step, 0, 20)
-    state = one.getFMUstate()
-    stored = one.serializeFMUstate(state)
+    state = one.state()
+    stored = one.to_bytes(state)
     first = stepped(unit, one, None, step, 20, 20)
-    one.setFMUstate(state)
+    one.set_state(state)
     second = stepped(unit, one, None, step, 20, 20)
-    of_bytes = other.deSerializeFMUstate(stored)
-    other.setFMUstate(of_bytes)
+    of_bytes = other.of_bytes(stored)
+    other.set_state(of_bytes)
     third = stepped(unit, other, None, step, 20, 20)
     if not first == second == third:
-        sys.exit(f"{case[0]}: a restored state is followed by something else")
-    one.freeFMUstate(state)
-    other.freeFMUstate(of_bytes)
-    one.freeInstance()
-    other.freeInstance()
+        sys.exit(f"{unit.name}: a restored state is followed by something else")
+    one.free_state(state)
+    other.free_state(of_bytes)
+    one.close()
+    other.close()
 
 
 def main():
@@ -344,16 +334,20 @@ def main():
             if text:
                 file = folder / f"{name}.toml"
                 file.write_text(text, encoding="utf-8")
-            unit = Unit(folder, built, file, case[1])
-            size = unit.archive.stat().st_size
-            count = co_simulation(unit, folder, built, file, case)
-            worst = model_exchange(unit, case)
-            pairs = dependencies(unit, chance)
-            restored(unit, case)
-            print(
-                f"fmpy {fmpy.__version__}, {name}: {size // 1000} kB, valid; {count} numbers of Co-Simulation have the bits"
-                f" of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed"
-            )
+            _, step, rate, duration, _, _ = case
+            run = recorded(folder, built, file, step, duration, rate)
+            for version in (2, 3):
+                unit = Unit(folder, built, file, step, version)
+                size = unit.archive.stat().st_size
+                count = co_simulation(unit, run, case)
+                worst = model_exchange(unit, case)
+                pairs = dependencies(unit, chance)
+                restored(unit, case)
+                print(
+                    f"fmpy {fmpy.__version__}, {unit.name}: {size // 1000} kB, valid; {count} numbers of Co-Simulation have the"
+                    f" bits of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed",
+                    flush=True,
+                )
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ pub(super) enum Export {
     /// The parameters of hub and devices, for `precess_init_from_table` of the C library
     #[command(after_help = "Example:\n  precess export table bus.toml --to bus.table")]
     Table(Table),
-    /// The spacecraft as a functional mock-up unit of FMI 2.0: C sources, Model Exchange and Co-Simulation
+    /// The spacecraft as a functional mock-up unit of FMI 2.0 or 3.0: C sources, Model Exchange and Co-Simulation
     #[command(after_help = fmu::HELP)]
     Fmu(fmu::Unit),
 }

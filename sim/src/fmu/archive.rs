@@ -5,6 +5,8 @@ use std::io::{self, Cursor, Write as _};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
+use super::FmiVersion;
+
 /// The bytes of a unit from its files, in their order. No time of day: the same files make the same bytes.
 ///
 /// # Errors
@@ -20,15 +22,26 @@ pub fn archive<B: AsRef<[u8]>>(files: &[(String, B)]) -> io::Result<Vec<u8>> {
     Ok(archive.finish()?.into_inner())
 }
 
-/// The folder and the ending of binaries of this platform in a unit of FMI 2.0; none of a platform for which the standard has
-/// no name.
+/// The folder and the ending of binaries of this platform in a unit of a version; none of a platform for which the standard
+/// has no name.
 #[must_use]
-pub fn platform() -> Option<(&'static str, &'static str)> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => Some(("linux64", "so")),
-        ("macos", _) => Some(("darwin64", "dylib")),
-        ("windows", "x86_64") => Some(("win64", "dll")),
-        _ => None,
+pub fn platform(version: FmiVersion) -> Option<(&'static str, &'static str)> {
+    let (system, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
+    match version {
+        FmiVersion::Two => match (system, architecture) {
+            ("linux", "x86_64") => Some(("linux64", "so")),
+            ("macos", _) => Some(("darwin64", "dylib")),
+            ("windows", "x86_64") => Some(("win64", "dll")),
+            _ => None,
+        },
+        FmiVersion::Three => match (system, architecture) {
+            ("linux", "x86_64") => Some(("x86_64-linux", "so")),
+            ("linux", "aarch64") => Some(("aarch64-linux", "so")),
+            ("macos", "x86_64") => Some(("x86_64-darwin", "dylib")),
+            ("macos", "aarch64") => Some(("aarch64-darwin", "dylib")),
+            ("windows", "x86_64") => Some(("x86_64-windows", "dll")),
+            _ => None,
+        },
     }
 }
 

@@ -1,14 +1,15 @@
-//! [`Fmu`]: the spacecraft of a scenario as a functional mock-up unit of FMI 2.0, as sources, for Model Exchange and
-//! Co-Simulation.
+//! [`Fmu`]: the spacecraft of a scenario as a functional mock-up unit of FMI 2.0 or 3.0, as sources, for Model Exchange
+//! and Co-Simulation.
 //!
 //! ```text
 //! Scenario --Fmu::new--> what its solver is derived from --precess-bake --general--> C files
 //!                    \--> model.h, model.c, modelDescription.xml <--Fmu::files--/
 //! ```
 //!
-//! The C between the standard's functions and the solver is in `c`, the same in every unit; what a scenario adds to it
-//! is numbers, in `model.c`. A value reference is a place in one array (`layout`). What the solver in C does not have is
-//! refused by name ([`FmuError`]); what the importer is to give instead is [noted](Fmu::notes).
+//! The C between the standard's functions and the solver is in `c`, the same in every unit of a version; what a scenario
+//! adds to it is numbers, in `model.c`. Versions differ in the names of functions, and in descriptions. A value reference is
+//! a place in one array (`layout`). What the solver in C does not have is refused by name ([`FmuError`]); what the
+//! importer is to give instead is [noted](Fmu::notes).
 //!
 //! Invariants: names of variables are unique, at most 55 characters of `[A-Za-z0-9_]`; the same scenario gives the same
 //! bytes; every number is finite.
@@ -17,6 +18,8 @@
 mod archive;
 mod dependencies;
 mod error;
+mod fmi2;
+mod fmi3;
 mod layout;
 mod model;
 mod names;
@@ -25,6 +28,7 @@ mod refused;
 mod sources;
 mod units;
 mod variables;
+mod version;
 mod xml;
 
 use std::fmt::Write as _;
@@ -36,6 +40,8 @@ use sha2::{Digest as _, Sha256};
 #[cfg(feature = "tool")]
 pub use archive::{archive, compiler_arguments, platform};
 pub use error::FmuError;
+pub use sources::headers;
+pub use version::FmiVersion;
 
 use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
 use layout::Layout;
@@ -110,11 +116,11 @@ impl Fmu {
         self.variables.len()
     }
 
-    /// The files of the unit by their paths in it, in the order of the archive, from the files of its solver. The unit's
-    /// identifier is a digest of them.
+    /// The files of the unit of a version by their paths in it, in the order of the archive, from the files of its solver.
+    /// What identifies the unit is a digest of them.
     #[must_use]
-    pub fn files(&self, solver: &[(String, String)]) -> Vec<(String, String)> {
-        let unidentified = self.files_of("", solver);
+    pub fn files(&self, version: FmiVersion, solver: &[(String, String)]) -> Vec<(String, String)> {
+        let unidentified = self.files_of(version, "", solver);
         let mut digest = Sha256::new();
         for (path, text) in &unidentified {
             digest.update(path.as_bytes());
@@ -122,17 +128,22 @@ impl Fmu {
             digest.update(text.as_bytes());
             digest.update([0]);
         }
-        self.files_of(&guid(&digest.finalize()), solver)
+        self.files_of(version, &token(&digest.finalize()), solver)
     }
 
-    fn files_of(&self, guid: &str, solver: &[(String, String)]) -> Vec<(String, String)> {
+    fn files_of(
+        &self,
+        version: FmiVersion,
+        token: &str,
+        solver: &[(String, String)],
+    ) -> Vec<(String, String)> {
         let mut sources: Vec<(String, String)> = solver
             .iter()
             .filter(|(path, _)| sources::is_source(path))
             .cloned()
-            .chain(sources::all())
+            .chain(sources::all(version))
             .collect();
-        sources.push(("model.h".to_owned(), model::header(&self.layout, &self.constants, guid)));
+        sources.push(("model.h".to_owned(), model::header(&self.layout, &self.constants, token)));
         let start = model::values(&self.layout, &self.constants, &self.variables);
         sources.push(("model.c".to_owned(), self.constants.source(&start)));
         sources.sort();
@@ -141,14 +152,25 @@ impl Fmu {
             .map(|(path, _)| path.as_str())
             .filter(|path| sources::is_compiled(path))
             .collect();
-        let description = self.description.document(&self.name, guid, &compiled, &self.variables);
+        let identifier = self.name.as_str();
+        let contents =
+            xml::Contents { identifier, token, sources: &compiled, variables: &self.variables };
+        let (description, build) = match version {
+            FmiVersion::Two => (fmi2::description(&self.description, &contents), None),
+            FmiVersion::Three => (
+                fmi3::description(&self.description, &contents),
+                Some(fmi3::build_description(identifier, &compiled)),
+            ),
+        };
+        sources.extend(build.map(|text| ("buildDescription.xml".to_owned(), text)));
+        sources.sort();
         let sources = sources.into_iter().map(|(path, text)| (format!("sources/{path}"), text));
         std::iter::once(("modelDescription.xml".to_owned(), description)).chain(sources).collect()
     }
 }
 
 /// A digest as an identifier.
-fn guid(digest: &[u8]) -> String {
+fn token(digest: &[u8]) -> String {
     let mut hexadecimal = String::new();
     for byte in digest.iter().take(16) {
         // Writing into a text does not fail.

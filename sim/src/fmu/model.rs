@@ -94,7 +94,7 @@ impl Constants {
 }
 
 /// `model.h`.
-pub(super) fn header(layout: &Layout, constants: &Constants, guid: &str) -> String {
+pub(super) fn header(layout: &Layout, constants: &Constants, token: &str) -> String {
     let Layout { wrenches, .. } = layout;
     let (driven, upper) = (layout.driven(), SOLVER.to_uppercase());
     let Constants { hub, field, .. } = constants;
@@ -116,7 +116,7 @@ pub(super) fn header(layout: &Layout, constants: &Constants, guid: &str) -> Stri
          #define FMU_WRENCHES {wrenches}\n\
          #define FMU_HUB {hub}\n\
          #define FMU_FIELD {field}\n\
-         #define FMU_TOKEN \"{guid}\"\n\n#endif\n"
+         #define FMU_TOKEN \"{token}\"\n\n#endif\n"
     )
 }
 

@@ -1,15 +1,12 @@
-//! The C files that are the same in every unit: the faces of FMI 2.0 over the emitted solver, and the standard's headers.
+//! The C files that are the same in every unit of a version: its face over the instance and the emitted solver, and the
+//! standard's headers.
 
-/// Names and texts. The three headers of the standard are the Modelica Association's, under the 2-clause BSD licence
-/// that each of them contains.
-const FILES: [(&str, &str); 13] = [
-    ("fmi2FunctionTypes.h", include_str!("c/fmi2FunctionTypes.h")),
-    ("fmi2Functions.h", include_str!("c/fmi2Functions.h")),
-    ("fmi2TypesPlatform.h", include_str!("c/fmi2TypesPlatform.h")),
-    ("precess_fmi2.c", include_str!("c/precess_fmi2.c")),
-    ("precess_fmi2.h", include_str!("c/precess_fmi2.h")),
-    ("precess_fmi2_co_simulation.c", include_str!("c/precess_fmi2_co_simulation.c")),
-    ("precess_fmi2_model_exchange.c", include_str!("c/precess_fmi2_model_exchange.c")),
+use super::FmiVersion;
+
+type File = (&'static str, &'static str);
+
+/// Names and texts of what both versions have.
+const SHARED: [File; 6] = [
     ("precess_fmu.c", include_str!("c/precess_fmu.c")),
     ("precess_fmu.h", include_str!("c/precess_fmu.h")),
     ("precess_instance.c", include_str!("c/precess_instance.c")),
@@ -17,10 +14,52 @@ const FILES: [(&str, &str); 13] = [
     ("precess_instance_motion.c", include_str!("c/precess_instance_motion.c")),
     ("precess_instance_state.c", include_str!("c/precess_instance_state.c")),
 ];
+const FMI2: [File; 4] = [
+    ("precess_fmi2.c", include_str!("c/precess_fmi2.c")),
+    ("precess_fmi2.h", include_str!("c/precess_fmi2.h")),
+    ("precess_fmi2_co_simulation.c", include_str!("c/precess_fmi2_co_simulation.c")),
+    ("precess_fmi2_model_exchange.c", include_str!("c/precess_fmi2_model_exchange.c")),
+];
+const FMI3: [File; 5] = [
+    ("precess_fmi3.c", include_str!("c/precess_fmi3.c")),
+    ("precess_fmi3.h", include_str!("c/precess_fmi3.h")),
+    ("precess_fmi3_absent.c", include_str!("c/precess_fmi3_absent.c")),
+    ("precess_fmi3_co_simulation.c", include_str!("c/precess_fmi3_co_simulation.c")),
+    ("precess_fmi3_model_exchange.c", include_str!("c/precess_fmi3_model_exchange.c")),
+];
 
-/// All of them.
-pub(super) fn all() -> impl Iterator<Item = (String, String)> {
-    FILES.into_iter().map(|(path, text)| (path.to_owned(), text.to_owned()))
+/// The three headers of a version. They are the Modelica Association's, under the 2-clause BSD licence that each contains.
+const HEADERS2: [File; 3] = [
+    ("fmi2FunctionTypes.h", include_str!("c/fmi2FunctionTypes.h")),
+    ("fmi2Functions.h", include_str!("c/fmi2Functions.h")),
+    ("fmi2TypesPlatform.h", include_str!("c/fmi2TypesPlatform.h")),
+];
+const HEADERS3: [File; 3] = [
+    ("fmi3FunctionTypes.h", include_str!("c/fmi3FunctionTypes.h")),
+    ("fmi3Functions.h", include_str!("c/fmi3Functions.h")),
+    ("fmi3PlatformTypes.h", include_str!("c/fmi3PlatformTypes.h")),
+];
+
+/// All that are in a unit of a version. FMI 3.0 leaves its headers to the importer.
+pub(super) fn all(version: FmiVersion) -> Vec<(String, String)> {
+    let own: [&[File]; 2] = match version {
+        FmiVersion::Two => [&FMI2, &HEADERS2],
+        FmiVersion::Three => [&FMI3, &[]],
+    };
+    texts(SHARED.iter().chain(own.into_iter().flatten()))
+}
+
+/// The headers that a compiler needs beside a unit of a version, by their names: those of the standard, of FMI 3.0.
+#[must_use]
+pub fn headers(version: FmiVersion) -> Vec<(String, String)> {
+    match version {
+        FmiVersion::Two => Vec::new(),
+        FmiVersion::Three => texts(HEADERS3.iter()),
+    }
+}
+
+fn texts<'a>(files: impl Iterator<Item = &'a File>) -> Vec<(String, String)> {
+    files.map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect()
 }
 
 /// Whether a file of the solver belongs to the sources.

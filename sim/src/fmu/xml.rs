@@ -1,6 +1,6 @@
-//! `modelDescription.xml` of FMI 2.0.
+//! What the descriptions of both versions have in common: head, units, attributes of variables, what depends on what.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::ops::Range;
 
@@ -11,7 +11,33 @@ use super::units::UNITS;
 use super::variables::{Role, Variable, nominals};
 use crate::scenario::{IntegratorChoice, Scenario};
 
-/// What of a scenario is in its head.
+/// How each document begins.
+pub(super) const DECLARATION: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+/// What is described.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contents<'a> {
+    /// The name of functions and binaries.
+    pub(super) identifier: &'a str,
+    /// What identifies the sources.
+    pub(super) token: &'a str,
+    /// Names of the files that are compiled.
+    pub(super) sources: &'a [&'a str],
+    pub(super) variables: &'a [Variable],
+}
+
+/// What is computed, by the places of the variables; with what it depends on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Unknowns {
+    /// Outputs, each of which is a state.
+    pub(super) outputs: Vec<usize>,
+    /// Derivatives, of states and inputs.
+    pub(super) derivatives: Vec<(usize, Vec<usize>)>,
+    /// Derivatives in initialisation, of parameters as well.
+    pub(super) initial: Vec<(usize, Vec<usize>)>,
+}
+
+/// What of a scenario is in the head of a description.
 #[derive(Clone, Debug)]
 pub(super) struct Header {
     name: String,
@@ -25,6 +51,9 @@ pub(super) struct Header {
 }
 
 impl Header {
+    /// What writes the units.
+    pub(super) const TOOL: &'static str = concat!("Precess ", env!("CARGO_PKG_VERSION"));
+
     pub(super) fn new(scenario: &Scenario, layout: &Layout, step: f64) -> Self {
         let texts = [&scenario.title, &scenario.description];
         let texts: Vec<_> =
@@ -44,59 +73,18 @@ impl Header {
         }
     }
 
-    /// The document.
-    pub(super) fn document(
-        &self,
-        identifier: &str,
-        guid: &str,
-        sources: &[&str],
-        variables: &[Variable],
-    ) -> String {
-        let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-        self.write(&mut text, (identifier, guid), sources, variables);
-        text
+    /// The scenario's name as the value of an attribute.
+    pub(super) fn name(&self) -> String {
+        escaped(&self.name)
     }
 
-    fn write(
-        &self,
-        text: &mut String,
-        (identifier, guid): (&str, &str),
-        sources: &[&str],
-        variables: &[Variable],
-    ) {
-        // Writing into a text does not fail; results are dropped below.
-        let _ = write!(
-            text,
-            "<fmiModelDescription\n  fmiVersion=\"2.0\"\n  modelName=\"{}\"\n  guid=\"{guid}\"\n  \
-             description=\"{}\"\n  generationTool=\"Precess {}\"\n  variableNamingConvention=\"flat\"\n  \
-             numberOfEventIndicators=\"0\">\n",
-            escaped(&self.name),
-            escaped(&self.description),
-            env!("CARGO_PKG_VERSION")
-        );
-        let both = "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" \
-                    canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"false\"";
-        let own = [
-            (
-                "ModelExchange",
-                "needsExecutionTool=\"false\" completedIntegratorStepNotNeeded=\"false\"",
-            ),
-            (
-                "CoSimulation",
-                "needsExecutionTool=\"false\" canHandleVariableCommunicationStepSize=\"true\" \
-                 canInterpolateInputs=\"false\" maxOutputDerivativeOrder=\"0\" canRunAsynchronuously=\"false\"",
-            ),
-        ];
-        for (kind, capabilities) in own {
-            let _ = write!(
-                text,
-                "  <{kind} modelIdentifier=\"{identifier}\" {capabilities} {both}>\n    <SourceFiles>\n"
-            );
-            for source in sources {
-                let _ = writeln!(text, "      <File name=\"{source}\"/>");
-            }
-            let _ = write!(text, "    </SourceFiles>\n  </{kind}>\n");
-        }
+    /// Title and description of the scenario as the value of an attribute.
+    pub(super) fn description(&self) -> String {
+        escaped(&self.description)
+    }
+
+    /// Units, categories of messages, and the experiment of the scenario.
+    pub(super) fn write_definitions(&self, text: &mut String, variables: &[Variable]) {
         units(text, variables);
         text.push_str(
             "  <LogCategories>\n    <Category name=\"logStatusError\" description=\"Why a function returns an \
@@ -104,25 +92,20 @@ impl Header {
         );
         let tolerance =
             self.tolerance.map_or_else(String::new, |of| format!(" tolerance=\"{of:?}\""));
+        // Writing into a text does not fail; results are dropped here and below.
         let _ = writeln!(
             text,
             "  <DefaultExperiment startTime=\"0.0\" stopTime=\"{:?}\"{tolerance} stepSize=\"{:?}\"/>",
             self.duration, self.step
         );
-        text.push_str("  <ModelVariables>\n");
-        for variable in variables {
-            self.variable(text, variable);
-        }
-        text.push_str("  </ModelVariables>\n");
-        structure(text, variables, &self.idle);
-        text.push_str("</fmiModelDescription>\n");
     }
 
-    fn variable(&self, text: &mut String, variable: &Variable) {
+    /// The attributes of a variable, and those that it has as a real number, but for what it is the derivative of.
+    pub(super) fn attributes(&self, variable: &Variable) -> (String, String) {
         let Variable { name, place, role, unit, shown, start, meaning } = variable;
-        let mut attributes = format!(" unit=\"{unit}\"");
+        let mut of_number = format!(" unit=\"{unit}\"");
         if let Some(shown) = shown {
-            let _ = write!(attributes, " displayUnit=\"{shown}\"");
+            let _ = write!(of_number, " displayUnit=\"{shown}\"");
         }
         let (causality, variability, initial) = match role {
             Role::Independent => ("independent", "continuous", None),
@@ -133,28 +116,55 @@ impl Header {
             Role::Tunable => ("parameter", "tunable", Some("exact")),
         };
         if let Role::Input(Some(limit)) = role {
-            let _ = write!(attributes, " min=\"{:?}\" max=\"{limit:?}\"", -limit);
+            let _ = write!(of_number, " min=\"{:?}\" max=\"{limit:?}\"", -limit);
         }
-        if let Role::Derivative { state, .. } = role {
-            // Variables count from one, and time is the first.
-            let _ = write!(attributes, " derivative=\"{}\"", state + 2);
-        } else if *role != Role::Independent {
-            let _ = write!(attributes, " start=\"{start:?}\"");
+        if !matches!(role, Role::Derivative { .. } | Role::Independent) {
+            let _ = write!(of_number, " start=\"{start:?}\"");
         }
         if *role == Role::State {
             let nominal = self.nominals.get(place.wrapping_sub(Layout::state(0)));
             if let Some(nominal) = nominal.filter(|nominal| **nominal != 1.0) {
-                let _ = write!(attributes, " nominal=\"{nominal:?}\"");
+                let _ = write!(of_number, " nominal=\"{nominal:?}\"");
+            }
+            // An angle, which an event may bring into [-pi, pi].
+            if *unit == "rad" {
+                of_number.push_str(" reinit=\"true\"");
             }
         }
         let initial = initial.map_or_else(String::new, |of| format!(" initial=\"{of}\""));
-        let _ = write!(
-            text,
-            "    <ScalarVariable name=\"{name}\" valueReference=\"{place}\" causality=\"{causality}\" \
-             variability=\"{variability}\"{initial} description=\"{}\">\n      <Real{attributes}/>\n    \
-             </ScalarVariable>\n",
+        let of_variable = format!(
+            " name=\"{name}\" valueReference=\"{place}\" causality=\"{causality}\" \
+             variability=\"{variability}\"{initial} description=\"{}\"",
             escaped(meaning)
         );
+        (of_variable, of_number)
+    }
+
+    /// What is computed, and what each depends on, of variables only.
+    pub(super) fn unknowns(&self, variables: &[Variable]) -> Unknowns {
+        let places: BTreeSet<usize> = variables.iter().map(|variable| variable.place).collect();
+        let is_parameter = |of: &&Variable| {
+            matches!(of.role, Role::Tunable) || (of.role == Role::Fixed && of.name != "step")
+        };
+        let all = variables.iter().filter(is_parameter).map(|of| of.place);
+        let parameters: Vec<usize> = all.filter(|place| !self.idle.contains(place)).collect();
+        let mut unknowns = Unknowns::default();
+        for variable in variables {
+            match &variable.role {
+                Role::State => unknowns.outputs.push(variable.place),
+                Role::Derivative { depends, on_parameters, .. } => {
+                    let mut depends: Vec<usize> =
+                        depends.iter().copied().filter(|of| places.contains(of)).collect();
+                    unknowns.derivatives.push((variable.place, depends.clone()));
+                    if *on_parameters {
+                        depends.extend(&parameters);
+                    }
+                    unknowns.initial.push((variable.place, depends));
+                }
+                _ => {}
+            }
+        }
+        unknowns
     }
 }
 
@@ -176,48 +186,6 @@ fn units(text: &mut String, variables: &[Variable]) {
         text.push_str("    </Unit>\n");
     }
     text.push_str("  </UnitDefinitions>\n");
-}
-
-/// Outputs, derivatives, and what is computed in initialisation, each with what it depends on.
-fn structure(text: &mut String, variables: &[Variable], idle: &Range<usize>) {
-    let numbers: BTreeMap<usize, usize> =
-        variables.iter().zip(1..).map(|(variable, number)| (variable.place, number)).collect();
-    let listed = |places: &mut dyn Iterator<Item = usize>| {
-        let known = places.filter_map(|place| numbers.get(&place));
-        known.map(usize::to_string).collect::<Vec<_>>().join(" ")
-    };
-    let is_parameter = |of: &&Variable| {
-        matches!(of.role, Role::Tunable) || (of.role == Role::Fixed && of.name != "step")
-    };
-    let all = variables.iter().filter(is_parameter).map(|of| of.place);
-    let parameters: Vec<usize> = all.filter(|place| !idle.contains(place)).collect();
-    let (mut outputs, mut derivatives, mut initial) = (String::new(), String::new(), String::new());
-    for (variable, number) in variables.iter().zip(1..) {
-        match &variable.role {
-            Role::State => {
-                let _ = writeln!(
-                    outputs,
-                    "      <Unknown index=\"{number}\" dependencies=\"{number}\" dependenciesKind=\"constant\"/>"
-                );
-            }
-            Role::Derivative { depends, on_parameters, .. } => {
-                let own = listed(&mut depends.iter().copied());
-                let unknown =
-                    format!("      <Unknown index=\"{number}\" dependencies=\"{own}\"/>\n");
-                derivatives += &unknown;
-                let parameters = if *on_parameters { parameters.as_slice() } else { &[] };
-                let own = listed(&mut depends.iter().chain(parameters).copied());
-                let _ =
-                    writeln!(initial, "      <Unknown index=\"{number}\" dependencies=\"{own}\"/>");
-            }
-            _ => {}
-        }
-    }
-    let _ = write!(
-        text,
-        "  <ModelStructure>\n    <Outputs>\n{outputs}    </Outputs>\n    <Derivatives>\n{derivatives}    \
-         </Derivatives>\n    <InitialUnknowns>\n{initial}    </InitialUnknowns>\n  </ModelStructure>\n"
-    );
 }
 
 /// A text as the value of an attribute; a space in the place of a character that XML has not, and of the end of a line.

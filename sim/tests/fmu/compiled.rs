@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use precess::engine;
-use precess::fmu::compiler_arguments;
+use precess::fmu::{FmiVersion, compiler_arguments, headers};
 use precess::record::Samples;
 
 use super::{UNIT, files, scenario};
@@ -43,13 +43,29 @@ fn compilers() -> Vec<&'static str> {
     ["gcc", "clang"].into_iter().filter(is_there).collect()
 }
 
-/// A folder with the sources of the unit and the driver, and the names of what is compiled.
-fn sources(name: &str, unit: &str) -> (PathBuf, Vec<String>) {
+/// An importer of a version: names and texts of its files.
+fn driver(version: FmiVersion) -> &'static [(&'static str, &'static str)] {
+    match version {
+        FmiVersion::Two => &[("driver_fmi2.c", include_str!("driver_fmi2.c"))],
+        FmiVersion::Three => &[
+            ("driver_fmi3.c", include_str!("driver_fmi3.c")),
+            ("driver_fmi3.h", include_str!("driver_fmi3.h")),
+            ("driver_fmi3_refused.c", include_str!("driver_fmi3_refused.c")),
+        ],
+    }
+}
+
+/// A folder with the sources of the unit and the standard's headers, and the names of what is compiled.
+fn sources(version: FmiVersion, name: &str, unit: &str) -> (PathBuf, Vec<String>) {
+    let name = format!("{name}_{}", version.text());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder");
-    let (_, files) = files(&scenario(unit));
+    let (_, files) = files(version, &scenario(unit));
     let mut compiled = Vec::new();
+    for (name, text) in headers(version) {
+        fs::write(folder.join(name), text).expect("a header");
+    }
     for (path, text) in &files {
         let Some(name) = path.strip_prefix("sources/") else { continue };
         fs::write(folder.join(name), text).expect("a source");
@@ -83,40 +99,65 @@ fn states() -> Vec<f64> {
 #[test]
 fn co_simulation_has_the_bits_of_a_run_and_calls_out_of_order_are_errors() {
     let expected = states();
-    for compiler in compilers() {
-        let sanitisers: [&[&str]; 2] = [
-            &[],
-            if compiler == "gcc" {
-                &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
-            } else {
-                &["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
-            },
-        ];
-        for (number, more) in sanitisers.into_iter().enumerate() {
-            let (folder, mut sources) = sources(&format!("{compiler}_{number}"), UNIT);
-            fs::write(folder.join("driver.c"), include_str!("driver_fmi2.c")).expect("a source");
-            sources.push("driver.c".to_owned());
-            let arguments = [&FLAGS, more, &["-o", "driver"]].concat();
-            let done = compile(compiler, &folder, &arguments, &sources);
-            assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
-            let done = Command::new(folder.join("driver"))
-                .arg(STEPS.to_string())
-                .output()
-                .expect("the driver starts");
-            let errors = String::from_utf8_lossy(&done.stderr);
-            assert!(done.status.success(), "{compiler}, {more:?}: {} {errors}", done.status);
-            let (numbers, rest) = done.stdout.as_chunks();
-            assert!(rest.is_empty());
-            let found: Vec<_> = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect();
-            let bits = |numbers: &[f64]| numbers.iter().map(|of| of.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(&found), bits(&expected), "{compiler}: {found:?} and {expected:?}");
+    for version in FmiVersion::ALL {
+        for compiler in compilers() {
+            has_the_bits(version, compiler, &expected);
         }
+    }
+}
+
+/// The importer of a version with the unit's sources, compiled: the folder, in which it is named `driver`.
+fn importer(version: FmiVersion, name: &str, unit: &str, compiler: &str, more: &[&str]) -> PathBuf {
+    let (folder, mut sources) = sources(version, name, unit);
+    for (name, text) in driver(version) {
+        fs::write(folder.join(name), text).expect("a source");
+        if Path::new(name).extension() == Some("c".as_ref()) {
+            sources.push((*name).to_owned());
+        }
+    }
+    let arguments = [&FLAGS, more, &["-o", "driver"]].concat();
+    let done = compile(compiler, &folder, &arguments, &sources);
+    assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+    folder
+}
+
+/// What an importer writes: numbers.
+fn numbers(folder: &Path, arguments: &[&str]) -> Vec<f64> {
+    let done = Command::new(folder.join("driver")).args(arguments).output();
+    let done = done.expect("the driver starts");
+    let errors = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{}, {arguments:?}: {} {errors}", folder.display(), done.status);
+    let (numbers, rest) = done.stdout.as_chunks();
+    assert!(rest.is_empty());
+    numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect()
+}
+
+/// The driver by a compiler, without sanitisers and with: every check holds, and the states have the bits.
+fn has_the_bits(version: FmiVersion, compiler: &str, expected: &[f64]) {
+    let sanitisers: [&[&str]; 2] = [
+        &[],
+        if compiler == "gcc" {
+            &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+        } else {
+            &["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
+        },
+    ];
+    for (number, more) in sanitisers.into_iter().enumerate() {
+        let folder = importer(version, &format!("{compiler}_{number}"), UNIT, compiler, more);
+        let found = numbers(&folder, &[&STEPS.to_string()]);
+        let bits = |numbers: &[f64]| numbers.iter().map(|of| of.to_bits()).collect::<Vec<_>>();
+        assert_eq!(
+            bits(&found),
+            bits(expected),
+            "{version}, {compiler}: {found:?} and {expected:?}"
+        );
     }
 }
 
 /// A joint without a spring and one with end stops, both beyond half a turn, beside a wheel whose angle is brought back.
 #[test]
 fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
+    let Some(compiler) = compilers().into_iter().next() else { return };
     for (turns, stops) in [
         ("", "angle = \"440 deg\"\n"),
         (
@@ -125,22 +166,17 @@ fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
         ),
     ] {
         let unit = UNIT.replace(STOPS, stops).replace("stiffness = \"3 N m/rad\"\n", "");
-        let Some(compiler) = compilers().into_iter().next() else { return };
-        let (folder, mut sources) = sources(&format!("wrapped_{}", turns.len()), &unit);
-        fs::write(folder.join("driver.c"), include_str!("driver_fmi2.c")).expect("a source");
-        sources.push("driver.c".to_owned());
-        let done = compile(compiler, &folder, &[&FLAGS, &["-o", "driver"][..]].concat(), &sources);
-        assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
-        // 2^23 rad and half a turn.
-        let done = Command::new(folder.join("driver")).args(["0", "8388611.14"]).output();
-        let done = done.expect("the driver starts");
-        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-        let (numbers, _) = done.stdout.as_chunks();
-        let numbers: Vec<_> = numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect();
-        let (by_steps, by_event) = numbers.split_at(numbers.len() / 2);
-        for states in [by_steps, by_event] {
-            assert!(states[13].abs() <= std::f64::consts::PI, "the wheel: {}", states[13]);
-            assert!((states[14] - 440_f64.to_radians()).abs() < 1e-3, "the panel: {}", states[14]);
+        for version in FmiVersion::ALL {
+            let name = format!("wrapped_{}", turns.len());
+            let folder = importer(version, &name, &unit, compiler, &[]);
+            // 2^23 rad and half a turn.
+            let numbers = numbers(&folder, &["0", "8388611.14"]);
+            let (by_steps, by_event) = numbers.split_at(numbers.len() / 2);
+            for states in [by_steps, by_event] {
+                let (wheel, panel) = (states[13], states[14]);
+                assert!(wheel.abs() <= std::f64::consts::PI, "{version}, the wheel: {wheel}");
+                assert!((panel - 440_f64.to_radians()).abs() < 1e-3, "{version}, the panel: {panel}");
+            }
         }
     }
 }
@@ -148,7 +184,7 @@ fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
 #[test]
 fn arithmetic_by_other_rules_is_refused() {
     for compiler in compilers() {
-        let (folder, _) = sources(&format!("fast_{compiler}"), UNIT);
+        let (folder, _) = sources(FmiVersion::Two, &format!("fast_{compiler}"), UNIT);
         let core = ["precess_fmu.c".to_owned()];
         let done = compile(compiler, &folder, &["-std=c99", "-ffast-math", "-c"], &core);
         let errors = String::from_utf8_lossy(&done.stderr);
@@ -157,9 +193,12 @@ fn arithmetic_by_other_rules_is_refused() {
 }
 
 /// The functions that the headers of the standard declare.
-fn declared() -> Vec<String> {
-    let header = include_str!("../../src/fmu/c/fmi2Functions.h");
-    let names = header.lines().filter_map(|line| line.trim().strip_prefix("FMI2_Export"));
+fn declared(version: FmiVersion) -> Vec<String> {
+    let (header, prefix) = match version {
+        FmiVersion::Two => (include_str!("../../src/fmu/c/fmi2Functions.h"), "FMI2_Export"),
+        FmiVersion::Three => (include_str!("../../src/fmu/c/fmi3Functions.h"), "FMI3_Export"),
+    };
+    let names = header.lines().filter_map(|line| line.trim().strip_prefix(prefix));
     let names = names.filter_map(|line| line.trim().strip_suffix(';')?.split_whitespace().last());
     names.map(str::to_owned).collect()
 }
@@ -167,19 +206,28 @@ fn declared() -> Vec<String> {
 #[cfg(target_os = "linux")]
 #[test]
 fn every_function_of_the_standard_is_exported_and_no_other_symbol() {
-    let expected: std::collections::BTreeSet<_> = declared().into_iter().collect();
-    assert_eq!(expected.len(), 44, "{expected:?}");
-    for compiler in compilers() {
-        let (folder, sources) = sources(&format!("exported_{compiler}"), UNIT);
-        let arguments = [compiler_arguments(), &["-o", "unit.so"]].concat();
-        let done = compile(compiler, &folder, &arguments, &sources);
-        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-        let listed =
-            Command::new("nm").args(["-D", "--defined-only"]).arg(folder.join("unit.so")).output();
-        let listed = String::from_utf8(listed.expect("nm, of binutils").stdout).expect("a text");
-        let found = listed.lines().filter_map(|line| line.split_whitespace().nth(2));
-        let hidden = ["_init", "_fini", "_edata", "_end", "__bss_start"];
-        let found = found.filter(|name| !hidden.contains(name)).map(str::to_owned);
-        assert_eq!(found.collect::<std::collections::BTreeSet<_>>(), expected, "{compiler}");
+    for (version, count) in FmiVersion::ALL.into_iter().zip([44, 75]) {
+        let expected: std::collections::BTreeSet<_> = declared(version).into_iter().collect();
+        assert_eq!(expected.len(), count, "{expected:?}");
+        for compiler in compilers() {
+            let (folder, sources) = sources(version, &format!("exported_{compiler}"), UNIT);
+            let arguments = [compiler_arguments(), &["-o", "unit.so"]].concat();
+            let done = compile(compiler, &folder, &arguments, &sources);
+            assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+            let listed = Command::new("nm")
+                .args(["-D", "--defined-only"])
+                .arg(folder.join("unit.so"))
+                .output();
+            let listed =
+                String::from_utf8(listed.expect("nm, of binutils").stdout).expect("a text");
+            let found = listed.lines().filter_map(|line| line.split_whitespace().nth(2));
+            let hidden = ["_init", "_fini", "_edata", "_end", "__bss_start"];
+            let found = found.filter(|name| !hidden.contains(name)).map(str::to_owned);
+            assert_eq!(
+                found.collect::<std::collections::BTreeSet<_>>(),
+                expected,
+                "{version}, {compiler}"
+            );
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Functional mock-up units: descriptions, refusals, and the C, which has the bits of a run.
 //!
-//! The C is compiled by each compiler at hand with its warnings as errors, and once with sanitisers; `driver_fmi2.c` is the importer.
-//! Validation by others, and Model Exchange, are in `tests/engines/units.py`.
+//! Of both versions of FMI the C is compiled by each compiler at hand with its warnings as errors, and once with sanitisers;
+//! `driver_fmi2.c` and `driver_fmi3*.c` are importers. Validation by others, and Model Exchange, are in
+//! `tests/engines/units.py`.
 
 mod compiled;
 mod described;
@@ -10,7 +11,7 @@ mod refused;
 use std::path::Path;
 
 use precess::file::from_toml;
-use precess::fmu::Fmu;
+use precess::fmu::{FmiVersion, Fmu};
 use precess::scenario::Scenario;
 
 /// A wheel and, second, a panel with end stops; wrenches on hub and wheel, a torque beyond its limit.
@@ -71,11 +72,11 @@ fn scenario(text: &str) -> Scenario {
     from_toml("bus-1", text, Path::new("")).expect("a scenario").0
 }
 
-/// The unit of a scenario and its files.
-fn files(scenario: &Scenario) -> (Fmu, Vec<(String, String)>) {
+/// The unit of a scenario and its files of a version.
+fn files(version: FmiVersion, scenario: &Scenario) -> (Fmu, Vec<(String, String)>) {
     let unit = Fmu::new(scenario).expect("a unit");
     let solver = precess_bake::solver(unit.spacecraft()).expect("a solver");
     let solver: Vec<_> = solver.into_iter().map(|file| (file.path, file.text)).collect();
-    let files = unit.files(&solver);
+    let files = unit.files(version, &solver);
     (unit, files)
 }

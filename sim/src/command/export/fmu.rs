@@ -16,10 +16,10 @@ use crate::command::options::{Set, as_toml};
 use crate::command::outputs::{Outputs, name_of};
 use crate::command::terminal::{note, print};
 use crate::file::from_file;
-use crate::fmu::{Fmu, archive, compiler_arguments, platform};
+use crate::fmu::{FmiVersion, Fmu, archive, compiler_arguments, headers, platform};
 
 pub(super) const HELP: &str = "Examples:\n  precess export fmu bus.toml --step '1 ms'\n  \
-    precess export fmu bus.toml --step '1 ms' --binary --to bus.fmu";
+    precess export fmu bus.toml --step '1 ms' --fmi 3 --binary --to bus.fmu";
 
 /// The options of `export fmu`.
 #[derive(Debug, Args)]
@@ -31,6 +31,9 @@ pub(in crate::command) struct Unit {
     /// Length of the steps of Co-Simulation: that of `run.step` without this option.
     #[arg(long, value_name = "TIME")]
     step: Option<String>,
+    /// Version of FMI, 2 or 3.
+    #[arg(long, value_name = "VERSION", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    fmi: u8,
     /// Put the library of this platform beside the sources, compiled by `CC` of the environment, or `cc`.
     #[arg(long)]
     binary: bool,
@@ -67,11 +70,12 @@ impl Unit {
         if !Generator::new().arguments(general).silent().derive(&description)? {
             return Ok(Exit::Error);
         }
-        let files = unit.files(&texts(&solver)?);
+        let version = FmiVersion::of_number(self.fmi).unwrap_or_default();
+        let files = unit.files(version, &texts(&solver)?);
         let mut bytes: Vec<(String, Vec<u8>)> =
             files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
         if self.binary {
-            let binary = compiled(&bytes, unit.name(), &work.path().join("unit"))?;
+            let binary = compiled(&bytes, unit.name(), version, &work.path().join("unit"))?;
             bytes.insert(1, binary);
         }
         let count = bytes.len();
@@ -102,17 +106,24 @@ fn texts(folder: &Path) -> Result<Vec<(String, String)>, CommandError> {
 fn compiled(
     files: &[(String, Vec<u8>)],
     name: &str,
+    version: FmiVersion,
     folder: &Path,
 ) -> Result<(String, Vec<u8>), CommandError> {
-    let Some((platform, ending)) = platform() else {
-        let message = "FMI 2.0 has no name of this platform; leave out `--binary`: the importer compiles the sources";
-        return Err(CommandError::Other(message.to_owned()));
+    let Some((platform, ending)) = platform(version) else {
+        let message = format!(
+            "{version} has no name of this platform; leave out `--binary`: the importer compiles the sources"
+        );
+        return Err(CommandError::Other(message));
     };
+    fs::create_dir_all(folder).map_err(failure(folder))?;
+    for (name, text) in headers(version) {
+        let path = folder.join(name);
+        fs::write(&path, text).map_err(failure(&path))?;
+    }
     let mut sources = Vec::new();
     for (path, bytes) in files {
         let Some(name) = path.strip_prefix("sources/") else { continue };
         let path = folder.join(name);
-        fs::create_dir_all(folder).map_err(failure(folder))?;
         fs::write(&path, bytes).map_err(failure(&path))?;
         if path.extension().is_some_and(|ending| ending == "c") {
             sources.push(name.to_owned());
