@@ -336,7 +336,10 @@ def main():
                 file.write_text(text, encoding="utf-8")
             _, step, rate, duration, _, _ = case
             run = recorded(folder, built, file, step, duration, rate)
+            drawn = chance.getstate()
             for version in (2, 3):
+                # The same states, inputs and springs of both.
+                chance.setstate(drawn)
                 unit = Unit(folder, built, file, step, version)
                 size = unit.archive.stat().st_size
                 count = co_simulation(unit, run, case)
