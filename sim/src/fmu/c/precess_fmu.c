@@ -383,31 +383,3 @@ enum precess_status precess_fmu_wrap(struct precess_fmu *fmu)
     }
     return status;
 }
-
-const char *precess_fmu_message(enum precess_status status)
-{
-    switch (status) {
-    case PRECESS_OK: return "well";
-    case PRECESS_BAD_PARAMETER:
-        return "a parameter of hub or device is none that its kind can have; check masses, inertias and mounts";
-    case PRECESS_BAD_INPUT:
-        return "a state, an input or the step is infinite, NaN, or no step; check what is set";
-    case PRECESS_BAD_ANGLE:
-        return "an angle is beyond 2^24 rad; take whole turns from it";
-    case PRECESS_NO_INERTIA:
-        return "a driven joint, or the hub, has no inertia; check masses and inertias";
-    case PRECESS_OVERFLOWS:
-        return "a result overflows; check rates, inputs and the step";
-    case PRECESS_LOCKED_MOVES:
-        return "a locked joint has a rate; set it to zero";
-    case PRECESS_FIXED_MOVES:
-        return "the fixed hub has a velocity; set it to zero";
-    case PRECESS_NOT_DRIVEN:
-        return "a joint without a motor is driven";
-    case PRECESS_AT_CENTRE:
-        return "the spacecraft is at the centre of the central body";
-    case PRECESS_UNSTABLE:
-        return "the step is too long for a spring, a damper or friction; make the parameter step smaller";
-    }
-    return "unknown status";
-}
