@@ -11,7 +11,8 @@
 //! - [`AnalogSection`], [`Section`], [`Filter`]: filters of second order, made discrete;
 //! - [`Gyro`], [`StarTracker`], [`Accelerometer`], [`Quantum`] (of tachometers and encoders), [`DelayLine`]: sensors, with
 //!   [`Noise`] by a seed;
-//! - [`SampledPlant`], [`Feedback`], [`SampledLoop`], [`LoopCurve`]: a linear loop with hold and delay, its margins and poles;
+//! - [`HeldPlant`], [`SampledPlant`], [`Feedback`], [`SampledLoop`], [`LoopCurve`]: a linear loop with hold and delay, its margins and
+//!   poles;
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
 //! - [`LineTracker`], [`DragTracker`]: imbalance line and drag torque of a rotor, followed on board in fixed memory;
 //! - [`MomentumDumping`]: an external torque;
@@ -108,8 +109,9 @@ pub use law::quaternion::QuaternionFeedback;
 pub use law::{Law, Sample};
 pub use linear::curve::LoopCurve;
 pub use linear::feedback::Feedback;
+pub use linear::held::{HeldPlant, held_step};
 pub use linear::margins::{AtFrequency, AxisMargins, delay_margin, longest_delay};
-pub use linear::plant::{Plant, SampledPlant, Sampling, held_step};
+pub use linear::plant::{Plant, SampledPlant, Sampling};
 pub use linear::sampled_loop::{LoopResponse, SampledLoop};
 pub use model::error::ControlError;
 pub use model::motion::{Motion, Reference, Tracking};

@@ -24,8 +24,8 @@ use crate::margins::measurement::ReadingNoise;
 use crate::margins::noise::NoiseGains;
 use crate::margins::notes::notes;
 use crate::pointing::RequirementState;
-use crate::report::margins::{LeastMargins, MarginsReport, decibels};
-use crate::scenario::{SampledController, Scenario};
+use crate::report::margins::{LeastMargins, MarginsReport, decibels, margin};
+use crate::scenario::{LoopMargin, SampledController, Scenario, decibels as decibels_of};
 use crate::units::{Measure, parse_quantity};
 
 pub(super) const HELP: &str = "\
@@ -41,6 +41,9 @@ Examples:
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 /// Poles, oscillations and lines that are printed, at most.
 const ROWS_MAX: usize = 16;
+/// The least gain margin, dB, and the least phase margin, degrees, where neither an option nor a requirement states one.
+const GAIN_LEAST: f64 = 6.0;
+const PHASE_LEAST: f64 = 30.0;
 /// Steps of the work.
 const STEPS: usize = 4;
 
@@ -55,12 +58,12 @@ pub(super) struct Margins {
     controller: Option<String>,
     #[command(flatten)]
     overrides: Set,
-    /// The least gain margin of an axis, upwards and downwards, dB.
-    #[arg(long, value_name = "DB", value_parser = gain, default_value = "6")]
-    gain_margin: f64,
-    /// The least phase margin of an axis, with its unit.
-    #[arg(long, value_name = "ANGLE", value_parser = angle, default_value = "30 deg")]
-    phase_margin: f64,
+    /// The least gain margin of an axis, upwards and downwards, dB; without it that of the scenario's requirement, or 6 dB.
+    #[arg(long, value_name = "DB", value_parser = gain)]
+    gain_margin: Option<f64>,
+    /// The least phase margin of an axis, with its unit; without it that of the scenario's requirement, or 30 deg.
+    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    phase_margin: Option<f64>,
     /// Standard deviation of the rotation that is read about each axis at a sample, with its unit: in the place of the star tracker's.
     #[arg(long, value_name = "ANGLE", value_parser = angle)]
     attitude_noise: Option<f64>,
@@ -95,11 +98,8 @@ fn rate(text: &str) -> Result<f64, String> {
 
 /// Decibels.
 fn gain(text: &str) -> Result<f64, String> {
-    let number = text.trim().trim_end_matches("dB").trim();
-    match number.parse::<f64>() {
-        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
-        _ => Err(format!("`{text}` is no gain margin; write decibels, not negative: \"6\"")),
-    }
+    decibels_of(text)
+        .ok_or_else(|| format!("`{text}` is no gain margin; write decibels, not negative: \"6\""))
 }
 
 /// Everything that is computed.
@@ -131,6 +131,7 @@ impl Margins {
         }
         let measured = self.noise_of(of).map_err(|error| other(&error))?;
         let found = find(&scenario, of).map_err(|error| other(&error))?;
+        let verdicts = found.analysis.verdicts(&scenario, &of.name);
         let report = MarginsReport {
             scenario: &scenario,
             controller: of,
@@ -138,7 +139,8 @@ impl Margins {
             lines: &found.lines,
             noise: found.noise.as_ref(),
             measured,
-            least: LeastMargins { gain: self.gain_margin, phase: self.phase_margin },
+            least: self.least_of(&scenario, of),
+            verdicts: &verdicts,
             notes: &notes,
             warnings: &warnings,
         };
@@ -156,12 +158,29 @@ impl Margins {
         print(&summary(&report))?;
         let folder = self.out.display();
         print(&format!("files: {folder}/{stem}-margins.html and {} more\n", files.len() - 1))?;
-        let states: Vec<RequirementState> = report.states().into_iter().flatten().collect();
+        let axes = report.states().into_iter().flatten();
+        let states: Vec<RequirementState> =
+            axes.chain(verdicts.iter().map(|of| of.state)).collect();
         Ok(Exit::of_states(&states))
     }
 }
 
 impl Margins {
+    /// As they are stated, or the largest of the scenario's requirements.
+    fn least_of(&self, scenario: &Scenario, of: &SampledController) -> LeastMargins {
+        let required = |margin: LoopMargin| {
+            let all = scenario.margin_requirements.iter();
+            let own = all.filter(|own| own.controller == of.name && own.margin == margin);
+            own.map(|own| own.least).reduce(f64::max)
+        };
+        let gain = self.gain_margin.or_else(|| required(LoopMargin::Gain));
+        let phase = self.phase_margin.or_else(|| required(LoopMargin::Phase));
+        LeastMargins {
+            gain: gain.unwrap_or(GAIN_LEAST),
+            phase: phase.unwrap_or(PHASE_LEAST.to_radians()),
+        }
+    }
+
     /// Noise as it is stated, or that of the sensors.
     fn noise_of(&self, of: &SampledController) -> Result<ReadingNoise, MarginsError> {
         let own = ReadingNoise::of_sensors(of)?;
@@ -178,7 +197,7 @@ fn find(scenario: &Scenario, of: &SampledController) -> Result<Found, MarginsErr
     let bar = progress_bar(STEPS, "steps");
     let found = ControlLoop::new(scenario, of, &[])?;
     bar.inc(1);
-    let analysis = found.analysis(of)?;
+    let analysis = found.analysis()?;
     bar.inc(1);
     let lines = found.lines()?;
     bar.inc(1);
@@ -240,6 +259,18 @@ fn summary(report: &MarginsReport<'_>) -> String {
             )
         );
     }
+    for of in report.verdicts {
+        let value = |value: f64| margin(of.requirement.margin, value);
+        let _ = writeln!(
+            text,
+            "requirement {}: {} margin {}, at least {}: {}",
+            of.requirement.name,
+            of.requirement.margin.word(),
+            of.found.map_or_else(|| "any".to_owned(), value),
+            of.requirement.written,
+            of.state.word()
+        );
+    }
     poles(&mut text, found);
     lines(&mut text, report.lines);
     if report.measured != ReadingNoise::default() {
@@ -282,7 +313,8 @@ fn poles(text: &mut String, found: &LoopAnalysis) {
             let aliased = of.alias < 0.999 * of.frequency;
             let aliased =
                 if aliased { format!(", aliased to {} Hz", six(of.alias)) } else { String::new() };
-            format!("{} Hz{aliased}", six(of.frequency))
+            let name = if of.name.is_empty() { String::new() } else { format!("{}, ", of.name) };
+            format!("{name}{} Hz{aliased}", six(of.frequency))
         });
         rows.push(vec![
             (number + 1).to_string(),

@@ -8,6 +8,7 @@
 
 mod controller;
 mod controller_sensors;
+mod requirements;
 mod source;
 pub(super) mod structure;
 
@@ -18,13 +19,11 @@ use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive, Quaternion};
 
 use super::read::{FORMAT, has_inertia, has_mass, has_origin};
-use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
     Action, AppliedWrench, BodyPoint, Drive, DryFriction, Format, IntegratorChoice, JointFriction,
-    Member, MotorLimits, Profile, Scenario, Statistic, StopAction, Target, WrenchAxes, body_key,
-    joint_key,
+    Member, MotorLimits, Profile, Scenario, StopAction, Target, WrenchAxes, body_key, joint_key,
 };
 
 /// The text.
@@ -90,7 +89,7 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
         writeln!(out, "value = {}\nends = {}", with_unit(crossing.value, unit), crossing.ends)?;
     }
     settings(out, s)?;
-    requirements(out, s)
+    requirements::requirements(out, s)
 }
 
 fn initial(out: &mut String, s: &Scenario) -> Written {
@@ -339,44 +338,6 @@ fn settings(out: &mut String, s: &Scenario) -> Written {
     let columns: Vec<_> = columns.iter().map(|column| quoted(column)).collect();
     writeln!(out, "\n[output]\nrate = \"{:?} Hz\"", s.output.rate)?;
     writeln!(out, "columns = [{}]\nformats = [{}]", columns.join(", "), formats.join(", "))
-}
-
-fn requirements(out: &mut String, s: &Scenario) -> Written {
-    for requirement in &s.requirements {
-        writeln!(out, "\n[[requirement]]\nname = {}", quoted(&requirement.name))?;
-        writeln!(out, "quantity = {}", quoted(&requirement.quantity))?;
-        if let Some((key, n)) = requirement.projection.key() {
-            writeln!(out, "{key} = [{:?}, {:?}, {:?}]", n.x, n.y, n.z)?;
-        }
-        let statistic = match requirement.statistic {
-            Statistic::Peak => "\"peak\"".to_owned(),
-            Statistic::Rms => "\"rms\"".to_owned(),
-            Statistic::BandRms([from, to]) => {
-                format!("\"band_rms\"\nband = \"{from:?}, {to:?} Hz\"")
-            }
-            Statistic::Final => "\"final\"".to_owned(),
-            Statistic::Drift => "\"drift\"".to_owned(),
-            Statistic::Displacement(time) => format!("\"displacement\"\nexposure = \"{time:?} s\""),
-            Statistic::Smear(time) => format!("\"smear\"\nexposure = \"{time:?} s\""),
-            Statistic::Jitter(time) => format!("\"jitter\"\nexposure = \"{time:?} s\""),
-            Statistic::Index { index, level } => {
-                let mut text =
-                    format!("{}\nlevel = {level:?}", quoted(&index.name().to_lowercase()));
-                if let Some(window) = index.window() {
-                    let _ = write!(text, "\nwindow = \"{window:?} s\"");
-                }
-                if let Index::Pde { stability, .. } = index {
-                    let _ = write!(text, "\nstability = \"{stability:?} s\"");
-                }
-                text
-            }
-        };
-        writeln!(out, "statistic = {statistic}")?;
-        let [from, to] = requirement.window;
-        writeln!(out, "from = \"{from:?} s\"\nto = \"{to:?} s\"")?;
-        writeln!(out, "limit = {}", quoted(&requirement.written))?;
-    }
-    Ok(())
 }
 
 pub(super) fn inertia(out: &mut String, i: &Matrix3<f64>) -> Written {

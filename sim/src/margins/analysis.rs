@@ -25,6 +25,8 @@ const FAST: f64 = 1e-3;
 const LOWEST: f64 = 1e-4;
 /// A smaller factor of a torque is none: a loop that integrates twice is next to the negative real axis at low frequencies.
 const GAIN_LEAST: f64 = 1e-4;
+/// Rests of a delay that are looked at again and again.
+const RESTS: usize = 8;
 /// A closed pole this near to one of the spacecraft by itself has its name.
 const NEAR: f64 = 0.1;
 
@@ -65,8 +67,10 @@ pub struct LoopPoint {
 }
 
 /// An oscillation of the spacecraft by itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OpenOscillation {
+    /// What moves: `mode 1`, `rw.tilt_y, rw.tilt_z, forward whirl`; empty where another one is equal.
+    pub name: String,
     /// Hz.
     pub frequency: f64,
     /// Damping ratio.
@@ -164,7 +168,7 @@ impl ControlLoop {
         of: &SampledController,
         plant: ControlledPlant,
     ) -> Result<Self, MarginsError> {
-        let samples = ControlledSamples::new(&plant, of, of.delay)?;
+        let samples = ControlledSamples::new(&plant, of)?;
         let law = law_feedback(scenario, of, &plant.allocation.momentum)?;
         let feedback = law.then(&torque_filters(of)?)?;
         let (least, noise) = samples.least_plant()?;
@@ -177,7 +181,7 @@ impl ControlLoop {
     ///
     /// # Errors
     /// [`MarginsError`].
-    pub fn analysis(&self, of: &SampledController) -> Result<LoopAnalysis, MarginsError> {
+    pub fn analysis(&self) -> Result<LoopAnalysis, MarginsError> {
         let stable = self.closed.is_stable()?;
         let curve = self.closed.curve()?;
         let mut axes = stable.then(|| curve.margins());
@@ -194,11 +198,7 @@ impl ControlLoop {
             let of_t = |at: &LoopResponse| at.complementary.singular_values().max();
             peaks = Some([curve.largest(LoopResponse::peak), curve.largest(of_t)]);
         }
-        let delay = longest_delay(self.samples.sampling, |delay| {
-            let samples = ControlledSamples::new(&self.plant, of, delay)?;
-            let (plant, _) = samples.least_plant()?;
-            Ok::<_, MarginsError>(SampledLoop::new(plant, self.closed.feedback().clone())?)
-        })?;
+        let delay = self.longest_delay()?;
         let oscillations = self.oscillations();
         let (poles, neutral) = self.poles(&oscillations)?;
         let points = self.points(&curve);
@@ -218,6 +218,23 @@ impl ControlLoop {
             oscillations,
             points,
             periodic,
+        })
+    }
+
+    /// How much longer the delay may be, s. Of each rest of a period that comes again the steps are computed once.
+    fn longest_delay(&self) -> Result<Option<f64>, MarginsError> {
+        let mut known: Vec<(f64, ControlledSamples)> = Vec::new();
+        longest_delay(self.samples.sampling, |periods, rest| {
+            let found = known.iter().find(|(of, _)| of.to_bits() == rest.to_bits());
+            let samples = match found {
+                Some((_, samples)) => samples.clone().with_periods((periods, rest)),
+                None => self.samples.with_delay(&self.plant.held, (periods, rest)),
+            };
+            let (plant, _) = samples.least_plant()?;
+            if found.is_none() && known.len() < RESTS {
+                known.push((rest, samples));
+            }
+            Ok(SampledLoop::new(plant, self.closed.feedback().clone())?)
         })
     }
 
@@ -254,7 +271,9 @@ impl ControlLoop {
     fn oscillations(&self) -> Vec<OpenOscillation> {
         let of = |[frequency, damping]: [f64; 2]| {
             let seen = frequency * (1.0 - damping * damping).max(0.0).sqrt();
-            OpenOscillation { frequency, damping, alias: alias(seen, self.rate).abs() }
+            let (name, alias) =
+                (self.plant.moving([frequency, damping]), alias(seen, self.rate).abs());
+            OpenOscillation { name, frequency, damping, alias }
         };
         self.plant.oscillations().into_iter().map(of).collect()
     }

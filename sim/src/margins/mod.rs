@@ -23,6 +23,7 @@
 //! | the law | [`feedback`] |
 //! | what is taken otherwise than in a run | [`notes`] |
 //! | margins, curves, poles | [`analysis`] |
+//! | requirements on margins | [`requirements`] |
 //! | lines of rotors through the loop, and their aliases | [`lines`] |
 //! | the lines of a jitter budget with the loop closed | [`closed_sweep`] |
 //! | noise of sources and sensors in a jitter budget with the loop closed | [`closed_noise`] |
@@ -35,9 +36,11 @@ mod error;
 pub mod feedback;
 pub mod lines;
 pub mod measurement;
+mod moving;
 pub mod noise;
 pub mod notes;
 pub mod plant;
+pub mod requirements;
 mod response;
 pub mod sampled;
 mod through;

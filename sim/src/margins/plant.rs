@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, DMatrix, DVector};
+use precess_control::HeldPlant;
 use precess_dynamics::{HubMode, Steered};
 
 use super::MarginsError;
@@ -11,7 +12,7 @@ use crate::engine::{LinearAllocation, linear_allocation};
 use crate::jitter::campbell::{device_rows, matrices, node_rows};
 use crate::jitter::device::Steady;
 use crate::jitter::model::{Model, Output};
-use crate::scenario::{SampledController, Scenario};
+use crate::scenario::{SampledController, Scenario, joint_key};
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::{COORDINATES, Fault};
 
@@ -34,6 +35,8 @@ pub struct ControlledPlant {
     pub a: DMatrix<f64>,
     /// `B`, by the torques of the motors that the controller commands.
     pub b: DMatrix<f64>,
+    /// Steps of these.
+    pub(super) held: HeldPlant,
     /// The servo: torques of motors by the state, by commands, and by loads on the coordinates.
     pub servo: [DMatrix<f64>; 3],
     /// What is commanded for small torques.
@@ -48,6 +51,10 @@ pub struct ControlledPlant {
     pub(super) kept: Vec<usize>,
     /// How many coordinates there are, without the translation.
     pub(super) size: usize,
+    /// What moves by each of these coordinates: `hub`, `mode 1`, `rw.tilt_y`.
+    pub(super) names: Vec<String>,
+    /// Accelerations by rates, gyroscopic terms only: `-M^-1 C_g`.
+    pub(super) gyroscopic: DMatrix<f64>,
     /// Inverse of the mass matrix, without the translation.
     pub(super) inverse: DMatrix<f64>,
     /// From loads on all coordinates to those without the translation.
@@ -152,9 +159,11 @@ impl ControlledPlant {
         by_read.columns_mut(rotations, rotations).copy_from(&allocation.by_omega);
         let sensed = sensed(&model, of, (all, moved, kept.len()));
         let (devices, outputs) = (device_rows(&model), output_rows(&model, all));
+        let names = names_of(scenario, &model, &own);
         Ok(Self {
             model,
             speed,
+            held: HeldPlant::new(&a, &b),
             a,
             b,
             servo,
@@ -164,6 +173,8 @@ impl ControlledPlant {
             sensed,
             kept,
             size,
+            names,
+            gyroscopic: -(&inverse * (&c - c.transpose())) * 0.5,
             inverse,
             reduced,
             translation,
@@ -270,6 +281,18 @@ fn coordinates_of(model: &Model) -> Vec<usize> {
         device.free.iter().map(|joint| first + joint).collect::<Vec<_>>()
     };
     model.devices.iter().flat_map(of).collect()
+}
+
+/// What moves by each coordinate but those of the translation: the hub, modes, joints of these numbers.
+fn names_of(scenario: &Scenario, model: &Model, joints: &[usize]) -> Vec<String> {
+    let rotations = std::iter::repeat_n("hub".to_owned(), COORDINATES - TRANSLATION);
+    let modes = (1..=model.structure.modes.len()).map(|number| format!("mode {number}"));
+    let known: Vec<_> = scenario.joints().collect();
+    let joint = |number: &usize| {
+        let known = known.get(*number);
+        known.map_or_else(String::new, |(_, device, info)| format!("{device}.{}", joint_key(info)))
+    };
+    rotations.chain(modes).chain(joints.iter().map(joint)).collect()
 }
 
 /// Coordinates and rates of all joints in the mean motion, rotors at their rates at a speed, all others at rest.

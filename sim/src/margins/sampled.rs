@@ -13,7 +13,7 @@
 //! but that what computes torques reads `x`.
 
 use nalgebra::{Complex, DMatrix};
-use precess_control::{ControlError, Feedback, SampledPlant, Sampling, held_step};
+use precess_control::{ControlError, Feedback, HeldPlant, SampledPlant, Sampling};
 
 use super::MarginsError;
 use super::measurement::{Measurement, whole};
@@ -33,6 +33,8 @@ pub struct ControlledSamples {
     pub sampling: Sampling,
     /// Whole periods of the delay.
     periods: usize,
+    /// Times within a period at which the servo computes torques, but for the samples, s.
+    computed: Vec<f64>,
     phi: DMatrix<f64>,
     /// By what acts from within this period on, and by what acted before.
     gamma: [DMatrix<f64>; 2],
@@ -40,6 +42,8 @@ pub struct ControlledSamples {
     newly: DMatrix<f64>,
     /// What a sample gives, by the state, by the torque of the law, and by what it reads.
     given: [DMatrix<f64>; 3],
+    /// The directions that what is given has, orthonormal; none where it has all.
+    directions: Option<DMatrix<f64>>,
     /// From what sensors have of the motion to what the law reads.
     measurement: Measurement,
     /// What sensors have of the motion, by the state.
@@ -69,28 +73,17 @@ pub struct Forced {
 }
 
 impl ControlledSamples {
-    /// Of a plant and its controller, with a delay of its own.
+    /// Of a plant and its controller.
     ///
     /// # Errors
     /// [`MarginsError::ServoRate`]; numbers that are not finite.
-    pub fn new(
-        plant: &ControlledPlant,
-        of: &SampledController,
-        delay: f64,
-    ) -> Result<Self, MarginsError> {
+    pub fn new(plant: &ControlledPlant, of: &SampledController) -> Result<Self, MarginsError> {
         let period = of.rate.recip();
-        let mut periods = (delay / period).floor();
-        let mut rest = delay - periods * period;
-        if rest > period * (1.0 - WHOLE) {
-            (periods, rest) = (periods + 1.0, 0.0);
-        } else if rest < period * WHOLE {
-            rest = 0.0;
-        }
         let [by_state, by_command, by_load] = plant.servo.clone();
         let commands =
             [plant.by_state.clone(), plant.allocation.by_torque.clone(), plant.by_read.clone()];
         let count = by_command.nrows();
-        let mut times = vec![(0.0, rest == 0.0), (rest, true)];
+        let mut computed = Vec::new();
         let (given, given_by_load, torques) = match of.servo.rate {
             None => {
                 let [first, second, third] = commands.map(|of| &by_command * of);
@@ -106,13 +99,39 @@ impl ControlledSamples {
                 if (ratio - ratio.round()).abs() > WHOLE * ratio {
                     return Err(MarginsError::ServoRate { rate: of.rate, servo });
                 }
-                let steps = whole(ratio);
                 let share = |k: usize| crate::spectra::float(k) / ratio.round();
-                times.extend((1..steps).map(|k| (period * share(k), period * share(k) >= rest)));
+                computed.extend((1..whole(ratio)).map(|k| period * share(k)));
                 let none = DMatrix::zeros(count, by_load.ncols());
                 (commands, none, [by_state, by_command, by_load])
             }
         };
+        let sampling = Sampling { period, delay: of.delay };
+        let none = || DMatrix::zeros(0, 0);
+        let samples = Self {
+            sampling,
+            periods: 0,
+            computed,
+            phi: none(),
+            gamma: [none(), none()],
+            newly: none(),
+            directions: directions(&given),
+            given,
+            measurement: Measurement::new(of)?,
+            sensed: plant.sensed.clone(),
+            by_load: given_by_load,
+            times: Vec::new(),
+            steps: Vec::new(),
+            torques,
+        };
+        Ok(Self { sampling, ..samples.with_delay(&plant.held, sampling.split()) })
+    }
+
+    /// The same with a delay of so many whole periods and the rest of it, s.
+    pub(super) fn with_delay(&self, held: &HeldPlant, delay: (usize, f64)) -> Self {
+        let period = self.sampling.period;
+        let (_, rest) = rounded(period, delay);
+        let mut times = vec![(0.0, rest == 0.0), (rest, true)];
+        times.extend(self.computed.iter().map(|time| (*time, *time >= rest)));
         times.sort_by(|a, b| a.0.total_cmp(&b.0));
         times.dedup_by(|a, b| {
             (a.0 - b.0).abs() < WHOLE * period && {
@@ -120,31 +139,26 @@ impl ControlledSamples {
                 true
             }
         });
-        let mut samples = Self {
-            sampling: Sampling { period, delay },
-            periods: whole(periods),
-            phi: DMatrix::zeros(0, 0),
-            gamma: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
-            newly: DMatrix::zeros(0, 0),
-            given,
-            measurement: Measurement::new(of)?,
-            sensed: plant.sensed.clone(),
-            by_load: given_by_load,
-            times,
-            steps: Vec::new(),
-            torques,
-        };
-        samples.steps = samples.held_steps(plant);
-        let [phi, newer, older] = samples.over_period(plant);
+        let mut samples = Self { times, ..self.clone() };
+        samples.steps = samples.held_steps(held);
+        let [phi, newer, older] = samples.over_period();
         (samples.phi, samples.gamma) = (phi, [newer, older]);
-        let [_, newly] = samples.with_waiting(&samples.gamma);
-        samples.newly = newly;
-        Ok(samples)
+        samples.with_periods(delay)
+    }
+
+    /// The same with another number of whole periods, beside the rest that the delay has.
+    pub(super) fn with_periods(mut self, delay: (usize, f64)) -> Self {
+        let (periods, rest) = rounded(self.sampling.period, delay);
+        self.sampling.delay = crate::spectra::float(periods) * self.sampling.period + rest;
+        self.periods = periods;
+        let [_, newly] = self.with_waiting(&self.gamma);
+        self.newly = newly;
+        self
     }
 
     /// The state at the next sample: by the state, by what acts newly, by what acted before.
-    fn over_period(&self, plant: &ControlledPlant) -> [DMatrix<f64>; 3] {
-        let (n, count) = (plant.a.nrows(), self.torques[1].ncols());
+    fn over_period(&self) -> [DMatrix<f64>; 3] {
+        let (n, count) = (self.torques[0].ncols(), self.torques[1].ncols());
         let mut maps =
             [DMatrix::identity(n, n), DMatrix::zeros(n, count), DMatrix::zeros(n, count)];
         let [by_state, by_given, _] = &self.torques;
@@ -158,11 +172,8 @@ impl ControlledSamples {
         maps
     }
 
-    fn held_steps(&self, plant: &ControlledPlant) -> Vec<[DMatrix<f64>; 2]> {
-        let step = |((from, _), to): (&(f64, bool), f64)| {
-            let (phi, gamma) = held_step(&plant.a, &plant.b, to - from);
-            [phi, gamma]
-        };
+    fn held_steps(&self, held: &HeldPlant) -> Vec<[DMatrix<f64>; 2]> {
+        let step = |((from, _), to): (&(f64, bool), f64)| held.step(to - from);
         self.times.iter().zip(self.ends()).map(step).collect()
     }
 
@@ -192,20 +203,8 @@ impl ControlledSamples {
     /// # Errors
     /// Numbers that are not finite.
     pub fn least_plant(&self) -> Result<(SampledPlant, DMatrix<f64>), ControlError> {
-        let count = self.by_load.nrows();
-        let columns =
-            self.given.iter().flat_map(|of| of.column_iter().map(nalgebra::Matrix::into_owned));
-        let all: Vec<_> = columns.collect();
-        let parts = DMatrix::from_columns(&all).svd(true, false);
-        let least = RANK * parts.singular_values.max();
-        let kept: Vec<usize> = (0..parts.singular_values.len())
-            .filter(|k| parts.singular_values[*k] > least)
-            .collect();
-        let Some(directions) = parts.u.filter(|_| kept.len() < count) else {
-            return self.plant();
-        };
-        let directions = directions.select_columns(&kept);
-        let gamma = self.gamma.each_ref().map(|of| of * &directions);
+        let Some(directions) = &self.directions else { return self.plant() };
+        let gamma = self.gamma.each_ref().map(|of| of * directions);
         let given = self.given.each_ref().map(|of| directions.transpose() * of);
         self.plant_of(&gamma, &given)
     }
@@ -349,6 +348,29 @@ impl ControlledSamples {
             sum += held * (integral(image, [*from, to]) / period);
         }
         sum
+    }
+}
+
+/// An orthonormal basis of the columns of what is given; none where these are as many as it has rows.
+fn directions(given: &[DMatrix<f64>; 3]) -> Option<DMatrix<f64>> {
+    let all: Vec<_> =
+        given.iter().flat_map(|of| of.column_iter().map(nalgebra::Matrix::into_owned)).collect();
+    let parts = DMatrix::from_columns(&all).svd(true, false);
+    let least = RANK * parts.singular_values.max();
+    let kept: Vec<usize> =
+        (0..parts.singular_values.len()).filter(|k| parts.singular_values[*k] > least).collect();
+    let directions = parts.u.filter(|of| kept.len() < of.nrows())?;
+    Some(directions.select_columns(&kept))
+}
+
+/// A rest that is none, or a period, to within rounding.
+fn rounded(period: f64, (periods, rest): (usize, f64)) -> (usize, f64) {
+    if rest > period * (1.0 - WHOLE) {
+        (periods.saturating_add(1), 0.0)
+    } else if rest < period * WHOLE {
+        (periods, 0.0)
+    } else {
+        (periods, rest)
     }
 }
 

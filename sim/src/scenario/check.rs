@@ -116,6 +116,7 @@ impl Scenario {
         errors.extend(self.check_points());
         errors.extend(self.check_friction());
         errors.extend(self.check_controllers());
+        errors.extend(self.check_margin_requirements());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {
@@ -279,7 +280,8 @@ impl Scenario {
                 errors.push(range(&key, format!("{what} are named `{name}`; rename one")));
             }
         }
-        let requirements = self.requirements.iter().map(|of| of.name.as_str());
+        let of_margins = self.margin_requirements.iter().map(|of| of.name.as_str());
+        let requirements = self.requirements.iter().map(|of| of.name.as_str()).chain(of_margins);
         let crossings = self.crossings.iter().map(|of| of.name.as_str());
         let nodes = self.structure.iter().flat_map(|of| &of.nodes).map(|node| node.name.as_str());
         errors.extend(named_once("requirement", "requirements", requirements));

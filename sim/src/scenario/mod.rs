@@ -15,6 +15,7 @@ mod controller_sensors;
 mod description;
 mod disturbances;
 mod friction;
+mod margin_requirement;
 pub mod mass;
 mod mean;
 mod member;
@@ -51,6 +52,7 @@ pub use controller_sensors::{
 };
 pub use description::UndescribedError;
 pub use friction::{DryFriction, JointFriction};
+pub use margin_requirement::{LoopMargin, MarginRequirement, decibels};
 pub use mass::{MassMatrix, MassProperties};
 pub use mean::MeanState;
 pub use member::{Member, Set, members, set_of};
@@ -127,6 +129,8 @@ pub struct Scenario {
     pub output: Output,
     /// Limits on recorded quantities.
     pub requirements: Vec<Requirement>,
+    /// Limits on margins of the loops of controllers.
+    pub margin_requirements: Vec<MarginRequirement>,
     /// The text it was read from; empty for one that a program built.
     pub source: Source,
 }

@@ -1,7 +1,6 @@
 //! A rigid spacecraft whose axes are double integrators with proportional and rate gain, behind hold and delay.
 
 use nalgebra::{Complex, ComplexField as _};
-use precess::margins::analysis::chosen;
 
 use super::{BUS, K, P, controller, loop_of, read};
 
@@ -47,7 +46,7 @@ fn margins_of_each_axis_are_those_of_its_closed_form() {
         let delay = f64::from(periods) * PERIOD;
         let scenario = read(&format!("{BUS}{}", controller(&format!("delay = \"{delay} s\""))));
         let found = loop_of(&scenario);
-        let analysis = found.analysis(chosen(&scenario, None).expect("one")).expect("an analysis");
+        let analysis = found.analysis().expect("an analysis");
         assert!(analysis.stable);
         let axes = analysis.axes.expect("stable");
         for (axis, margins) in axes.iter().enumerate() {

@@ -1,8 +1,7 @@
 //! Poles and margins against python-control: `tests/fixtures/loops.json`, which `tests/engines/loops.py` writes.
 
 use nalgebra::{Complex, ComplexField as _};
-use precess::margins::analysis::{ControlLoop, chosen};
-use precess::scenario::Scenario;
+use precess::margins::analysis::ControlLoop;
 use serde_json::Value;
 
 use super::{BUS, controller, loop_of, read};
@@ -19,8 +18,8 @@ fn number(of: &Value, key: &str) -> f64 {
     of[key].as_f64().unwrap_or_else(|| panic!("no {key} in {of}"))
 }
 
-/// The loop of a case, with its scenario: wheels, and a panel whose centre of mass is on its hinge at B.
-fn closed(case: &Value) -> (Scenario, ControlLoop) {
+/// The loop of a case: wheels, and a panel whose centre of mass is on its hinge at B.
+fn closed(case: &Value) -> ControlLoop {
     let [delay, stiffness, damping, integral] =
         ["delay", "stiffness", "damping", "integral"].map(|key| number(case, key));
     let panel = format!(
@@ -35,9 +34,7 @@ fn closed(case: &Value) -> (Scenario, ControlLoop) {
     );
     let control =
         if integral > 0.0 { control.replace("rate_gain = \"6 N m s\"\n", &gain) } else { control };
-    let scenario = read(&format!("{BUS}{panel}{control}"));
-    let found = loop_of(&scenario);
-    (scenario, found)
+    loop_of(&read(&format!("{BUS}{panel}{control}")))
 }
 
 #[test]
@@ -47,7 +44,7 @@ fn poles_and_margins_are_those_of_python_control() {
     assert_eq!(cases.len(), 12);
     let mut worst = [0.0_f64; 3];
     for case in cases {
-        let (_, found) = closed(case);
+        let found = closed(case);
         let poles = found.closed.poles().expect("poles");
         assert_eq!(found.closed.is_stable().ok(), case["stable"].as_bool(), "{case}");
         for pole in case["poles"].as_array().expect("poles") {
@@ -81,8 +78,8 @@ fn poles_and_margins_are_those_of_python_control() {
 #[test]
 fn an_oscillation_above_half_the_rate_is_named_with_its_alias() {
     let document: Value = serde_json::from_str(FIXTURE).expect("JSON");
-    let (scenario, found) = closed(&document["cases"][9]);
-    let found = found.analysis(chosen(&scenario, None).expect("one")).expect("an analysis");
+    let found = closed(&document["cases"][9]);
+    let found = found.analysis().expect("an analysis");
     let stiff = found.oscillations.iter().find(|of| of.frequency > 2.0).expect("the panel");
     // sqrt(k / Ip (1 + Ip / I)) with the hub, whose wheel is free.
     let inertia = 10.0 + 0.02;

@@ -4,8 +4,10 @@ mod closed_form;
 mod judged;
 mod lines;
 mod measured;
+mod moving;
 mod noise;
 mod rejected;
+mod requirements;
 
 use std::path::Path;
 

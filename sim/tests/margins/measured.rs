@@ -157,8 +157,7 @@ fn scenario(name: &str) -> Scenario {
 
 /// Gain margin upwards and downwards, dB, and phase margin, degrees, the least of the axes; none of a loop that is not stable.
 fn least(scenario: &Scenario) -> Option<[f64; 2]> {
-    let of = chosen(scenario, None).expect("one");
-    let found = loop_of(scenario).analysis(of).expect("an analysis");
+    let found = loop_of(scenario).analysis().expect("an analysis");
     let mut least = [f64::INFINITY; 2];
     for axis in found.axes? {
         let up = axis.gain_up.map(|of| 20.0 * of.value.log10());

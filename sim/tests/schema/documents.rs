@@ -1,7 +1,7 @@
 //! Documents with the keys that no scenario file has.
 
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-pub(crate) const OTHERS: [&str; 53] = [
+pub(crate) const OTHERS: [&str; 54] = [
     "[gravity]\ncentral = \"4e14 m^3/s^2\"\n[initial]\nposition = \"7e6, 0, 0 m\"\nvelocity = \"0, 7.5e3, 0 m/s\"\n\
      relative_to = \"orbit\"\nstate_of = \"centre_of_mass\"",
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
@@ -132,3 +132,4 @@ pub(crate) const OTHERS: [&str; 53] = [
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"pde\"\nwindow = \"10 ms\"\n\
      stability = \"20 ms\"\nlevel = 0.95\nlimit = \"1 rad/s\"",
 ];
+    "[[requirement]]\nname = \"a\"\nmargin = \"gain\"\ncontroller = \"aocs\"\nleast = \"6 dB\"",

@@ -5,9 +5,9 @@
 
 use alloc::vec::Vec;
 
-use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
+use crate::linear::held::balanced;
 use crate::model::error::ControlError;
 
 /// Sweeps for one eigenvalue: two or three are usual.
@@ -22,8 +22,7 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
     if matrix.is_empty() {
         return Ok(found);
     }
-    let mut h = matrix.clone();
-    balance_parlett_reinsch(&mut h);
+    let (h, _) = balanced(matrix);
     let mut h = if h.nrows() > 2 { Hessenberg::new(h).unpack_h() } else { h };
     let norm = h.amax();
     // Shifts that were subtracted from the diagonal.

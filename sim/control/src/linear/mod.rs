@@ -4,6 +4,7 @@ pub(crate) mod curve;
 mod eigenvalues;
 pub(crate) mod feedback;
 mod frequencies;
+pub(crate) mod held;
 pub(crate) mod margins;
 pub(crate) mod plant;
 mod resolvent;

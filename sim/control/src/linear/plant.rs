@@ -12,6 +12,7 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use crate::linear::held::HeldPlant;
 use crate::linear::resolvent::Resolvent;
 use crate::model::error::{self, ControlError};
 
@@ -33,6 +34,55 @@ pub struct Sampling {
     pub period: f64,
     /// From a sample to the time at which its command acts, s.
     pub delay: f64,
+}
+
+impl Sampling {
+    /// A period that is positive, a delay of at most 32 periods.
+    pub(super) fn checked(&self) -> Result<(), ControlError> {
+        error::positive("period", self.period)?;
+        error::within("delay", self.delay, (0.0, MAX_PERIODS * self.period))
+    }
+
+    /// How many whole periods the delay has, which is not negative, and the rest of it, s: less than a period.
+    #[must_use]
+    pub fn split(&self) -> (usize, f64) {
+        let Self { period, delay } = *self;
+        let mut periods = libm::floor(delay / period);
+        let mut rest = delay - periods * period;
+        // By rounding of the product.
+        if rest < 0.0 {
+            rest = 0.0;
+        } else if rest >= period {
+            periods += 1.0;
+            rest = 0.0;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number that is not negative; the largest for one that is larger"
+        )]
+        let periods = periods as usize;
+        (periods, rest)
+    }
+}
+
+impl Plant {
+    /// Checked, for steps of any length.
+    pub(super) fn held(&self) -> Result<HeldPlant, ControlError> {
+        let Self { a, b, c } = self;
+        let n = a.nrows();
+        for (what, found, wanted) in [
+            ("columns of A", a.ncols(), n),
+            ("rows of B", b.nrows(), n),
+            ("columns of C", c.ncols(), n),
+        ] {
+            error::count(what, found, wanted)?;
+        }
+        for (what, matrix) in [("A", a), ("B", b), ("C", c)] {
+            matrix.iter().try_for_each(|element| error::finite(what, *element))?;
+        }
+        Ok(HeldPlant::new(a, b))
+    }
 }
 
 /// The plant as a sampled controller sees it.
@@ -60,41 +110,26 @@ impl SampledPlant {
     /// A period that is not positive; a delay that is negative or longer than 32 periods; matrices whose shapes do not agree,
     /// or with numbers that are not finite, before or after discretisation.
     pub fn new(plant: &Plant, sampling: Sampling) -> Result<Self, ControlError> {
-        let Plant { a, b, c } = plant;
-        let n = a.nrows();
-        for (what, found, wanted) in [
-            ("columns of A", a.ncols(), n),
-            ("rows of B", b.nrows(), n),
-            ("columns of C", c.ncols(), n),
-        ] {
-            error::count(what, found, wanted)?;
-        }
-        for (what, matrix) in [("A", a), ("B", b), ("C", c)] {
-            matrix.iter().try_for_each(|element| error::finite(what, *element))?;
-        }
-        let Sampling { period, delay } = sampling;
-        error::positive("period", period)?;
-        error::within("delay", delay, (0.0, MAX_PERIODS * period))?;
-        let mut periods = libm::floor(delay / period);
-        let mut rest = delay - periods * period;
-        // By rounding of the product.
-        if rest < 0.0 {
-            rest = 0.0;
-        } else if rest >= period {
-            periods += 1.0;
-            rest = 0.0;
-        }
-        let (before, held) = held_step(a, b, rest);
-        let (after, gamma_0) = held_step(a, b, period - rest);
-        let (phi, gamma_1) = (&after * before, after * held);
+        let held = plant.held()?;
+        sampling.checked()?;
+        let sampled = Self::from_held(&held, &plant.c, (sampling.period, sampling.split()))?;
+        Ok(Self { sampling, ..sampled })
+    }
+
+    /// By the whole periods of its delay and the rest of it, s.
+    pub(super) fn from_held(
+        held: &HeldPlant,
+        c: &DMatrix<f64>,
+        (period, (periods, rest)): (f64, (usize, f64)),
+    ) -> Result<Self, ControlError> {
+        let [before, old] = held.step(rest);
+        let [after, gamma_0] = held.step(period - rest);
+        let (phi, gamma_1) = (&after * before, after * old);
         let numbers = phi.iter().chain(&gamma_0).chain(&gamma_1);
         numbers.copied().try_for_each(|element| error::finite("sampled plant", element))?;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number from 0 to 32"
-        )]
-        let periods = periods as usize;
+        #[expect(clippy::cast_precision_loss, reason = "at most 33")]
+        let delay = periods as f64 * period + rest;
+        let sampling = Sampling { period, delay };
         Ok(Self { sampling, phi, gamma_0, gamma_1, c: c.clone(), periods })
     }
 
@@ -199,45 +234,4 @@ impl SampledPlant {
     pub(crate) fn phi(&self) -> &DMatrix<f64> {
         &self.phi
     }
-}
-
-/// `e^(A t)` and `int_0^t e^(A s) ds B`, blocks of the exponential of `[A B; 0 0] t` (Van Loan 1978): what a state and an input
-/// that is held give after the time t. As many rows of `B` as of the square matrix `A`.
-#[must_use]
-pub fn held_step(a: &DMatrix<f64>, b: &DMatrix<f64>, t: f64) -> (DMatrix<f64>, DMatrix<f64>) {
-    let (n, inputs) = b.shape();
-    let size = n.saturating_add(inputs);
-    let mut both = DMatrix::zeros(size, size);
-    both.view_mut((0, 0), (n, n)).copy_from(a);
-    both.view_mut((0, n), (n, inputs)).copy_from(b);
-    let exponential = exponential(&(both * t));
-    (
-        exponential.view((0, 0), (n, n)).into_owned(),
-        exponential.view((0, n), (n, inputs)).into_owned(),
-    )
-}
-
-/// `e^M`: the series of `e^(M 2^-n)`, whose norm is at most a quarter, squared n times. (That of nalgebra needs the standard
-/// library.)
-fn exponential(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    /// The next term is below 4^-16 / 16!, 1e-23.
-    const TERMS: u32 = 15;
-    let size = matrix.nrows();
-    let norm = matrix.row_iter().map(|row| row.lp_norm(1)).fold(0.0, libm::fmax);
-    let (mut scaled, mut squarings) = (norm, 0_u32);
-    while scaled > 0.25 && squarings < 1100 {
-        scaled *= 0.5;
-        squarings += 1;
-    }
-    let mut step = matrix.clone();
-    (0..squarings).for_each(|_| step *= 0.5);
-    let unit = DMatrix::identity(size, size);
-    let mut sum = unit.clone();
-    for term in (1..=TERMS).rev() {
-        sum = &unit + &step * sum / f64::from(term);
-    }
-    for _ in 0..squarings {
-        sum = &sum * &sum;
-    }
-    sum
 }

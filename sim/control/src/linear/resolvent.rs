@@ -6,8 +6,9 @@
 
 use alloc::vec::Vec;
 
-use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, Hessenberg};
+
+use crate::linear::held::balanced;
 
 /// What is reduced.
 #[derive(Clone, Debug)]
@@ -23,13 +24,7 @@ pub(super) struct Resolvent {
 impl Resolvent {
     /// Of a square matrix, of several `B` with as many rows, and of `C` with as many columns.
     pub(super) fn new(a: &DMatrix<f64>, inputs: &[&DMatrix<f64>], outputs: &DMatrix<f64>) -> Self {
-        let mut balanced = a.clone();
-        // A = D A_b D^-1, powers of two.
-        let scale = if a.is_empty() {
-            nalgebra::DVector::zeros(0)
-        } else {
-            balance_parlett_reinsch(&mut balanced)
-        };
+        let (balanced, scale) = balanced(a);
         let (q, h) = if balanced.nrows() > 2 {
             Hessenberg::new(balanced).unpack()
         } else {

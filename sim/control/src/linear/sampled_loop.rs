@@ -138,10 +138,21 @@ impl SampledLoop {
     ///
     /// As [`Self::poles`].
     pub fn is_stable(&self) -> Result<bool, ControlError> {
+        Ok(self.growth()? < 0.0)
+    }
+
+    /// `|z|² - 1` of the largest pole, but for those within 1e-6 of 1.
+    pub(super) fn growth(&self) -> Result<f64, ControlError> {
         let one = Complex::new(1.0, 0.0);
-        let inside =
-            |z: &Complex<f64>| z.norm_sqr() < 1.0 || (z - one).norm_sqr() < NEUTRAL * NEUTRAL;
-        Ok(self.poles()?.iter().all(inside))
+        let counts = |z: &Complex<f64>| {
+            let apart = (z - one).norm_sqr();
+            apart >= NEUTRAL * NEUTRAL || apart.is_nan()
+        };
+        let growth = |z: Complex<f64>| {
+            let growth = z.norm_sqr() - 1.0;
+            if growth.is_nan() { f64::INFINITY } else { growth }
+        };
+        Ok(eigenvalues(&self.closed)?.into_iter().filter(counts).map(growth).fold(-1.0, f64::max))
     }
 
     /// Frequencies at which to look, rising to that of Nyquist, rad/s: logarithmic, and close by the poles of plant and loop.

@@ -56,6 +56,7 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
         .iter()
         .map(|of| {
             json!({
+                "name": of.name,
                 "frequency_hz": of.frequency,
                 "damping_ratio": of.damping,
                 "alias_hz": of.alias,
@@ -87,6 +88,19 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
             "attitude_rms_rad": gains.attitude_rms(&report.measured),
         })
     });
+    let requirements: Vec<Value> = report
+        .verdicts
+        .iter()
+        .map(|of| {
+            json!({
+                "name": of.requirement.name,
+                "margin": of.requirement.margin.word(),
+                "least": of.requirement.least,
+                "value": of.found,
+                "state": of.state.word(),
+            })
+        })
+        .collect();
     let all = json!({
         "format": 1,
         "scenario": report.scenario.name,
@@ -96,6 +110,7 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
         "stable": found.stable,
         "least": { "gain_db": report.least.gain, "phase_rad": report.least.phase },
         "axes": axes,
+        "requirements": requirements,
         "delay_margin_s": found.delay,
         "sensitivity_peak": at(found.peaks.map(|[s, _]| s)),
         "complementary_peak": at(found.peaks.map(|[_, t]| t)),
@@ -144,7 +159,7 @@ pub(super) fn loop_csv(found: &LoopAnalysis) -> String {
 
 /// A row for each pole of the closed loop.
 pub(super) fn poles_csv(found: &LoopAnalysis) -> String {
-    let mut text = String::from("z_re,z_im,frequency_hz,damping_ratio,oscillation_hz\n");
+    let mut text = String::from("z_re,z_im,frequency_hz,damping_ratio,oscillation_hz,moves\n");
     for of in &found.poles {
         let own = of.oscillation.and_then(|number| found.oscillations.get(number));
         numbers(&mut text, [of.z.re, of.z.im, of.frequency, of.damping]);
@@ -152,7 +167,7 @@ pub(super) fn poles_csv(found: &LoopAnalysis) -> String {
         if let Some(own) = own {
             numbers(&mut text, [own.frequency]);
         }
-        text.push('\n');
+        let _ = writeln!(text, ",{}", own.map_or("", |own| &own.name).replace(", ", " "));
     }
     text
 }

@@ -91,6 +91,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
         settings: Settings { duration, integrator: DOP853 },
         output: Output { rate: 20.0 / duration, columns: Vec::new(), formats: Vec::new() },
         requirements: Vec::new(),
+        margin_requirements: Vec::new(),
         source: Source::default(),
     };
     let spacecraft = scenario.spacecraft().expect("it is accepted");

@@ -201,7 +201,8 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     );
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
-    let requirements = output::requirement::requirements(&keys, settings.as_ref());
+    let (requirements, margin_requirements) =
+        output::requirement::requirements(&keys, settings.as_ref(), &controllers);
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops, friction) = joints.acting();
@@ -237,6 +238,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         settings: settings?,
         output: output?,
         requirements,
+        margin_requirements,
         source: Source {
             path: path.to_owned(),
             text,

@@ -4,6 +4,8 @@
 mod figures;
 mod tables;
 
+pub(crate) use tables::margin;
+
 use super::blocks::{Block, Fact, Section, Summary, Verdict};
 use super::error::{DrawError, ReportError};
 use super::number::short;
@@ -12,6 +14,7 @@ use crate::margins::analysis::{AXES, LoopAnalysis};
 use crate::margins::lines::ClosedLine;
 use crate::margins::measurement::ReadingNoise;
 use crate::margins::noise::NoiseGains;
+use crate::margins::requirements::MarginVerdict;
 use crate::pointing::RequirementState;
 use crate::scenario::{SampledController, Scenario};
 
@@ -34,6 +37,8 @@ pub(crate) struct MarginsReport<'a> {
     pub(crate) noise: Option<&'a NoiseGains>,
     pub(crate) measured: ReadingNoise,
     pub(crate) least: LeastMargins,
+    /// Of the scenario's requirements on its margins.
+    pub(crate) verdicts: &'a [MarginVerdict<'a>],
     pub(crate) notes: &'a [String],
     pub(crate) warnings: &'a [String],
 }
@@ -65,6 +70,7 @@ impl MarginsReport<'_> {
     pub(crate) fn html(&self) -> Result<String, ReportError> {
         let mut sections = vec![
             ("margins", "Margins", vec![self.margins(), self.whole()]),
+            ("requirements", "Requirements", self.requirement_table()),
             ("loop", "Open loop", self.loop_figures()?),
             ("sensitivity", "Sensitivity", self.sensitivity_figures()?),
             ("poles", "Poles", self.poles()),
@@ -116,18 +122,23 @@ impl MarginsReport<'_> {
             let text = format!("The loop of {of} has poles outside the unit circle.");
             return Verdict { state: "violated", word: "Not stable.".to_owned(), text };
         }
-        let below: Vec<String> = self
-            .states()
-            .iter()
-            .zip(AXES)
-            .filter(|(states, _)| states.iter().any(RequirementState::is_violated))
-            .map(|(_, axis)| format!("axis {axis}"))
-            .collect();
-        if below.is_empty() {
+        let states = self.states();
+        let missed = states.iter().zip(AXES);
+        let missed = missed.filter(|(states, _)| states.iter().any(RequirementState::is_violated));
+        let below: Vec<String> = missed.map(|(_, axis)| format!("axis {axis}")).collect();
+        let violated = self.verdicts.iter().filter(|of| of.state.is_violated());
+        let violated: Vec<String> =
+            violated.map(|of| format!("Violated: {}.", of.requirement.name)).collect();
+        if below.is_empty() && violated.is_empty() {
             let text = format!("Every axis of {of} has at least {limits}, the others closed.");
             return Verdict { state: "met", word: "Stable, with its margins.".to_owned(), text };
         }
-        let text = format!("{} of {of}: below {limits}, the others closed.", below.join(", "));
+        let mut parts = violated;
+        if !below.is_empty() {
+            let axes = below.join(", ");
+            parts.insert(0, format!("{axes} of {of}: below {limits}, the others closed."));
+        }
+        let text = parts.join(" ");
         Verdict { state: "violated", word: "Stable, but margins are missed:".to_owned(), text }
     }
 

@@ -10,6 +10,7 @@ use super::super::unit::{SMALL_ANGLE, for_peak};
 use super::{MarginsReport, decibels};
 use crate::margins::analysis::AXES;
 use crate::margins::lines::ClosedLine;
+use crate::scenario::LoopMargin;
 
 /// Lines and poles that a table shows.
 const ROWS_MAX: usize = 40;
@@ -23,6 +24,15 @@ fn at(of: Option<AtFrequency>, number: impl Fn(f64) -> String) -> String {
 /// In decibels.
 fn level(value: f64) -> String {
     format!("{} dB", short(decibels(value), 4))
+}
+
+/// A margin in its unit.
+pub(crate) fn margin(of: LoopMargin, value: f64) -> String {
+    match of {
+        LoopMargin::Gain => format!("{} dB", short(value, 4)),
+        LoopMargin::Phase => format!("{} deg", short(value.to_degrees(), 4)),
+        LoopMargin::Delay => format!("{} ms", short(1e3 * value, 4)),
+    }
 }
 
 /// An angle with a unit of its size.
@@ -82,10 +92,32 @@ impl MarginsReport<'_> {
         table("The loop as a whole", &[("What", ""), ("Value", "")], 1..2, rows)
     }
 
+    /// The scenario's requirements on the margins.
+    pub(super) fn requirement_table(&self) -> Vec<Block> {
+        if self.verdicts.is_empty() {
+            return Vec::new();
+        }
+        let rows = self.verdicts.iter().map(|of| {
+            let value = |value: f64| margin(of.requirement.margin, value);
+            let cells = vec![
+                of.requirement.name.clone(),
+                of.requirement.margin.word().to_owned(),
+                of.found.map_or_else(|| "any".to_owned(), value),
+                of.requirement.written.clone(),
+                of.state.word().to_owned(),
+            ];
+            (of.state.word(), cells)
+        });
+        let columns =
+            [("Requirement", ""), ("Margin", ""), ("Found", ""), ("At least", ""), ("State", "")];
+        vec![table("Requirements on the margins", &columns, 2..4, rows)]
+    }
+
     pub(super) fn poles(&self) -> Vec<Block> {
         let name = |number: usize| {
             self.analysis.oscillations.get(number).map_or_else(String::new, |of| {
-                format!("oscillation at {} Hz", short(of.frequency, 5))
+                let name = if of.name.is_empty() { "oscillation" } else { &of.name };
+                format!("{name}, {} Hz", short(of.frequency, 5))
             })
         };
         let poles = self.analysis.poles.iter().take(ROWS_MAX).map(|of| {
@@ -112,6 +144,7 @@ impl MarginsReport<'_> {
         if !self.analysis.oscillations.is_empty() {
             let rows = self.analysis.oscillations.iter().take(ROWS_MAX).map(|of| {
                 let cells = vec![
+                    of.name.clone(),
                     short(of.frequency, 5),
                     short(of.damping, 4),
                     if of.alias < of.frequency * 0.999 {
@@ -122,10 +155,15 @@ impl MarginsReport<'_> {
                 ];
                 ("", cells)
             });
-            let columns = [("Frequency", "Hz"), ("Damping ratio", ""), ("In the samples", "Hz")];
+            let columns = [
+                ("Moves", ""),
+                ("Frequency", "Hz"),
+                ("Damping ratio", ""),
+                ("In the samples", "Hz"),
+            ];
             let caption =
                 "Oscillations of the spacecraft with motors held: modes, whirls, nutation";
-            blocks.push(table(caption, &columns, 0..3, rows));
+            blocks.push(table(caption, &columns, 1..4, rows));
         }
         blocks
     }

@@ -1,6 +1,7 @@
 //! What is recorded, and what is noted: `[output]`, `[[crossing]]`.
 
 pub(super) mod columns;
+mod margin_requirement;
 pub(super) mod requirement;
 
 use std::collections::HashSet;

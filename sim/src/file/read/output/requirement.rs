@@ -1,9 +1,12 @@
-//! Limits on what is recorded: `[[requirement]]`.
+//! Limits on what is recorded, and on margins of loops: `[[requirement]]`.
 
+use super::margin_requirement::margin_requirement;
 use crate::file::keys::Keys;
 use crate::file::read::values::mount::direction;
 use crate::pointing::Index;
-use crate::scenario::{Projection, Requirement, Settings, Statistic};
+use crate::scenario::{
+    MarginRequirement, Projection, Requirement, SampledController, Settings, Statistic,
+};
 use crate::units::{Dimension, Measure, Plain, UnitError, parse_unit};
 
 /// The level of an index of ECSS without `level`: that of three standard deviations of Gaussian errors.
@@ -63,13 +66,18 @@ impl StatisticName {
     }
 }
 
+/// Those on what is recorded, and those on margins of loops, which have the key `margin`.
 pub(in crate::file::read) fn requirements(
     keys: &Keys<'_>,
     settings: Option<&Settings>,
-) -> Vec<Requirement> {
+    controllers: &[SampledController],
+) -> (Vec<Requirement>, Vec<MarginRequirement>) {
     let duration = settings.map_or(f64::INFINITY, |settings| settings.duration);
-    let tables = keys.tables("requirement");
-    tables.iter().filter_map(|keys| requirement(keys, duration)).collect()
+    let (margins, recorded): (Vec<_>, Vec<_>) =
+        keys.tables("requirement").into_iter().partition(|keys| keys.has("margin"));
+    let recorded = recorded.iter().filter_map(|keys| requirement(keys, duration)).collect();
+    let margins = margins.iter().filter_map(|keys| margin_requirement(keys, controllers)).collect();
+    (recorded, margins)
 }
 
 fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
