@@ -43,6 +43,9 @@ class ControllerSample(NamedTuple):
     limited: bool
     #: Coordinate and rate of each joint that it commands, rad and rad/s.
     joints: list[tuple[float, float]]
+    #: What its accelerometer reads: inertial acceleration less gravity, along the axes of the hub or of its node, m/s²;
+    #: none without one.
+    specific_force: Vector | None = None
 
 
 #: From a sample to the torque on the spacecraft about its centre of mass, B, N m: three numbers, or

@@ -45,6 +45,7 @@ impl PythonController {
             of.elapsed,
             of.limited,
             joints,
+            sample.specific_force.as_ref().map(vector),
         );
         let answer = self.function.call1(py, fields)?;
         let answer = answer.bind(py);

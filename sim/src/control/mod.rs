@@ -27,6 +27,9 @@ pub struct ControllerSample<'a> {
     pub of: Sample,
     /// Coordinate and rate of each joint that it commands, rad and rad/s.
     pub joints: &'a [[f64; 2]],
+    /// What its accelerometer reads: inertial acceleration less gravity, along the axes of the hub or of its node, m/s²; none
+    /// without one.
+    pub specific_force: Option<Vector3<f64>>,
 }
 
 /// What a controller answers.

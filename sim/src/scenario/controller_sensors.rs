@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use precess_control::{
-    AnalogSection, ControlError, Covariance, DelayLine, Discretisation, Estimate, Filter, Gyro,
-    GyroOutput, GyroParameters, Mekf, MekfParameters, MomentumDumping, Quantum, Section,
-    StarTracker,
+    Accelerometer, AccelerometerParameters, AnalogSection, ControlError, Covariance, DelayLine,
+    Discretisation, Estimate, Filter, Gyro, GyroOutput, GyroParameters, Mekf, MekfParameters,
+    MomentumDumping, Quantum, Section, StarTracker,
 };
 use precess_dynamics::{Attitude as _, Quaternion};
 
@@ -25,6 +25,8 @@ pub struct ControllerSensors {
     pub gyro: Option<GyroSettings>,
     /// Of the attitude.
     pub star_tracker: Option<StarTrackerSettings>,
+    /// Of the specific force; for controllers of one's own.
+    pub accelerometer: Option<AccelerometerSettings>,
     /// Step of the coordinates of the commanded joints, rad; zero for none.
     pub encoder_quantum: f64,
     /// Step of their rates, rad/s; zero for none.
@@ -61,6 +63,21 @@ pub struct StarTrackerSettings {
     pub rate: Option<f64>,
     /// From a measurement to its arrival, s.
     pub latency: f64,
+}
+
+/// An accelerometer with three axes, read at each sample of its controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AccelerometerSettings {
+    /// The node of the structure on which it stands; none for the hub.
+    pub node: Option<usize>,
+    /// From B, m, of one on the hub.
+    pub position: Vector3<f64>,
+    /// Root of the one-sided density of its noise, m/s²/sqrt(Hz).
+    pub noise_density: f64,
+    /// Bias, m/s².
+    pub bias: Vector3<f64>,
+    /// Step of a reading, m/s²; zero for none.
+    pub quantum: f64,
 }
 
 /// Which signal a filter is of.
@@ -140,6 +157,7 @@ pub struct DumpingSettings {
 pub(crate) struct BuiltSensors {
     pub(crate) gyro: Option<Gyro>,
     pub(crate) star_tracker: Option<StarTracker>,
+    pub(crate) accelerometer: Option<Accelerometer>,
     /// Measured attitudes on their way, each with the number of the sample at which it was measured.
     pub(crate) arriving: Option<DelayLine<(usize, Quaternion)>>,
     pub(crate) encoder: Quantum,
@@ -222,6 +240,11 @@ impl SampledController {
         });
         let star_tracker = star_tracker.transpose().map_err(at("sensors.star_tracker"))?;
         let arriving = of.star_tracker.map(|of| DelayLine::new(of.latency, period));
+        let accelerometer = of.accelerometer.map(|of| {
+            let AccelerometerSettings { noise_density, bias, quantum, .. } = of;
+            let parameters = AccelerometerParameters { period, noise_density, bias, quantum };
+            Accelerometer::new(&parameters, seed, &format!("{}.accelerometer", self.name))
+        });
         let mut filters = [Vec::new(), Vec::new()];
         for filter in &self.filters {
             let section = filter.kind.section(period).map_err(at("filter"))?;
@@ -239,6 +262,7 @@ impl SampledController {
         Ok(BuiltSensors {
             gyro: gyro.transpose().map_err(at("sensors.gyro"))?,
             star_tracker,
+            accelerometer: accelerometer.transpose().map_err(at("sensors.accelerometer"))?,
             arriving: arriving.transpose().map_err(at("sensors.star_tracker"))?,
             encoder: Quantum::new(of.encoder_quantum).map_err(at("sensors.encoder_quantum"))?,
             tachometer: Quantum::new(of.tachometer_quantum)

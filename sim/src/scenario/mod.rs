@@ -47,8 +47,8 @@ pub use controller::{
 pub(crate) use controller::{COMMANDED_MAX, steered};
 pub(crate) use controller_sensors::BuiltSensors;
 pub use controller_sensors::{
-    ControllerSensors, DumpingSettings, EstimatorSettings, FilterKind, FilterSettings,
-    FilteredSignal, GyroSettings, StarTrackerSettings,
+    AccelerometerSettings, ControllerSensors, DumpingSettings, EstimatorSettings, FilterKind,
+    FilterSettings, FilteredSignal, GyroSettings, StarTrackerSettings,
 };
 pub use description::UndescribedError;
 pub use friction::{DryFriction, JointFriction};

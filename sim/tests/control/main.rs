@@ -1,5 +1,6 @@
 //! Controllers in scenarios: a loop with delay against its exact solution, the order at one time, sensors and estimator, limits of motors, what replaces a controller, controllers of one's own, written scenarios, errors with their places.
 
+mod accelerometer;
 mod campaigns;
 mod errors;
 mod files;

@@ -82,3 +82,42 @@ fn pyramids_of_gyros_come_to_their_reference() {
         assert_eq!(read(&written).controllers, scenario.controllers);
     }
 }
+
+/// Four gyros that hold, then slew: gimbals go to preferred angles with the momentum of rest, and exert nothing by that.
+#[test]
+fn preferred_angles_are_reached_without_torque() {
+    /// Of the command: the steering matrix is well-conditioned at all samples.
+    const TORQUE_ERROR: f64 = 1e-12;
+    /// About a pose without momentum, opposite gimbals turned alike and neighbours oppositely: rad.
+    const ANGLE: f64 = 0.3;
+    let keys = format!(
+        "servo = {{ rate = \"50 Hz\" }}\nallocation.preferred_angles = [\"{ANGLE} rad\", \"-{ANGLE} rad\", \"{ANGLE} rad\", \"-{ANGLE} rad\"]\n\
+         allocation.angle_gain = \"0.5 1/s\""
+    );
+    let own = pyramid("sgcmg", &["gimbal"], &keys)
+        .replace(
+            "angular_velocity = \"0.2, -0.1, 0.3 deg/s\"",
+            "angular_velocity = \"0, 0, 0 deg/s\"",
+        )
+        .replace("duration = \"8 s\"", "duration = \"30 s\"");
+    let (outcome, samples) = ran(&read(&own));
+    assert!(outcome.end.is_complete(), "{}", outcome.end);
+    let [torque, error] = ["torque", "torque_error"]
+        .map(|name| ["x", "y", "z"].map(|axis| column(&samples, &format!("aocs.{name}_{axis}"))));
+    let norm =
+        |of: &[Vec<f64>; 3], row: usize| of.iter().map(|c| c[row] * c[row]).sum::<f64>().sqrt();
+    let rows = error[0].len();
+    let largest = (0..rows).map(|row| norm(&torque, row)).fold(0.0, f64::max);
+    let worst = (0..rows).map(|row| norm(&error, row)).fold(0.0, f64::max);
+    let least = column(&samples, "aocs.measure").into_iter().fold(f64::INFINITY, f64::min);
+    println!("torque {largest} N m, error {worst:e} N m, least measure {least}");
+    assert!(largest > 1.0 && worst < TORQUE_ERROR * largest, "{worst:e} of {largest}");
+    assert!(least > 0.1, "away from singular poses: {least}");
+    let last = |name: &str| column(&samples, name)[rows - 1];
+    for (number, expected) in [ANGLE, -ANGLE, ANGLE, -ANGLE].into_iter().enumerate() {
+        let found = last(&format!("cmg{}.gamma", number + 1));
+        println!("gimbal {}: {found}", number + 1);
+        assert!((found - expected).abs() < 2e-3, "{found}");
+    }
+    assert!(last("aocs.error_angle") < 1e-3);
+}

@@ -73,6 +73,7 @@ pub(crate) const OTHERS: [&str; 54] = [
      gyro = { output = \"integrating\", angle_random_walk = \"0.01 deg/sqrt(h)\", rate_random_walk = \"0.1 deg/h/sqrt(h)\", \
      bias = \"1, 0, 0 deg/h\", quantum = \"1 mas\" }\n\
      star_tracker = { mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }, noise = \"1, 1, 5 arcsec\", rate = \"2 Hz\", latency = \"1 ms\" }\n\
+     accelerometer = { position = \"1, 2, 3 cm\", noise_density = \"20 um/s^2/sqrt(Hz)\", bias = \"1, 0, 0 mm/s^2\", quantum = \"1 um/s^2\" }\n\
      [[controller.filter]]\nkind = \"low_pass\"\nfrequency = \"2 Hz\"\ndamping_ratio = 0.7\n\
      [[controller.filter]]\nsignal = \"torque\"\nkind = \"notch\"\nfrequency = \"3 Hz\"\nzero_damping = 0.1\npole_damping = 0.5\n\
      [[controller.filter]]\nkind = \"first_order_low_pass\"\nfrequency = \"2 Hz\"\n\
@@ -131,5 +132,5 @@ pub(crate) const OTHERS: [&str; 54] = [
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"peak\"\nlimit = \"1 rad/s\"",
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"pde\"\nwindow = \"10 ms\"\n\
      stability = \"20 ms\"\nlevel = 0.95\nlimit = \"1 rad/s\"",
-];
     "[[requirement]]\nname = \"a\"\nmargin = \"gain\"\ncontroller = \"aocs\"\nleast = \"6 dB\"",
+];

@@ -123,7 +123,11 @@ impl Allocator {
         if let Some(preferred) = preferred(&settings.null_motion, &steered, joints)
             && let Ok(motion) = law.null_motion(&matrix, &preferred)
         {
-            add_within(&mut found.commands, &motion, &bounds);
+            let share = add_within(&mut found.commands, &motion, &bounds);
+            // What it exerts by rounding.
+            for (column, motion) in matrix.columns.iter().zip(&motion) {
+                found.torque_error -= column * (share * motion);
+            }
         }
         let commands = found.commands.into_iter().take(joints.len()).collect();
         let (torque_error, bounded) = (found.torque_error, found.bounded);
@@ -214,8 +218,8 @@ fn preferred(
     wanted.iter().any(|of| *of != 0.0).then_some(wanted)
 }
 
-/// Adds as much of a motion without torque as keeps commands within their bounds.
-fn add_within(commands: &mut Padded<f64>, motion: &Padded<f64>, bounds: &Padded<[f64; 2]>) {
+/// Adds as much of a motion without torque as keeps commands within their bounds; the share of it.
+fn add_within(commands: &mut Padded<f64>, motion: &Padded<f64>, bounds: &Padded<[f64; 2]>) -> f64 {
     let mut share = 1.0_f64;
     for ((command, motion), [lower, upper]) in commands.iter().zip(motion).zip(bounds) {
         let room = if *motion > 0.0 { upper - command } else { lower - command };
@@ -226,6 +230,7 @@ fn add_within(commands: &mut Padded<f64>, motion: &Padded<f64>, bounds: &Padded<
     for (command, motion) in commands.iter_mut().zip(motion) {
         *command += share * motion;
     }
+    share
 }
 
 /// Commands within bounds: what they no longer give is an error of the torque, `-q x`.

@@ -11,6 +11,7 @@ pub(crate) mod linear;
 mod own;
 mod sensing;
 mod servo;
+mod specific_force;
 
 use std::collections::VecDeque;
 
@@ -199,7 +200,8 @@ impl Control<'_> {
         (steering, wheels): (&mut SteeringDevices, &[bool]),
     ) -> Result<(), RunError> {
         let measured = self.sensing.measure(system, time, &moment.state);
-        let Measured { motion, values } = measured.map_err(|error| self.error(time, error))?;
+        let Measured { motion, values, specific_force } =
+            measured.map_err(|error| self.error(time, error))?;
         let all = self.read_joints(moment);
         let sums = steering.terms(all.iter().copied(), &motion.omega);
         let mut sums = sums.map_err(|error| self.error(time, error.into()))?;
@@ -225,7 +227,8 @@ impl Control<'_> {
         };
         let own: Vec<_> =
             self.of.joints.iter().filter_map(|of| all.get(of.joint)).copied().collect();
-        let answered = self.controller.sample(&ControllerSample { time, of, joints: &own });
+        let answered =
+            self.controller.sample(&ControllerSample { time, of, joints: &own, specific_force });
         let answer = answered.and_then(|answer| checked(answer, own.len()));
         let answer = answer.map_err(|error| self.error(time, error))?;
         self.sampled = true;

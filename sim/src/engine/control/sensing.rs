@@ -12,6 +12,7 @@ use precess_craft::CraftState;
 use precess_dynamics::{ListedModes, ModalPoint, Quaternion};
 
 use super::clock::Clock;
+use super::specific_force::{Place, specific_force};
 use crate::control::ControllerError;
 use crate::engine::equations::commands::MeasuredValues;
 use crate::engine::equations::system::System;
@@ -26,6 +27,8 @@ pub(super) struct Sensing {
     output: GyroOutput,
     /// Where gyro and star tracker stand; none for the hub.
     nodes: [Option<Box<Node>>; 2],
+    /// Where the accelerometer stands.
+    place: Option<Place>,
     period: f64,
     /// When the star tracker measures.
     measures: Option<Clock>,
@@ -45,6 +48,8 @@ pub(super) struct Measured {
     pub(super) motion: Motion,
     /// For the columns.
     pub(super) values: MeasuredValues,
+    /// The reading of the accelerometer, m/s²; none without one.
+    pub(super) specific_force: Option<Vector3<f64>>,
 }
 
 impl Sensing {
@@ -59,8 +64,12 @@ impl Sensing {
             structure.nodes.get(node?).map(|node| Box::new(node.point()))
         };
         let noise = || Noise::new(u64::from(sensors.seed), &format!("{}.estimator", of.name));
+        let place = sensors
+            .accelerometer
+            .map(|of| node(of.node).map_or(Place::Hub(of.position), Place::Node));
         Ok(Self {
             built,
+            place,
             output: sensors.gyro.map(|gyro| gyro.output).unwrap_or_default(),
             nodes: [
                 node(sensors.gyro.and_then(|of| of.node)),
@@ -108,6 +117,14 @@ impl Sensing {
         });
         let (gyro, star) = (gyro?, star?);
         let mut values = MeasuredValues::default();
+        let mut force = None;
+        if let (Some(place), Some(of)) = (&self.place, &mut self.built.accelerometer) {
+            let truth =
+                specific_force(system, place, time, state).map_err(ControllerError::Node)?;
+            let reading = of.measure(&truth);
+            values.accelerometer = reading.into();
+            force = Some(reading);
+        }
         let reading = self.read_gyro(&gyro)?;
         if let (Some(reading), Some(of)) = (reading, &self.built.gyro) {
             (values.gyro, values.gyro_bias) = (reading.into(), of.bias().into());
@@ -143,7 +160,7 @@ impl Sensing {
         values.attitude = [q.q0, q.q1, q.q2, q.q3];
         let error = rotation::product(&rotation::inverse(&motion.attitude), &truth.attitude);
         values.error = rotation::to_vector(&error).into();
-        Ok(Measured { motion, values })
+        Ok(Measured { motion, values, specific_force: force })
     }
 
     /// The reading of the gyro; none without one.

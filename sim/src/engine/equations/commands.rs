@@ -51,6 +51,8 @@ pub(crate) struct MeasuredValues {
     pub(crate) gyro: [f64; 3],
     /// Its bias, rad/s.
     pub(crate) gyro_bias: [f64; 3],
+    /// Reading of the accelerometer, its axes, m/s².
+    pub(crate) accelerometer: [f64; 3],
     /// Angular velocity that the law reads, B, rad/s.
     pub(crate) omega: [f64; 3],
     /// Attitude that the law reads, Euler parameters.
@@ -69,6 +71,7 @@ impl Default for MeasuredValues {
         Self {
             gyro: nothing,
             gyro_bias: nothing,
+            accelerometer: nothing,
             omega: nothing,
             attitude: [f64::NAN; 4],
             error: nothing,

@@ -49,6 +49,7 @@ impl ControlSample {
             ControlQuantity::Command(joint) => at(&of_sample()?.commands, joint),
             ControlQuantity::Gyro(axis) => at(&of_sample()?.measured.gyro, axis),
             ControlQuantity::GyroBias(axis) => at(&of_sample()?.measured.gyro_bias, axis),
+            ControlQuantity::Accelerometer(axis) => at(&of_sample()?.measured.accelerometer, axis),
             ControlQuantity::MeasuredOmega(axis) => at(&of_sample()?.measured.omega, axis),
             ControlQuantity::MeasuredQuaternion(k) => at(&of_sample()?.measured.attitude, k),
             ControlQuantity::MeasurementError(axis) => at(&of_sample()?.measured.error, axis),

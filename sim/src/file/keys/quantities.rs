@@ -56,11 +56,18 @@ impl Keys<'_> {
         self.quantity(key, measure)
     }
 
-    /// A quantity over the root of a time, as of a random walk: `"0.1 deg/sqrt(h)"`.
-    pub(in crate::file) fn per_root_of_time(&self, key: &str, measure: Measure) -> Option<f64> {
+    /// A quantity over the root of a time, as of a random walk, or of a frequency, as of a density: `"0.1 deg/sqrt(h)"`.
+    pub(in crate::file) fn per_root(
+        &self,
+        key: &str,
+        measure: Measure,
+        root: Measure,
+    ) -> Option<f64> {
         let node = self.node(key)?;
         let path = self.path_of(key);
-        let example = format!("write for example `{key} = \"0.1 {}/sqrt(h)\"`", measure.usual);
+        let usual = if root == Measure::TIME { "h" } else { root.usual };
+        let example =
+            format!("write for example `{key} = \"0.1 {}/sqrt({usual})\"`", measure.usual);
         let Value::Text(text) = &node.value else { return self.other_type(key, node, &example) };
         let parts = text.trim().strip_suffix(')').and_then(|text| text.rsplit_once("/sqrt("));
         let one = |text: &str, measure: Measure| {
@@ -68,12 +75,15 @@ impl Keys<'_> {
             <[f64; 1]>::try_from(quantity.values).ok()
         };
         let found = parts.and_then(|(of, unit)| {
-            let ([of], [time]) = (one(of, measure)?, one(&format!("1 {unit}"), Measure::TIME)?);
+            let ([of], [time]) = (one(of, measure)?, one(&format!("1 {unit}"), root)?);
             Some(of / libm::sqrt(time))
         });
         if found.is_none() {
-            let message =
-                format!("`{path}` is no {} over the root of a time", without_article(measure.name));
+            let message = format!(
+                "`{path}` is no {} over the root of {}",
+                without_article(measure.name),
+                root.name
+            );
             self.error(key, message, &example);
         }
         found

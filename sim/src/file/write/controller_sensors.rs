@@ -6,8 +6,8 @@ use precess_control::GyroOutput;
 
 use super::{Written, mount, quoted, structure, vector};
 use crate::scenario::{
-    DumpingSettings, EstimatorSettings, FilterKind, FilterSettings, FilteredSignal, GyroSettings,
-    SampledController, Scenario, StarTrackerSettings,
+    AccelerometerSettings, DumpingSettings, EstimatorSettings, FilterKind, FilterSettings,
+    FilteredSignal, GyroSettings, SampledController, Scenario, StarTrackerSettings,
 };
 
 pub(super) fn write(out: &mut String, s: &Scenario, of: &SampledController) -> Written {
@@ -22,6 +22,9 @@ pub(super) fn write(out: &mut String, s: &Scenario, of: &SampledController) -> W
     }
     if let Some(of) = &sensors.star_tracker {
         star_tracker(out, s, of)?;
+    }
+    if let Some(of) = &sensors.accelerometer {
+        accelerometer(out, s, of)?;
     }
     of.filters.iter().try_for_each(|of| filter(out, of))?;
     if let Some(EstimatorSettings { attitude_deviation, bias_deviation }) = of.estimator {
@@ -68,6 +71,17 @@ fn star_tracker(out: &mut String, s: &Scenario, of: &StarTrackerSettings) -> Wri
         writeln!(out, "rate = \"{rate:?} Hz\"")?;
     }
     writeln!(out, "latency = \"{:?} s\"", of.latency)
+}
+
+fn accelerometer(out: &mut String, s: &Scenario, of: &AccelerometerSettings) -> Written {
+    writeln!(out, "\n[controller.sensors.accelerometer]")?;
+    match of.node {
+        Some(_) => node(out, s, of.node)?,
+        None => writeln!(out, "position = {}", vector(&of.position, "m"))?,
+    }
+    writeln!(out, "noise_density = \"{:?} m/s^2/sqrt(Hz)\"", of.noise_density)?;
+    writeln!(out, "bias = {}", vector(&of.bias, "m/s^2"))?;
+    writeln!(out, "quantum = \"{:?} m/s^2\"", of.quantum)
 }
 
 fn filter(out: &mut String, of: &FilterSettings) -> Written {

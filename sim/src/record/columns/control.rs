@@ -33,6 +33,8 @@ pub(crate) enum ControlQuantity {
     Gyro(usize),
     /// Its bias.
     GyroBias(usize),
+    /// Reading of the accelerometer.
+    Accelerometer(usize),
     /// Angular velocity that the law reads.
     MeasuredOmega(usize),
     /// Attitude that the law reads.
@@ -143,6 +145,10 @@ fn readings(columns: &mut Vec<Column>, of: &SampledController, index: usize) {
     if of.sensors.gyro.is_some() {
         three("gyro", "rad/s", "reading of the gyro", ControlQuantity::Gyro);
         three("gyro_bias", "rad/s", "true bias of the gyro", ControlQuantity::GyroBias);
+    }
+    if of.sensors.accelerometer.is_some() {
+        let meaning = "reading of the accelerometer";
+        three("accelerometer", "m/s^2", meaning, ControlQuantity::Accelerometer);
     }
     if measures || !of.filters.is_empty() {
         let meaning = "angular velocity that is read by the law";

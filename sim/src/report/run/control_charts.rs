@@ -54,6 +54,10 @@ pub(super) fn chart(
         ControlQuantity::Gyro(k) => {
             (30, "reading of the gyro", "Angular velocity", unit::ANGULAR_RATE, of_axis("ω", k))
         }
+        ControlQuantity::Accelerometer(k) => {
+            let what = "reading of the accelerometer";
+            (37, what, "Acceleration", unit::ACCELERATION, of_axis("a", k))
+        }
         ControlQuantity::MeasuredOmega(k) => {
             let what = "angular velocity that the law reads";
             (31, what, "Angular velocity", unit::ANGULAR_RATE, of_axis("ω", k))

@@ -9,8 +9,8 @@ use crate::file::keys::Keys;
 use crate::file::read::structure::Structure;
 use crate::file::read::values::mount::rotation_of;
 use crate::scenario::{
-    ControllerSensors, DumpingSettings, EstimatorSettings, FilterKind, FilterSettings,
-    FilteredSignal, GyroSettings, StarTrackerSettings,
+    AccelerometerSettings, ControllerSensors, DumpingSettings, EstimatorSettings, FilterKind,
+    FilterSettings, FilteredSignal, GyroSettings, StarTrackerSettings,
 };
 use crate::units::Measure;
 
@@ -61,9 +61,12 @@ fn sensors(
 ) -> Option<ControllerSensors> {
     let gyro = optional(keys, "gyro", |keys| gyro(keys, structure));
     let star_tracker = optional(keys, "star_tracker", |keys| star_tracker(keys, structure));
+    let accelerometer = optional(keys, "accelerometer", |keys| accelerometer(keys, structure));
     let (gyro, star_tracker) = (gyro.ok()?, star_tracker.ok()?);
+    let accelerometer = accelerometer.ok()?;
     let noise = gyro.is_some_and(|of| of.angle_random_walk != 0.0 || of.rate_random_walk != 0.0)
-        || star_tracker.is_some_and(|of| of.noise != Vector3::zeros());
+        || star_tracker.is_some_and(|of| of.noise != Vector3::zeros())
+        || accelerometer.is_some_and(|of| of.noise_density != 0.0);
     if (noise || draws) && !keys.has("seed") {
         keys.missing("seed", "seed = 1");
     }
@@ -73,6 +76,7 @@ fn sensors(
         seed,
         gyro,
         star_tracker,
+        accelerometer,
         encoder_quantum: quantum("encoder_quantum", Measure::ANGLE),
         tachometer_quantum: quantum("tachometer_quantum", Measure::ANGULAR_RATE),
     })
@@ -83,7 +87,7 @@ fn gyro(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<GyroSettings> 
     let output = keys.choice("output", &words).unwrap_or_default();
     let node = node(keys, structure);
     let walk = |key: &str, measure| {
-        if keys.has(key) { keys.per_root_of_time(key, measure) } else { Some(0.0) }
+        if keys.has(key) { keys.per_root(key, measure, Measure::TIME) } else { Some(0.0) }
     };
     let angle = walk("angle_random_walk", Measure::ANGLE);
     let rate = walk("rate_random_walk", Measure::ANGULAR_RATE);
@@ -115,6 +119,29 @@ fn star_tracker(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<StarTr
         noise: noise.unwrap_or_else(Vector3::zeros),
         rate,
         latency,
+    })
+}
+
+fn accelerometer(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<AccelerometerSettings> {
+    let node = node(keys, structure);
+    if keys.has("node") && keys.has("position") {
+        let message = "it stands on a node, and at a position of the hub";
+        keys.error("position", message, "remove one");
+    }
+    let position = keys.vector("position", Measure::LENGTH);
+    let noise_density = if keys.has("noise_density") {
+        keys.per_root("noise_density", Measure::ACCELERATION, Measure::FREQUENCY)
+    } else {
+        Some(0.0)
+    };
+    let bias = keys.vector("bias", Measure::ACCELERATION);
+    let quantum = keys.quantity("quantum", Measure::ACCELERATION);
+    Some(AccelerometerSettings {
+        node: node.ok()?,
+        position: position.unwrap_or_else(Vector3::zeros),
+        noise_density: noise_density?,
+        bias: bias.unwrap_or_else(Vector3::zeros),
+        quantum: quantum.unwrap_or(0.0),
     })
 }
 
