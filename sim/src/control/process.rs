@@ -1,21 +1,5 @@
 //! [`ProgramController`]: a controller that is a program of its own, in lockstep over pipes by the lines of
 //! [`protocol`](super::protocol).
-//! [`ProgramController`]: a controller that is a program of its own, in lockstep over pipes.
-//!
-//! One line of JSON each way for a sample. Numbers are written in the fewest digits that read back the same, so nothing is
-//! lost on the way; what the program writes is read likewise.
-//!
-//! ```text
-//! to the program, at its start:
-//! {"protocol":1,"name":"aocs","rate":10.0,"offset":0.0,"delay":0.0,
-//!  "joints":[{"name":"rw1.wheel","commanded":"acceleration"}],"inertia":[[..],[..],[..]]}
-//! at each sample:
-//! {"time":0.1,"attitude":[q0,q1,q2,q3],"omega":[..],"momentum":[..],"external":[..],"elapsed":0.1,"limited":false,
-//!  "reference":{"attitude":[..],"omega":[..],"omega_dot":[..]},"joints":[[coordinate,rate],..]}
-//! (with an accelerometer "specific_force":[..] behind the joints)
-//! from the program, for each sample:
-//! {"torque":[x,y,z]}    or    {"motors":[u,..]}    or    {"error":"why"}
-//! ```
 //!
 //! The time limit of a sample is that of writing its line and of reading the answer. A line that nothing has asked for is an
 //! error: it would shift every later answer. At the end of a run its standard input is closed; it then has the time limit of
@@ -225,95 +209,6 @@ fn read_lines(from: impl Read, to: &SyncSender<Event>) {
             return;
         }
     }
-}
-
-impl Greeting<'_> {
-    fn line(&self) -> String {
-        let [rate, offset, delay] = self.times;
-        let joints: Vec<_> = self
-            .joints
-            .iter()
-            .map(|(name, by_rate)| {
-                let commanded = if *by_rate { "rate" } else { "acceleration" };
-                format!("{{\"name\":{},\"commanded\":\"{commanded}\"}}", Value::from(name.as_str()))
-            })
-            .collect();
-        let rows: Vec<_> =
-            (0..3).map(|k| numbers(&[0, 1, 2].map(|j| self.inertia[(k, j)]))).collect();
-        format!(
-            "{{\"protocol\":{PROTOCOL},\"name\":{},\"rate\":{rate:?},\"offset\":{offset:?},\"delay\":{delay:?},\
-             \"joints\":[{}],\"inertia\":[{}]}}\n",
-            Value::from(self.name),
-            joints.join(","),
-            rows.join(",")
-        )
-    }
-}
-
-/// The line of a sample.
-fn line_of(sample: &ControllerSample<'_>) -> String {
-    let of = &sample.of;
-    let attitude = |q: &Quaternion| numbers(&[q.q0, q.q1, q.q2, q.q3]);
-    let vector = |v: &Vector3<f64>| numbers(v.as_slice());
-    let joints: Vec<_> = sample.joints.iter().map(|joint| numbers(joint)).collect();
-    let mut line =
-        format!("{{\"time\":{:?},\"attitude\":{}", sample.time, attitude(&of.motion.attitude));
-    let force = sample.specific_force.map(|of| format!(",\"specific_force\":{}", vector(&of)));
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        line,
-        ",\"omega\":{},\"momentum\":{},\"external\":{},\"elapsed\":{:?},\"limited\":{},\
-         \"reference\":{{\"attitude\":{},\"omega\":{},\"omega_dot\":{}}},\"joints\":[{}]{}}}",
-        vector(&of.motion.omega),
-        vector(&of.momentum),
-        vector(&of.external),
-        of.elapsed,
-        of.limited,
-        attitude(&of.reference.attitude),
-        vector(&of.reference.omega),
-        vector(&of.reference.omega_dot),
-        joints.join(","),
-        force.unwrap_or_default()
-    );
-    line
-}
-
-fn numbers(of: &[f64]) -> String {
-    let each: Vec<_> = of.iter().map(|number| format!("{number:?}")).collect();
-    format!("[{}]", each.join(","))
-}
-
-/// What a program answers.
-fn answer(line: &str) -> Result<Command, ControllerError> {
-    let wrong = || {
-        let shown = shown(line);
-        because(&format!("its program answers no `torque`, `motors` or `error`: {shown}"))
-    };
-    let Ok(Value::Object(map)) = serde_json::from_str::<Value>(line) else { return Err(wrong()) };
-    let list = |value: &Value| {
-        let list = value.as_array()?;
-        list.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>()
-    };
-    if let Some(Value::String(why)) = map.get("error") {
-        return Err(because(&format!("its program says: {why}")));
-    }
-    match (map.get("torque").map(list), map.get("motors").map(list)) {
-        (Some(Some(torque)), None) => {
-            let torque = <[f64; 3]>::try_from(torque).map_err(|_| wrong())?;
-            Ok(Command::Torque(Vector3::from(torque)))
-        }
-        (None, Some(Some(motors))) => Ok(Command::Motors(motors)),
-        _ => Err(wrong()),
-    }
-}
-
-/// The start of the first line of what a program writes.
-fn shown(of: &str) -> String {
-    of.lines().next().unwrap_or_default().chars().take(100).collect()
-}
-
-fn because(reason: &str) -> ControllerError {
-    ControllerError::Program { reason: reason.to_owned() }
 }
 
 #[cfg(all(test, unix))]

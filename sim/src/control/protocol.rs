@@ -10,6 +10,7 @@
 //! at each sample:
 //! {"time":0.1,"attitude":[q0,q1,q2,q3],"omega":[..],"momentum":[..],"external":[..],"elapsed":0.1,"limited":false,
 //!  "reference":{"attitude":[..],"omega":[..],"omega_dot":[..]},"joints":[[coordinate,rate],..]}
+//! (with an accelerometer "specific_force":[..] behind the joints)
 //! from the program, for each sample:
 //! {"torque":[x,y,z]}    or    {"motors":[u,..]}    or    {"error":"why"}
 //! ```
@@ -69,11 +70,12 @@ pub(super) fn line_of(sample: &ControllerSample<'_>) -> String {
     let joints: Vec<_> = sample.joints.iter().map(|joint| numbers(joint)).collect();
     let mut line =
         format!("{{\"time\":{:?},\"attitude\":{}", sample.time, attitude(&of.motion.attitude));
+    let force = sample.specific_force.map(|of| format!(",\"specific_force\":{}", vector(&of)));
     // Writing to a string cannot fail.
     let _ = writeln!(
         line,
         ",\"omega\":{},\"momentum\":{},\"external\":{},\"elapsed\":{:?},\"limited\":{},\
-         \"reference\":{{\"attitude\":{},\"omega\":{},\"omega_dot\":{}}},\"joints\":[{}]}}",
+         \"reference\":{{\"attitude\":{},\"omega\":{},\"omega_dot\":{}}},\"joints\":[{}]{}}}",
         vector(&of.motion.omega),
         vector(&of.momentum),
         vector(&of.external),
@@ -82,7 +84,8 @@ pub(super) fn line_of(sample: &ControllerSample<'_>) -> String {
         attitude(&of.reference.attitude),
         vector(&of.reference.omega),
         vector(&of.reference.omega_dot),
-        joints.join(",")
+        joints.join(","),
+        force.unwrap_or_default()
     );
     line
 }
