@@ -9,6 +9,7 @@ use crate::derivatives::dual::column::{Column, Outputs};
 use crate::derivatives::emitted::Emitted;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::loads::load_columns::LoadsWorkspace;
+use crate::derivatives::loads::row_product::ChangeRows;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
@@ -156,7 +157,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             accelerations, states, inputs: by_inputs, a, b, c, d, workspace, ..
         } = into;
         let lists = (states.as_slice(), by_inputs.as_slice());
-        let (at, Workspace { loads, moving }) = ((state, inputs), workspace);
+        let (at, Workspace { loads, moving, .. }) = ((state, inputs), workspace);
         let rows = Slopes::new(self, state, inputs, accelerations, moving);
         let emitted = self.emitted(at, accelerations, outputs, loads);
         if let Some(emitted) = &emitted
@@ -183,6 +184,31 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     ) -> Result<(), DerivativeError<D::Scalar>> {
         let emitted = self.emitted(at, accelerations, outputs, &mut workspace.loads);
         self.columns_by(emitted, at, outputs, lists, into)
+    }
+
+    /// The derivatives of the accelerations by states and inputs into their columns; where the emitted derivatives have it,
+    /// the product of those by states with changes of them is written in place of their columns. Whether it is.
+    pub(crate) fn acceleration_columns<A: Attitude<D::Scalar>>(
+        &self,
+        at: (&State<D, A, S>, &Inputs<D, S>),
+        accelerations: &Accelerations<D, S>,
+        lists: (&[Variable], &[Variable]),
+        (product, into): (Option<ChangeRows<'_, D::Scalar>>, [&mut DMatrix<D::Scalar>; 2]),
+        Workspace { loads, product: of, .. }: &mut Workspace<D::Scalar>,
+    ) -> Result<bool, DerivativeError<D::Scalar>> {
+        let outputs = Outputs::accelerations();
+        let emitted = self.emitted(at, accelerations, &outputs, loads);
+        let (states, by_inputs) = lists;
+        if let (Some(Emitted::OnHub(loads)), Some(rows)) = (&emitted, product) {
+            of.write(loads, states, rows);
+            let [_, into] = into;
+            let not_finite = |variable: usize| variable.saturating_add(states.len());
+            let found = loads.columns(by_inputs, into).map_err(not_finite);
+            return found
+                .map(|()| true)
+                .map_err(|variable| DerivativeError::NotFinite { variable });
+        }
+        self.columns_by(emitted, at, &outputs, lists, into).map(|()| false)
     }
 
     /// Emitted derivatives, where there are any of these outputs.

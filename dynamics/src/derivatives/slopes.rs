@@ -28,7 +28,7 @@ pub(crate) const OF_HUB: usize = 12;
 /// What the slopes at a state depend on, and the order of the states.
 #[derive(Debug)]
 pub(crate) struct Slopes<'a, T> {
-    by: Arithmetic,
+    pub(crate) by: Arithmetic,
     pub(crate) bn: Columns<T>,
     pub(crate) omega: Vec3<T>,
     r_b_n_ddot: Vec3<T>,

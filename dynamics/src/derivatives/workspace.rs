@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
 use crate::derivatives::loads::load_columns::LoadsWorkspace;
+use crate::derivatives::loads::row_product::RowProduct;
 use crate::numbers::real::Scalar;
 
 /// No part of a result: all are equal and look alike, and a copy has none of it yet.
@@ -11,11 +12,13 @@ pub(crate) struct Workspace<T> {
     pub(crate) loads: LoadsWorkspace<T>,
     /// The joints that are not locked.
     pub(crate) moving: Vec<usize>,
+    pub(crate) product: RowProduct<T>,
 }
 
 impl<T: Scalar> Workspace<T> {
     pub(crate) fn new() -> Self {
-        Self { loads: LoadsWorkspace::new(), moving: Vec::new() }
+        let (loads, moving) = (LoadsWorkspace::new(), Vec::new());
+        Self { loads, moving, product: RowProduct::new() }
     }
 }
 

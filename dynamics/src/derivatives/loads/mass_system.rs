@@ -86,6 +86,24 @@ impl<T: Scalar> Gains<T> {
         }
     }
 
+    /// How a joint follows each of the hub's accelerations.
+    #[inline(always)]
+    pub(crate) fn of_joint(&self, joint: usize) -> Six<T> {
+        let Some([a, b, c, d, e, f, ..]) = self.blocks.get(joint / TOGETHER) else {
+            return [zero(); 6];
+        };
+        let place = joint % TOGETHER;
+        [a[place], b[place], c[place], d[place], e[place], f[place]]
+    }
+
+    /// By how much less a joint accelerates by the angular velocity about each axis.
+    #[inline(always)]
+    pub(crate) fn by_omega(&self, joint: usize) -> Vec3<T> {
+        let Some([.., x, y, z]) = self.blocks.get(joint / TOGETHER) else { return [zero(); 3] };
+        let place = joint % TOGETHER;
+        [x[place], y[place], z[place]]
+    }
+
     /// Takes what they accelerate less by the angular velocity about an axis.
     #[inline(always)]
     pub(crate) fn subtract_by_omega(&self, axis: usize, out: &mut [T]) {

@@ -15,7 +15,7 @@ pub(crate) mod each_device;
 pub(crate) mod joint_elimination;
 pub(crate) mod kernel;
 #[cfg(feature = "lanes")]
-mod kernel_in_lanes;
+pub(crate) mod kernel_in_lanes;
 #[cfg(feature = "alloc")]
 mod kernel_loads;
 #[cfg(feature = "alloc")]
@@ -24,5 +24,7 @@ pub(crate) mod load_columns;
 mod load_columns_tests;
 #[cfg(feature = "alloc")]
 pub(crate) mod mass_system;
+#[cfg(feature = "alloc")]
+pub(crate) mod row_product;
 #[cfg(feature = "alloc")]
 pub(crate) mod side_by_side;

@@ -9,11 +9,11 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::quaternion::Quaternion;
-use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::direction::ParameterDirection;
 use crate::derivatives::parameters::loads::ParameterLoads;
+use crate::derivatives::step::linearization::StageColumns;
 use crate::derivatives::variable::Variable;
 use crate::derivatives::workspace::Workspace;
 use crate::model::parameters::Hub;
@@ -53,8 +53,8 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         let rows = self.joints().count().saturating_add(6);
         let mut by_states = DMatrix::zeros(rows, along.states.len());
         let mut by_directions = DMatrix::zeros(rows, directions.len());
-        let into = [&mut by_states, &mut by_directions];
-        if !along.columns(state, &found, into)? {
+        let into = (None, [&mut by_states, &mut by_directions]);
+        if along.columns(state, &found, into)?.is_none() {
             return Ok(None);
         }
         by_directions += by_states * changes;
@@ -86,10 +86,11 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         let mut after = DMatrix::zeros(changes.nrows(), changes.ncols());
         let mut none = DMatrix::zeros(changes.nrows(), 0);
         let mut supported = true;
-        let mut derivatives = |stage: &_, found: &_, into: [&mut DMatrix<f64>; 2]| {
+        let mut derivatives = |stage: &_, found: &_, into: StageColumns<'_>| {
             // Stages differ in the state only, of which this does not depend.
-            supported = supported && along.columns(stage, found, into)?;
-            Ok(())
+            let written = if supported { along.columns(stage, found, into)? } else { None };
+            supported = written.is_some();
+            Ok(written.unwrap_or_default())
         };
         let into = [&mut none, &mut after];
         let next = self.chained((state, inputs), (dt, Some(changes)), into, &mut derivatives)?;
@@ -147,29 +148,30 @@ impl<'a, D: WithNumbers<Scalar = f64>> Along<'a, D> {
         Ok(Self { craft, of, inputs, states, by_held, multiples, directions })
     }
 
-    /// The derivatives of accelerations by the states, and along the directions at a state that stays; whether there are.
+    /// The derivatives of accelerations by the states, or their product with changes, and along the directions at a state
+    /// that stays; whether it is the product. None where there are none.
     fn columns(
         &self,
         state: &State<D>,
         found: &Accelerations<D>,
-        [by_states, by_directions]: [&mut DMatrix<f64>; 2],
-    ) -> Result<bool, DerivativeError<f64>> {
+        (product, [by_states, by_directions]): StageColumns<'_>,
+    ) -> Result<Option<bool>, DerivativeError<f64>> {
         let at = (state, self.inputs);
         let Some(mut loads) = ParameterLoads::new(self.craft, self.of, at, found) else {
-            return Ok(false);
+            return Ok(None);
         };
         let mut by_held = DMatrix::zeros(by_states.nrows(), self.by_held.len());
         let lists = (self.states.as_slice(), self.by_held.as_slice());
-        let (into, outputs) = ([by_states, &mut by_held], Outputs::accelerations());
+        let into = (product, [by_states, &mut by_held]);
         let workspace = &mut Workspace::new();
-        self.craft.output_columns(at, found, &outputs, lists, into, workspace)?;
+        let written = self.craft.acceleration_columns(at, found, lists, into, workspace)?;
         by_directions.gemm(1.0, &by_held, &self.multiples, 0.0);
         let rows = by_directions.nrows().max(1);
         let columns = by_directions.as_mut_slice().chunks_exact_mut(rows);
         for (direction, column) in self.directions.iter().zip(columns) {
             loads.add_along(direction, column)?;
         }
-        Ok(true)
+        Ok(Some(written))
     }
 }
 

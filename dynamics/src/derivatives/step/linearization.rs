@@ -11,6 +11,7 @@ use crate::attitude::quaternion::{Quaternion, rate};
 use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
 use crate::derivatives::linearization::columns_of;
+use crate::derivatives::loads::row_product::ChangeRows;
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
@@ -55,12 +56,16 @@ pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Ri
     pub b: DMatrix<f64>,
 }
 
-/// Of what is held, at a stage with its accelerations: the derivatives of accelerations by states and by it.
+/// The product of derivatives by states with their changes, and derivatives by states and by what is held.
+pub(crate) type StageColumns<'a> = (Option<ChangeRows<'a, f64>>, [&'a mut DMatrix<f64>; 2]);
+
+/// Of what is held, at a stage with its accelerations: the derivatives of accelerations by it, and by states, or their
+/// product with the changes of the states. Whether it is that.
 type ByHeld<'a, D, S> = &'a mut dyn FnMut(
     &State<D, Quaternion, S>,
     &Accelerations<D, S>,
-    [&mut DMatrix<f64>; 2],
-) -> Result<(), DerivativeError<f64>>;
+    StageColumns<'_>,
+) -> Result<bool, DerivativeError<f64>>;
 
 impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
     /// The step of [`Self::step`] linearised about a state and inputs.
@@ -81,11 +86,10 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let by_inputs: Vec<_> = self.input_variables(inputs).collect();
         let (rows, held) = (states.len(), by_inputs.len());
         let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
-        let none = Outputs::accelerations();
         let lists = (states.as_slice(), by_inputs.as_slice());
         let mut workspace = Workspace::new();
-        let mut derivatives = |stage: &_, found: &_, into: [&mut DMatrix<f64>; 2]| {
-            self.output_columns((stage, inputs), found, &none, lists, into, &mut workspace)
+        let mut derivatives = |stage: &_, found: &_, into: StageColumns<'_>| {
+            self.acceleration_columns((stage, inputs), found, lists, into, &mut workspace)
         };
         let into = [&mut a, &mut b];
         let state = self.chained((state, inputs), (dt, None), into, &mut derivatives)?;
@@ -121,12 +125,14 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         // The last stage leads to no other.
         let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
         for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
-            derivatives(stage, found, [&mut by_states, &mut by_held])?;
             let slopes = Slopes::new(self, stage, inputs, found, &mut moving);
+            chain.begin(stage.attitude, &slopes, accelerations);
+            let into = (chain.rows(), [&mut by_states, &mut by_held]);
+            let written = derivatives(stage, found, into)?;
             let at = StageDerivatives {
                 attitude: stage.attitude,
                 slopes,
-                by_states: &by_states,
+                by_states: (!written).then_some(&by_states),
                 by_held: &by_held,
             };
             chain.stage(&at, [*weight, offset]);
@@ -163,19 +169,20 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             (DMatrix::zeros(states.len(), 0), DMatrix::zeros(states.len(), variables.len()));
         let (none, mut workspace) = (Outputs::accelerations(), Workspace::new());
         let mut derivatives =
-            |stage: &_, found: &_, [by_states, by_held]: [&mut DMatrix<f64>; 2]| {
+            |stage: &_, found: &_, (product, [by_states, by_held]): StageColumns<'_>| {
                 let at = (stage, inputs);
                 let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
-                let into = [by_states, &mut no_inputs];
+                let into = (product, [by_states, &mut no_inputs]);
                 let lists = (states.as_slice(), [].as_slice());
-                let by_states = craft.output_columns(at, found, &none, lists, into, &mut workspace);
-                by_states.map_err(of_first_variable)?;
+                let written = craft.acceleration_columns(at, found, lists, into, &mut workspace);
+                let written = written.map_err(of_first_variable)?;
                 let by = variables.iter().copied();
                 let mut columns = by_held.column_iter_mut();
                 craft.parameter_columns((hub, devices), at, found, &none, by, |_, column| {
                     let Some(mut to) = columns.next() else { return };
                     to.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
-                })
+                })?;
+                Ok(written)
             };
         craft.chained((state, inputs), (dt, None), [&mut a, &mut b], &mut derivatives)?;
         Ok(b)

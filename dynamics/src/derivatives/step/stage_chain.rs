@@ -4,6 +4,8 @@
 //! side. The attitude is carried as a change of the quaternion, in which the step adds its slopes, and returned as a
 //! small rotation.
 
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -11,8 +13,10 @@ use nalgebra::DMatrix;
 
 use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
 use crate::derivatives::linearization::columns_of;
+use crate::derivatives::loads::row_product::{COLUMNS, ChangeRows};
 use crate::derivatives::slopes::{OF_HUB, Slopes};
-use crate::derivatives::step::stage_product::{COLUMNS, Product, add_elements};
+use crate::derivatives::step::stage_product::{Product, add_elements};
+use crate::equations::arithmetic::Arithmetic;
 use crate::numbers::vec3::cross;
 
 /// The numbers of a quaternion, scalar first.
@@ -48,8 +52,8 @@ pub(crate) struct StageChain {
 pub(crate) struct StageDerivatives<'a> {
     pub(crate) attitude: Quaternion,
     pub(crate) slopes: Slopes<'a, f64>,
-    /// By the states.
-    pub(crate) by_states: &'a DMatrix<f64>,
+    /// By the states; none where their product with the changes was written.
+    pub(crate) by_states: Option<&'a DMatrix<f64>>,
     /// By what is held: of the last columns.
     pub(crate) by_held: &'a DMatrix<f64>,
 }
@@ -97,24 +101,53 @@ impl StageChain {
         }
     }
 
-    /// Through a stage, whose slopes count `weight` and lead to the next stage after `offset`, both in s.
-    pub(crate) fn stage(&mut self, at: &StageDerivatives<'_>, by: [f64; 2]) {
-        let StageDerivatives { attitude, slopes, by_states, by_held } = at;
-        let (width, q) = (self.width, numbers(*attitude));
+    /// Goes to a stage of this attitude, with so many accelerations.
+    pub(crate) fn begin(
+        &mut self,
+        attitude: Quaternion,
+        slopes: &Slopes<'_, f64>,
+        accelerations: usize,
+    ) {
+        let width = self.width;
         if slopes.hub
             && let Some(rotation) = lines_mut(&mut self.states.now, width, 3, 3)
         {
             rotation.fill(0.0);
-            combine(&rotations(q), (&self.turns.now, width), rotation);
+            combine(&rotations(numbers(attitude)), (&self.turns.now, width), rotation);
         }
-        self.accelerations.resize(by_states.nrows().saturating_mul(width), 0.0);
+        self.accelerations.resize(accelerations.saturating_mul(width), 0.0);
+    }
+
+    /// The changes at the stage, and what the accelerations change by with them, to be written; none at the first stage of
+    /// changes that are each of one state.
+    pub(crate) fn rows(&mut self) -> Option<ChangeRows<'_, f64>> {
+        let Self { states, accelerations, width, .. } = self;
+        (!self.first).then_some(ChangeRows { changes: &states.now, width: *width, accelerations })
+    }
+
+    /// Through a stage, whose slopes count `weight` and lead to the next stage after `offset`, both in s.
+    pub(crate) fn stage(&mut self, at: &StageDerivatives<'_>, by: [f64; 2]) {
+        match at.slopes.by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { chain: self, at, by }),
+            Arithmetic::Portable => self.through(at, by),
+        }
+    }
+
+    #[inline(always)]
+    fn through(&mut self, at: &StageDerivatives<'_>, by: [f64; 2]) {
+        let StageDerivatives { attitude, slopes, by_states, by_held } = at;
+        let (width, q) = (self.width, numbers(*attitude));
         let changes = (self.states.now.as_slice(), width);
         let accelerations = self.accelerations.as_mut_slice();
-        if !core::mem::take(&mut self.first) {
-            self.product.write(by_states, changes, accelerations);
-        } else if self.by_states > 0 {
+        match (by_states, core::mem::take(&mut self.first)) {
+            (None, _) => {}
+            (Some(by_states), false) => self.product.write(by_states, changes, accelerations),
             // Of columns by the states themselves.
-            add_elements(by_states, 0, (accelerations, width));
+            (Some(by_states), true) if self.by_states > 0 => {
+                add_elements(by_states, 0, (accelerations, width));
+            }
+            (Some(_), true) => {}
         }
         add_elements(by_held, self.by_states, (accelerations, width));
         if slopes.hub {
@@ -124,6 +157,7 @@ impl StageChain {
     }
 
     /// The hub's rows.
+    #[inline(always)]
     fn hub(&mut self, slopes: &Slopes<'_, f64>, q: Numbers, by: [f64; 2]) {
         let Self { width, states, turns, accelerations, .. } = self;
         let width = *width;
@@ -151,6 +185,7 @@ impl StageChain {
     }
 
     /// The rows of joints and modes.
+    #[inline(always)]
     fn joints(&mut self, slopes: &Slopes<'_, f64>, by: [f64; 2]) {
         let Self { width, states, accelerations, .. } = self;
         let width = *width;
@@ -179,11 +214,39 @@ impl StageChain {
             rotation.fill(0.0);
             combine(&rotations(attitude), (&self.turns.sum, width), rotation);
         }
-        for (number, column) in into.into_iter().flat_map(columns_of).enumerate() {
-            for (to, line) in column.iter_mut().zip(self.states.sum.chunks(width.max(1))) {
-                *to = line.get(number).copied().unwrap_or_default();
+        let mut first = 0_usize;
+        for matrix in into {
+            let (rows, columns) = matrix.shape();
+            let mut lines = self.states.sum.chunks(width.saturating_mul(COLUMNS).max(1));
+            // Some rows at a time: what is read of one column is near what is read of the next.
+            for row in (0..rows).step_by(COLUMNS) {
+                let Some(lines) = lines.next() else { break };
+                for (number, column) in (first..).zip(columns_of(matrix)) {
+                    let to = column.iter_mut().skip(row);
+                    let from = lines.iter().skip(number).step_by(width.max(1));
+                    to.zip(from).for_each(|(to, from)| *to = *from);
+                }
             }
+            first = first.saturating_add(columns);
         }
+    }
+}
+
+/// A stage by the instructions of this CPU.
+#[cfg(feature = "lanes")]
+struct Dispatched<'a, 'b> {
+    chain: &'a mut StageChain,
+    at: &'a StageDerivatives<'b>,
+    by: [f64; 2],
+}
+
+#[cfg(feature = "lanes")]
+impl pulp::WithSimd for Dispatched<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.chain.through(self.at, self.by);
     }
 }
 
@@ -193,6 +256,7 @@ impl Rows {
     }
 
     /// Adds slopes to the numbers from a place on, and sets those of the next stage.
+    #[inline(always)]
     fn follow(&mut self, place: usize, slopes: &[f64], [weight, offset]: [f64; 2]) {
         let Self { start, now, sum } = self;
         let (Some(now), Some(sum), Some(start)) =
@@ -204,6 +268,7 @@ impl Rows {
     }
 
     /// The same with so many numbers, whose slopes are as many of the stage further on.
+    #[inline(always)]
     fn follow_rates(&mut self, [place, rates]: [usize; 2], count: usize, by: [f64; 2]) {
         let Self { start, now, sum } = self;
         let (Some((before, after)), Some(sum), Some(start)) =
@@ -218,6 +283,7 @@ impl Rows {
 }
 
 /// Adds `weight` slopes to the sum, and sets what is now to the start and `offset` slopes.
+#[inline(always)]
 fn followed([now, sum]: [&mut [f64]; 2], [start, slopes]: [&[f64]; 2], [weight, offset]: [f64; 2]) {
     for (((now, sum), start), slope) in now.iter_mut().zip(sum).zip(start).zip(slopes) {
         *sum += weight * *slope;
@@ -230,6 +296,7 @@ const QUATERNIONS: [Numbers; 4] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// Adds a small matrix, by its columns, times rows.
+#[inline(always)]
 fn combine<const TO: usize>(columns: &[[f64; TO]], (from, width): (&[f64], usize), to: &mut [f64]) {
     for (column, from) in columns.iter().zip(from.chunks(width.max(1))) {
         for (element, to) in column.iter().zip(to.chunks_mut(width.max(1))) {

@@ -3,12 +3,14 @@
 //! Columns of the matrix that are zero, as by the position without a central field, are left out, and groups of changes
 //! that meet only these.
 
+#![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
+
 use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
-/// How many columns of changes are computed side by side.
-pub(crate) const COLUMNS: usize = 8;
+use crate::derivatives::loads::row_product::COLUMNS;
+
 /// Of how many rows.
 const ROWS: usize = 2;
 
@@ -25,6 +27,7 @@ pub(crate) struct Product {
 
 impl Product {
     /// Writes the product with rows of changes of this width, which is whole groups.
+    #[inline(always)]
     pub(crate) fn write(
         &mut self,
         matrix: &DMatrix<f64>,
@@ -79,7 +82,7 @@ impl Product {
 }
 
 /// Some rows of the product with some columns.
-#[inline]
+#[inline(always)]
 fn summed(packed: &[[f64; ROWS]], changes: &[[f64; COLUMNS]]) -> [[f64; COLUMNS]; ROWS] {
     let mut sums = [[0.0; COLUMNS]; ROWS];
     for (elements, changes) in packed.iter().zip(changes) {
@@ -93,6 +96,7 @@ fn summed(packed: &[[f64; ROWS]], changes: &[[f64; COLUMNS]]) -> [[f64; COLUMNS]
 }
 
 /// Adds the elements of a matrix to rows of this width, from a column on.
+#[inline(always)]
 pub(crate) fn add_elements(matrix: &DMatrix<f64>, first: usize, (to, width): (&mut [f64], usize)) {
     let columns = matrix.as_slice().chunks_exact(matrix.nrows().max(1));
     for (number, column) in (first..).zip(columns) {
