@@ -103,7 +103,9 @@ impl<T: Scalar> Matrices<'_, T> {
         // Most of these stay zero.
         let (still, _) =
             split([&mut *accelerations, &mut *slopes_of], heights, BEFORE_OMEGA.min(of_hub))?;
-        still.into_iter().for_each(|columns| columns.fill(zero()));
+        for columns in still {
+            columns.fill(zero());
+        }
         let both = [&mut *accelerations, &mut *slopes_of];
         for (variable, both) in states_of_hub.iter().zip(each(both, heights)) {
             if let Some(change) = loads.change(*variable) {

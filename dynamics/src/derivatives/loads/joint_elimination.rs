@@ -221,8 +221,9 @@ fn subtract_row<T: Scalar, const N: usize>(
     row: usize,
     factor: T,
 ) {
-    for k in 0..N {
-        rows[from][k] = rows[from][k] - factor * rows[row][k];
+    let of = rows[row];
+    for (to, of) in rows[from].iter_mut().zip(of) {
+        *to = *to - factor * of;
     }
 }
 

@@ -183,8 +183,8 @@ impl<T: Scalar> MassSystem<T> {
 fn whole<T: Scalar>(hub: &HubConstants<T>, mass: T, devices: &[Six<T>; 6]) -> [Six<T>; 6] {
     let (coupling, inertia) = (hub.coupling(), hub.i_b_b.columns());
     let mut matrix = *devices;
-    for axis in 0..3 {
-        matrix[axis][axis] = matrix[axis][axis] + mass;
+    for (axis, column) in matrix.iter_mut().take(3).enumerate() {
+        column[axis] = column[axis] + mass;
     }
     for axis in 0..3_usize {
         let column = &mut matrix[axis.wrapping_add(3) % 6];
