@@ -20,7 +20,7 @@ Exit codes:
   3    a requirement could not be evaluated, and none is violated
   64   the command line is wrong
   130  ended by Ctrl-C, 143 by SIGTERM: of a run by the second, where the first ends it early, with results that say so;
-       of jitter and fit by the first, and nothing is written";
+       of jitter, fit and identify by the first, and nothing is written";
 
 /// How a command ended. The order is that of weight: of several files the heaviest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -13,6 +13,7 @@ mod exit;
 mod export;
 mod fit;
 mod generator;
+mod identify;
 mod jitter;
 mod kinds;
 mod limits_and_springs;
@@ -110,6 +111,9 @@ enum Command {
     /// Run a scenario's model along telemetry, and tell what has changed: imbalance, drag, torque constants, gyro bias
     #[command(after_help = watch::HELP)]
     Watch(Box<watch::WatchCommand>),
+    /// Find imbalance, friction, inertia and bias of a spacecraft in telemetry, with intervals
+    #[command(after_help = identify::HELP)]
+    Identify(Box<identify::IdentifyCommand>),
     /// Run a scenario over values of one key or two, and compare every run with its requirements
     #[command(after_help = sweep::HELP)]
     Sweep(Box<sweep::Sweep>),
@@ -171,6 +175,7 @@ impl Cli {
             Command::Margins(margins) => margins.execute(),
             Command::Fit(fit) => fit.execute(),
             Command::Watch(watch) => watch.execute(),
+            Command::Identify(identify) => identify.execute(),
             Command::Sweep(sweep) => sweep.execute(),
             Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),

@@ -11,6 +11,7 @@
 mod budget;
 pub mod diagnostic;
 mod document;
+mod identification;
 mod integrator;
 mod keys;
 mod load;
@@ -28,6 +29,7 @@ mod write_platform;
 
 pub use budget::{budget_from_toml, budget_overrides, check_budget_names};
 pub use diagnostic::{Diagnostic, Diagnostics, Numbers, Severity};
+pub use identification::{IdentificationFile, identification_from_toml};
 pub use load::{Override, Overrides};
 pub use measurement::{MeasurementFile, measurement_from_toml};
 pub use overrides::is_key;

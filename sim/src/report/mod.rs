@@ -18,6 +18,7 @@ mod data;
 mod draw;
 mod error;
 pub(crate) mod fit;
+pub(crate) mod identify;
 pub(crate) mod jitter;
 pub(crate) mod margins;
 pub(crate) mod montecarlo;

@@ -29,6 +29,7 @@ mod tests;
 use std::path::Path;
 
 pub use error::{TelemetryError, TelemetryFault};
+pub(crate) use layout::controller_of;
 pub use layout::{LayoutError, Sensor, SensorColumns, TelemetryLayout};
 pub use screen::{Exclusion, Reading, Reason};
 

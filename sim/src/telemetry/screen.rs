@@ -15,7 +15,11 @@ use super::layout::{Sensor, SensorColumns};
 use crate::units::Plain;
 
 /// Rows that repeat a reading within this share of the period are held values.
-const HELD: f64 = 0.75;
+const HELD: f64 = 0.99;
+/// Other readings are at least this share of it apart, and clocks may jitter by the rest.
+const FAST: f64 = 0.5;
+/// Times nearer than this are one, s.
+const NEAR: f64 = 1e-9;
 /// Periods after which a reading that no other has followed is released.
 const RELEASED: f64 = 2.5;
 /// A sensor whose reading is this share of its range is saturated.
@@ -153,11 +157,11 @@ impl Screen {
             return Err(self.fault(TelemetryFault::NoTime { row: row.number }));
         };
         if let Some(before) = self.before {
-            if time < before {
+            if time < before - NEAR {
                 let times = [time, before];
                 return Err(self.fault(TelemetryFault::Falls { row: row.number, times }));
             }
-            if time == before {
+            if time <= before + NEAR {
                 self.exclude(None, Reason::RepeatedTime, time);
                 return Ok(());
             }
@@ -211,15 +215,14 @@ impl Screen {
             let interval = time - last.time;
             let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
             let pairs = || last.value.iter().zip(&reading.value).take(own);
-            if interval < HELD * period {
-                if pairs().all(same) {
-                    self.exclude(Some(index), Reason::Held, time);
-                    return Ok(());
-                }
+            if interval < HELD * period && pairs().all(same) {
+                self.exclude(Some(index), Reason::Held, time);
+                return Ok(());
+            }
+            if interval < FAST * period {
                 let (sensor, period) = (of.name, period);
                 return Err(self.fault(TelemetryFault::TooFast { sensor, time, interval, period }));
             }
-            // A gyro at zero is one that has not begun.
             stuck = of.noisy && pairs().any(same);
         }
         if let Some(place) = self.last.get_mut(index) {

@@ -191,8 +191,13 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     let table = folder.join("table/wheel-measurement.toml");
     let text = fs::read_to_string(&table).expect("a file");
     fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
+    let example = of("identify", &[], &["--example", "craft"]).output();
+    assert!(example.status.success(), "{}", error_of(&example));
+    short_record(&folder.join("craft"));
     let (samples, result) = ("table/wheel-sweep.csv", "results/wheel.csv");
     let measurement = "table/wheel-measurement.toml";
+    let (bus, unknown, telemetry) =
+        ("craft/bus.toml", "craft/bus-unknown.toml", "craft/bus-telemetry.csv");
     let formats = if cfg!(feature = "mcap") {
         "output.formats=[\"csv\", \"npz\", \"mcap\"]"
     } else {
@@ -234,6 +239,11 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
             ],
         ),
         of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
+        of(
+            "identify",
+            &[bus, unknown, telemetry],
+            &[bus, "--unknown", unknown, "--data", telemetry, "--out", "out"],
+        ),
         of("sweep", scenario, &["wheel.toml", "--over", "hub.mass=90..110 kg:3", "--out", "out"]),
         of(
             "montecarlo",
@@ -255,6 +265,19 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         cases.iter().filter(|case| case.out.is_some()).map(|case| case.name.clone()).collect();
     assert_eq!(listed, declared_writing(), "each command that writes has a case that writes");
     cases
+}
+
+/// A second of the example of `identify`, with priors that tell what that does not, and a title for terminals.
+fn short_record(folder: &Path) {
+    let (unknown, telemetry) = (folder.join("bus-unknown.toml"), folder.join("bus-telemetry.csv"));
+    let text = fs::read_to_string(&unknown).expect("a file");
+    let text = text.replace("name = \"bus\"", "name = \"bus\"\ntitle = \"A bus \\u001b[2J\"");
+    let text = text.replace("hub_moments = true", "hub_moments = \"3 kg m^2\"");
+    let text = text.replace("viscous = true", "viscous = \"1e-5 N m s/rad\"");
+    fs::write(&unknown, text).expect("a file");
+    let text = fs::read_to_string(&telemetry).expect("a file");
+    let rows: Vec<_> = text.lines().take(102).collect();
+    fs::write(&telemetry, rows.join("\n") + "\n").expect("a file");
 }
 
 /// The names of the commands whose options say that they write.
