@@ -24,6 +24,10 @@ use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 use crate::solve::structure::{Rigid, StructureData};
 
+/// Where derivatives are written: the product of those by states with their changes, if it is wanted, and columns by states
+/// and by inputs.
+pub(crate) type IntoColumns<'a, T> = (Option<ChangeRows<'a, T>>, [&'a mut DMatrix<T>; 2]);
+
 /// An output of the linearised system, a row of `c` and `d`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
@@ -193,7 +197,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         at: (&State<D, A, S>, &Inputs<D, S>),
         accelerations: &Accelerations<D, S>,
         lists: (&[Variable], &[Variable]),
-        (product, into): (Option<ChangeRows<'_, D::Scalar>>, [&mut DMatrix<D::Scalar>; 2]),
+        (product, into): IntoColumns<'_, D::Scalar>,
         Workspace { loads, product: of, .. }: &mut Workspace<D::Scalar>,
     ) -> Result<bool, DerivativeError<D::Scalar>> {
         let outputs = Outputs::accelerations();

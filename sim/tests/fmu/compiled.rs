@@ -175,7 +175,10 @@ fn an_angle_that_is_wrapped_leaves_the_others_as_they_are() {
             for states in [by_steps, by_event] {
                 let (wheel, panel) = (states[13], states[14]);
                 assert!(wheel.abs() <= std::f64::consts::PI, "{version}, the wheel: {wheel}");
-                assert!((panel - 440_f64.to_radians()).abs() < 1e-3, "{version}, the panel: {panel}");
+                assert!(
+                    (panel - 440_f64.to_radians()).abs() < 1e-3,
+                    "{version}, the panel: {panel}"
+                );
             }
         }
     }

@@ -61,7 +61,7 @@ impl<T: Real, const N: usize, const P: usize> DeviceReduction<T, N, P> {
                 *to = row[DRIVE];
             }
         }
-        let eliminated = JointElimination::new(zero, &mass, &coupling, free);
+        let eliminated = JointElimination::new(zero, &mass, &coupling, *free);
         for (joint, (group, of)) in groups.iter_mut().zip(loads.joints).enumerate() {
             let mut less = eliminated.reduce_together(zero, group, &of.joints);
             if free[joint] {

@@ -29,7 +29,7 @@ impl<T: Real, const N: usize> JointElimination<T, N> {
         zero: T,
         mass: &[[T; N]; N],
         of_hub: &[Six<T>; N],
-        free: &[bool; MAX_JOINTS],
+        free: [bool; MAX_JOINTS],
     ) -> Self {
         let mut coupling = [[zero; 6]; N];
         for row in 0..N {
@@ -37,7 +37,7 @@ impl<T: Real, const N: usize> JointElimination<T, N> {
                 coupling[row] = of_hub[row];
             }
         }
-        let factors = factors(zero, mass, free);
+        let factors = factors(zero, mass, &free);
         let mut inverse = [[zero; N]; N];
         for unit in 0..N {
             if free[unit] {

@@ -127,7 +127,9 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
 
 fn compare<K: Kind<Scalar = f64>>(rows: [usize; 2]) {
     let joints = [Joints::OfAnyMode, Joints::Driven, Joints::DrivenWithoutSprings];
-    joints.into_iter().for_each(|joints| compare_with::<K>(rows, joints));
+    for joints in joints {
+        compare_with::<K>(rows, joints);
+    }
 }
 
 fn compare_with<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2], joints: Joints) {

@@ -10,10 +10,10 @@ use nalgebra::DMatrix;
 
 use crate::attitude::quaternion::Quaternion;
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::linearization::IntoColumns;
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::direction::ParameterDirection;
 use crate::derivatives::parameters::loads::ParameterLoads;
-use crate::derivatives::step::linearization::StageColumns;
 use crate::derivatives::variable::Variable;
 use crate::derivatives::workspace::Workspace;
 use crate::model::parameters::Hub;
@@ -86,7 +86,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         let mut after = DMatrix::zeros(changes.nrows(), changes.ncols());
         let mut none = DMatrix::zeros(changes.nrows(), 0);
         let mut supported = true;
-        let mut derivatives = |stage: &_, found: &_, into: StageColumns<'_>| {
+        let mut derivatives = |stage: &_, found: &_, into: IntoColumns<'_, f64>| {
             // Stages differ in the state only, of which this does not depend.
             let written = if supported { along.columns(stage, found, into)? } else { None };
             supported = written.is_some();
@@ -154,7 +154,7 @@ impl<'a, D: WithNumbers<Scalar = f64>> Along<'a, D> {
         &self,
         state: &State<D>,
         found: &Accelerations<D>,
-        (product, [by_states, by_directions]): StageColumns<'_>,
+        (product, [by_states, by_directions]): IntoColumns<'_, f64>,
     ) -> Result<Option<bool>, DerivativeError<f64>> {
         let at = (state, self.inputs);
         let Some(mut loads) = ParameterLoads::new(self.craft, self.of, at, found) else {

@@ -10,8 +10,8 @@ use crate::attitude::parameterisation::Attitude;
 use crate::attitude::quaternion::{Quaternion, rate};
 use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
+use crate::derivatives::linearization::IntoColumns;
 use crate::derivatives::linearization::columns_of;
-use crate::derivatives::loads::row_product::ChangeRows;
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
@@ -56,15 +56,12 @@ pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Ri
     pub b: DMatrix<f64>,
 }
 
-/// The product of derivatives by states with their changes, and derivatives by states and by what is held.
-pub(crate) type StageColumns<'a> = (Option<ChangeRows<'a, f64>>, [&'a mut DMatrix<f64>; 2]);
-
 /// Of what is held, at a stage with its accelerations: the derivatives of accelerations by it, and by states, or their
 /// product with the changes of the states. Whether it is that.
 type ByHeld<'a, D, S> = &'a mut dyn FnMut(
     &State<D, Quaternion, S>,
     &Accelerations<D, S>,
-    StageColumns<'_>,
+    IntoColumns<'_, f64>,
 ) -> Result<bool, DerivativeError<f64>>;
 
 impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
@@ -88,7 +85,7 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
         let lists = (states.as_slice(), by_inputs.as_slice());
         let mut workspace = Workspace::new();
-        let mut derivatives = |stage: &_, found: &_, into: StageColumns<'_>| {
+        let mut derivatives = |stage: &_, found: &_, into: IntoColumns<'_, f64>| {
             self.acceleration_columns((stage, inputs), found, lists, into, &mut workspace)
         };
         let into = [&mut a, &mut b];
@@ -169,7 +166,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             (DMatrix::zeros(states.len(), 0), DMatrix::zeros(states.len(), variables.len()));
         let (none, mut workspace) = (Outputs::accelerations(), Workspace::new());
         let mut derivatives =
-            |stage: &_, found: &_, (product, [by_states, by_held]): StageColumns<'_>| {
+            |stage: &_, found: &_, (product, [by_states, by_held]): IntoColumns<'_, f64>| {
                 let at = (stage, inputs);
                 let mut no_inputs = DMatrix::zeros(by_states.nrows(), 0);
                 let into = (product, [by_states, &mut no_inputs]);

@@ -141,13 +141,12 @@ impl StageChain {
         let changes = (self.states.now.as_slice(), width);
         let accelerations = self.accelerations.as_mut_slice();
         match (by_states, core::mem::take(&mut self.first)) {
-            (None, _) => {}
             (Some(by_states), false) => self.product.write(by_states, changes, accelerations),
             // Of columns by the states themselves.
             (Some(by_states), true) if self.by_states > 0 => {
                 add_elements(by_states, 0, (accelerations, width));
             }
-            (Some(_), true) => {}
+            _ => {}
         }
         add_elements(by_held, self.by_states, (accelerations, width));
         if slopes.hub {
