@@ -1,5 +1,6 @@
 //! `identify`: imbalance, friction, inertia and bias of a spacecraft from telemetry: a table, and a file of parts of a scenario.
 
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -166,13 +167,15 @@ fn table(found: &Identified) -> String {
         .collect();
     text.push_str(&aligned(&rows));
     let [from, to] = found.span;
-    text.push_str(&format!(
-        "\nfrom {} s to {} s; steps of at most {} s; {} steps over the whole record\n",
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\nfrom {} s to {} s; steps of at most {} s; {} steps over the whole record",
         Plain(from),
         Plain(to),
         six(found.step),
         found.steps
-    ));
+    );
     let mut lines: Vec<String> = found.exclusions.iter().map(|of| format!("- {of}\n")).collect();
     if found.outside > 0 {
         lines.push(format!(
@@ -194,7 +197,7 @@ fn table(found: &Identified) -> String {
         ("what the data do not tell: a change by any multiple of", untold.collect()),
     ] {
         if !lines.is_empty() {
-            text.push_str(&format!("\n{heading}\n{}", lines.concat()));
+            let _ = write!(text, "\n{heading}\n{}", lines.concat());
         }
     }
     if !found.holds() {

@@ -78,7 +78,7 @@ impl Estimation<'_> {
         for part in parts.into_iter().rev() {
             let whole = part >= span;
             let solution = self.part(values, (part, whole), progress)?;
-            values = solution.values.clone();
+            values = solution.values.as_slice().to_vec();
             found = Some(solution);
         }
         found.ok_or(IdentifyError::Singular)

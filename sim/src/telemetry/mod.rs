@@ -168,12 +168,11 @@ impl TelemetryRows {
             if self.ended {
                 return Ok(None);
             }
-            match self.cells.next_row()? {
-                Some(row) => self.screen.put(row)?,
-                None => {
-                    self.screen.end();
-                    self.ended = true;
-                }
+            if let Some(row) = self.cells.next_row()? {
+                self.screen.put(row)?;
+            } else {
+                self.screen.end();
+                self.ended = true;
             }
         }
     }

@@ -47,18 +47,19 @@ fn read(text: &str) -> Result<Telemetry, TelemetryFault> {
 }
 
 /// A number that differs from row to row.
-fn noise(row: usize, axis: usize) -> f64 {
-    ((row * 7 + axis * 3) % 31) as f64 * 1e-3 + row as f64 * 1e-5
+fn noise(row: u32, axis: u32) -> f64 {
+    f64::from((row * 7 + axis * 3) % 31) * 1e-3 + f64::from(row) * 1e-5
 }
 
 /// Gyro rows at 10 Hz, each through a function.
-fn gyro(rows: usize, change: impl Fn(usize, &mut f64, &mut [f64; 3])) -> String {
+fn gyro(rows: u32, change: impl Fn(u32, &mut f64, &mut [f64; 3])) -> String {
     let mut text = String::from("time,x,y,z\n");
     for row in 0..rows {
-        let mut time = row as f64 * 0.1;
+        let mut time = f64::from(row) * 0.1;
         let mut value = [noise(row, 0), noise(row, 1), noise(row, 2)];
         change(row, &mut time, &mut value);
-        text += &format!("{time},{},{},{}\n", value[0], value[1], value[2]);
+        text += &[time.to_string(), value.map(|of| of.to_string()).join(",")].join(",");
+        text.push('\n');
     }
     text
 }
@@ -114,7 +115,7 @@ fn repeated_times_are_left_out_and_falling_ones_are_an_error() {
 
 #[test]
 fn saturated_readings_are_left_out() {
-    let clipped = |row: usize, _: &mut f64, value: &mut [f64; 3]| {
+    let clipped = |row: u32, _: &mut f64, value: &mut [f64; 3]| {
         if (10..15).contains(&row) {
             value[1] = 0.5;
         }
@@ -150,8 +151,8 @@ fn times_in_milliseconds_and_readings_too_fast_are_errors() {
 
 #[test]
 fn held_values_between_samples_are_left_out() {
-    let held = |row: usize, time: &mut f64, value: &mut [f64; 3]| {
-        *time = row as f64 * 0.025;
+    let held = |row: u32, time: &mut f64, value: &mut [f64; 3]| {
+        *time = f64::from(row) * 0.025;
         *value = [0, 1, 2].map(|axis| noise(row / 4, axis));
     };
     let found = read(&gyro(40, held)).expect("telemetry");

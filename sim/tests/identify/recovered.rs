@@ -24,8 +24,8 @@ pub(crate) fn unknowns(scenario: &Scenario) -> Unknowns {
     identification_from_toml(&path, scenario).expect("a file of unknowns").unknowns
 }
 
-/// The truth of the example by the names of its numbers: U_s, U_d, phase and angle of each wheel, damping, moments, bias.
-fn compared<'a>(found: &'a Identified) -> Vec<(String, f64, &'a Estimate)> {
+/// The truth of the example by the names of its numbers: `U_s`, `U_d`, phase and angle of each wheel, damping, moments, bias.
+fn compared(found: &Identified) -> Vec<(String, f64, &Estimate)> {
     let degrees = PI / 180.0;
     let wheels = [
         ("rw1", [0.21, 2.9, 40.0, 25.0], 1.4e-5),

@@ -79,7 +79,33 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
             })
         })
         .collect();
-    let noise = report.noise.map_or(Value::Null, |gains| {
+    let all = json!({
+        "format": 1,
+        "scenario": report.scenario.name,
+        "controller": of.name,
+        "rate_hz": of.rate,
+        "delay_s": of.delay,
+        "stable": found.stable,
+        "least": { "gain_db": report.least.gain, "phase_rad": report.least.phase },
+        "axes": axes,
+        "requirements": requirements(report),
+        "delay_margin_s": found.delay,
+        "sensitivity_peak": at(found.peaks.map(|[s, _]| s)),
+        "complementary_peak": at(found.peaks.map(|[_, t]| t)),
+        "neutral_poles": found.neutral,
+        "poles": poles,
+        "oscillations": oscillations,
+        "lines": lines,
+        "noise": noise(report),
+        "averaging_leaves_out": at(found.periodic),
+    });
+    // Numbers and texts only: it can always be written.
+    serde_json::to_string_pretty(&all).unwrap_or_default() + "\n"
+}
+
+/// What noise of the sensors does; null without an estimate of it.
+fn noise(report: &MarginsReport<'_>) -> Value {
+    report.noise.map_or(Value::Null, |gains| {
         json!({
             "attitude_by_attitude": gains.attitude,
             "attitude_by_rate_s": gains.rate,
@@ -87,8 +113,12 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
             "rate_noise_rad_per_s": report.measured.rate,
             "attitude_rms_rad": gains.attitude_rms(&report.measured),
         })
-    });
-    let requirements: Vec<Value> = report
+    })
+}
+
+/// What is required of the margins.
+fn requirements(report: &MarginsReport<'_>) -> Vec<Value> {
+    report
         .verdicts
         .iter()
         .map(|of| {
@@ -100,29 +130,7 @@ pub(super) fn json(report: &MarginsReport<'_>) -> String {
                 "state": of.state.word(),
             })
         })
-        .collect();
-    let all = json!({
-        "format": 1,
-        "scenario": report.scenario.name,
-        "controller": of.name,
-        "rate_hz": of.rate,
-        "delay_s": of.delay,
-        "stable": found.stable,
-        "least": { "gain_db": report.least.gain, "phase_rad": report.least.phase },
-        "axes": axes,
-        "requirements": requirements,
-        "delay_margin_s": found.delay,
-        "sensitivity_peak": at(found.peaks.map(|[s, _]| s)),
-        "complementary_peak": at(found.peaks.map(|[_, t]| t)),
-        "neutral_poles": found.neutral,
-        "poles": poles,
-        "oscillations": oscillations,
-        "lines": lines,
-        "noise": noise,
-        "averaging_leaves_out": at(found.periodic),
-    });
-    // Numbers and texts only: it can always be written.
-    serde_json::to_string_pretty(&all).unwrap_or_default() + "\n"
+        .collect()
 }
 
 /// Numbers with the fewest digits that read back the same.

@@ -88,7 +88,9 @@ impl GpuRuns {
         for count in &self.joints {
             let (own, rest) = joints.split_at_mut((*count).min(joints.len()));
             for which in 0..2 {
-                own.iter_mut().for_each(|of| of[which] = numbers.next().unwrap_or(f64::NAN));
+                for of in own.iter_mut() {
+                    of[which] = numbers.next().unwrap_or(f64::NAN);
+                }
             }
             joints = rest;
         }

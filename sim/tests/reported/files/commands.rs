@@ -83,14 +83,9 @@ const PLAN: &str = "format = 1\n[[vary]]\nkey = \"hub.mass\"\ndistribution = \"u
 
 /// Two seconds of the wheels of [`HELD`], which keep their rates.
 fn telemetry() -> String {
-    let mut text = "time".to_owned();
-    for wheel in 1..=3 {
-        text += &format!(",rw{wheel}.spin,rw{wheel}.u_w");
-    }
-    for k in 0..200 {
-        text += &format!("\n{}{}", 0.01 * f64::from(k), ",314.15,0".repeat(3));
-    }
-    text + "\n"
+    let joints: Vec<_> = (1..=3).map(|wheel| format!(",rw{wheel}.spin,rw{wheel}.u_w")).collect();
+    let rows = (0..200).map(|k| format!("{}{}\n", 0.01 * f64::from(k), ",314.15,0".repeat(3)));
+    format!("time{}\n", joints.concat()) + &rows.collect::<String>()
 }
 
 /// A command with its arguments.
@@ -150,9 +145,8 @@ pub(super) fn names() -> BTreeSet<String> {
     names
 }
 
-/// A case of every command. A new command has to be added here, and its options say whether it writes.
-pub(super) fn cases(folder_name: &str) -> Vec<Case> {
-    let folder = super::super::folder(folder_name);
+/// The files that cases read.
+fn set_up(folder: &Path) {
     let put = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
     for (name, text) in [
         ("hub.toml", HUB),
@@ -168,6 +162,24 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     let structure =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/imaging-satellite-modes.npz");
     fs::copy(structure, folder.join("bus.npz")).expect("a file");
+}
+
+/// Examples of `fit` and `identify`, with titles for terminals.
+fn examples(folder: &Path, of: impl Fn(&str, &[&str], &[&str]) -> Case) {
+    let example = of("fit", &[], &["--example", "table"]).output();
+    assert!(example.status.success(), "{}", error_of(&example));
+    let table = folder.join("table/wheel-measurement.toml");
+    let text = fs::read_to_string(&table).expect("a file");
+    fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
+    let example = of("identify", &[], &["--example", "craft"]).output();
+    assert!(example.status.success(), "{}", error_of(&example));
+    short_record(&folder.join("craft"));
+}
+
+/// A case of every command. A new command has to be added here, and its options say whether it writes.
+pub(super) fn cases(folder_name: &str) -> Vec<Case> {
+    let folder = super::super::folder(folder_name);
+    set_up(&folder);
     let of = |name: &str, inputs: &[&str], arguments: &[&str]| {
         let own = |text: &&str| (*text).to_owned();
         let writes =
@@ -186,14 +198,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     let plan: &[&str] = &["plan.toml", "wheel.toml", "hub.toml", "push.csv"];
     let before = of("run", scenario, &["wheel.toml", "--out", "results"]).output();
     assert!(before.status.success(), "{}", error_of(&before));
-    let example = of("fit", &[], &["--example", "table"]).output();
-    assert!(example.status.success(), "{}", error_of(&example));
-    let table = folder.join("table/wheel-measurement.toml");
-    let text = fs::read_to_string(&table).expect("a file");
-    fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
-    let example = of("identify", &[], &["--example", "craft"]).output();
-    assert!(example.status.success(), "{}", error_of(&example));
-    short_record(&folder.join("craft"));
+    examples(&folder, of);
     let (samples, result) = ("table/wheel-sweep.csv", "results/wheel.csv");
     let measurement = "table/wheel-measurement.toml";
     let (bus, unknown, telemetry) =
@@ -203,6 +208,8 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
     } else {
         "output.formats=[\"csv\", \"npz\"]"
     };
+    let watch =
+        [watched[0], "--data", watched[1], "--block", "100 ms", "--learn", "1 s", "--out", "out"];
     let cases = vec![
         of("new", &[], &["vscmg"]),
         of("check", scenario, &["wheel.toml"]),
@@ -223,21 +230,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         ),
         of("jitter", budget, &["budget.toml", "--out", "out"]),
         of("margins", &["held.toml"], &["held.toml", "--out", "out"]),
-        of(
-            "watch",
-            watched,
-            &[
-                "held.toml",
-                "--data",
-                "telemetry.csv",
-                "--block",
-                "100 ms",
-                "--learn",
-                "1 s",
-                "--out",
-                "out",
-            ],
-        ),
+        of("watch", watched, &watch),
         of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
         of(
             "identify",
