@@ -1,7 +1,7 @@
 //! Eigenvalues of a real square matrix: balanced, reduced to Hessenberg form, then by the QR algorithm with double shifts.
 //!
-//! Golub, Van Loan, *Matrix Computations*, 4th edition, 7.5, with the exceptional shifts of EISPACK's `hqr` after ten and twenty
-//! sweeps without an eigenvalue. (nalgebra 0.35 has none: of loops with equal axes its Schur form does not converge.)
+//! Golub, Van Loan, *Matrix Computations*, 4th edition, 7.5, with exceptional shifts as LAPACK's `dlahqr` after each ten sweeps
+//! without an eigenvalue. (nalgebra 0.35 has none: of loops with equal axes its Schur form does not converge.)
 
 use alloc::vec::Vec;
 
@@ -10,8 +10,8 @@ use nalgebra::{Complex, DMatrix, Hessenberg};
 use crate::linear::held::balanced;
 use crate::model::error::ControlError;
 
-/// Sweeps for one eigenvalue: two or three are usual.
-const SWEEPS: u32 = 60;
+/// Sweeps for one eigenvalue: two or three are usual. LAPACK has as many.
+const SWEEPS: u32 = 300;
 /// Sweeps after which an element is small beside the whole matrix, not only beside its neighbours: of many eigenvalues at zero, as
 /// of commands that wait, these are rounding themselves.
 const PATIENCE: u32 = 20;
@@ -25,15 +25,13 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
     let (h, _) = balanced(matrix);
     let mut h = if h.nrows() > 2 { Hessenberg::new(h).unpack_h() } else { h };
     let norm = h.amax();
-    // Shifts that were subtracted from the diagonal.
-    let mut shifted = 0.0;
     let mut sweeps = 0_u32;
     let mut size = h.nrows();
     while let Some(end) = size.checked_sub(1) {
         let least = if sweeps < PATIENCE { 0.0 } else { f64::EPSILON * norm };
         let start = deflated(&mut h, end, (norm, least));
         if start == end {
-            found.push(Complex::new(h[(end, end)] + shifted, 0.0));
+            found.push(Complex::new(h[(end, end)], 0.0));
             (size, sweeps) = (end, 0);
             continue;
         }
@@ -41,7 +39,7 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
         let (x, y) = (h[(end, end)], h[(last, last)]);
         let product = h[(end, last)] * h[(last, end)];
         if start == last {
-            found.extend(pair(x + shifted, y + shifted, product));
+            found.extend(pair(x, y, product));
             (size, sweeps) = (last, 0);
             continue;
         }
@@ -49,18 +47,33 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, Co
             return Err(ControlError::NotConverged { what: "eigenvalues" });
         }
         sweeps = sweeps.saturating_add(1);
-        let mut shifts = (x, y, product);
-        if sweeps.is_multiple_of(10) {
-            let below = libm::fabs(h[(end, last)]) + libm::fabs(h[(last, last.saturating_sub(1))]);
-            for k in 0..size {
-                h[(k, k)] -= x;
-            }
-            shifted += x;
-            shifts = (0.75 * below, 0.75 * below, -0.4375 * below * below);
-        }
+        let shifts = if sweeps.is_multiple_of(10) {
+            exceptional(&h, (start, end), sweeps)
+        } else {
+            (x, y, product)
+        };
         sweep(&mut h, (start, end), shifts);
     }
     Ok(found)
+}
+
+/// Shifts of a sweep among many without an eigenvalue, by turns at the block's start and at its end: as far from the diagonal as
+/// the elements below it are large, then as eigenvalues of a chain are apart, whose elements above are the larger ones.
+fn exceptional(h: &DMatrix<f64>, (start, end): (usize, usize), sweeps: u32) -> (f64, f64, f64) {
+    let turn = sweeps / 10;
+    let (corner, rows) = if turn.is_multiple_of(2) {
+        (end, [end, end.saturating_sub(1)])
+    } else {
+        (start, [start.saturating_add(1), start.saturating_add(2)])
+    };
+    let sizes = rows.map(|row| {
+        let above = row.saturating_sub(1);
+        let below = libm::fabs(h[(row, above)]);
+        if turn % 4 < 2 { below } else { libm::sqrt(below * libm::fabs(h[(above, row)])) }
+    });
+    let size = sizes[0] + sizes[1];
+    let centre = h[(corner, corner)] + 0.75 * size;
+    (centre, centre, -0.4375 * size * size)
 }
 
 /// Sets an element below the diagonal to zero that is small beside its neighbours, or no larger than `least`; where the block that ends at `end` starts.
@@ -253,5 +266,32 @@ mod tests {
             eigenvalues(&DMatrix::zeros(5, 5)).expect("converges"),
             [Complex::new(0.0, 0.0); 5]
         );
+    }
+
+    /// Where sixty sweeps with EISPACK's shifts ended, in the loop of four gyros: commands that wait.
+    #[test]
+    fn a_block_of_waiting_commands_converges() {
+        let rows = [
+            [
+                5.154_023_689_902_691_6e-5,
+                1.616_814_243_421_939_5e-4,
+                -0.590_045_582_586_545,
+                -0.025_632_158_888_204_193,
+            ],
+            [
+                -5.024_703_614_498_882e-8,
+                5.300_534_076_095_114e-5,
+                0.051_850_615_852_135_99,
+                -0.575_898_395_565_054_4,
+            ],
+            [0.0, 4.337_378_144_060_083e-11, 6.700_805_125_602_642e-5, -1.573_810_091_634_119e-4],
+            [0.0, 0.0, 1.503_890_149_151_506e-6, 3.677_709_503_050_468e-5],
+        ];
+        let block = DMatrix::from_fn(4, 4, |row, column| rows[row][column]);
+        let found = eigenvalues(&block).expect("converges");
+        let sum: f64 = found.iter().map(|of| of.re).sum();
+        assert!((sum - block.trace()).abs() < 1e-15, "{sum} {}", block.trace());
+        let product: Complex<f64> = found.iter().product();
+        assert!((product.re - block.determinant()).abs() < 1e-4 * product.re.abs(), "{found:?}");
     }
 }
