@@ -21,6 +21,11 @@ static void lines(void)
         IS(precess_line_update(&line, TURN * k, 2.0, 1.0 + 2.0 * (0.03 * cosine - 0.04 * sine)), PRECESS_OK);
         sine = 0.8 * cosine + 0.6 * sine;
         cosine = next;
+        if (k % 20 == 19) {
+            IS(precess_line_estimate_of(&line, &found), PRECESS_OK);
+            bits(found.amplitude);
+            bits(found.phase);
+        }
     }
     IS(precess_line_estimate_of(&line, &found), PRECESS_OK);
     NEAR(found.mean, 1.0, 1e-12);
@@ -39,6 +44,11 @@ static void drags(void)
     for (k = 0; k < 200; k++) {
         rate += (0.01 - 1.5 * 0.004) * 0.01 / 0.0191;
         IS(precess_drag_update(&drag, 0.01, 0.01, 0.004, rate), PRECESS_OK);
+        if (k % 20 == 19) {
+            IS(precess_drag_estimate_of(&drag, &torque), PRECESS_OK);
+            bits(torque.coefficient);
+            bits(torque.rate);
+        }
     }
     IS(precess_drag_estimate_of(&drag, &torque), PRECESS_OK);
     NEAR(torque.coefficient, 1.5, 1e-9);
@@ -64,5 +74,5 @@ int main(void)
     lines();
     drags();
     rejections();
-    return finish(415);
+    return finish(435);
 }
