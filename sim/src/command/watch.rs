@@ -1,6 +1,7 @@
 //! `watch`: a scenario's model run along telemetry, and what has changed: alarms, and the quantities of every block.
 
 use std::fmt::Write as _;
+use std::fs;
 use std::io::Write as _;
 use std::path::PathBuf;
 
@@ -16,7 +17,7 @@ use super::progress::{end_by_interrupts, end_if_interrupted, uninterrupted};
 use super::table::six;
 use super::terminal::{note, print};
 use crate::file::from_file;
-use crate::record::partial::Partial;
+use crate::record::partial::{Partial, partial_name};
 use crate::telemetry::{Exclusion, TelemetryLayout, TelemetryRows};
 use crate::watch::{Alarm, Block, Test, Watch, WatchSettings, Watched};
 use precess_dynamics::units::{to_g_cm, to_g_cm2};
@@ -134,9 +135,13 @@ impl WatchCommand {
             .zip(references)
             .map(|((name, watched), reference)| (name.to_owned(), watched.clone(), reference))
             .collect();
-        uninterrupted(|| table.finish().map_err(io))?;
+        if let Err(source) = uninterrupted(|| table.finish()) {
+            let _ = fs::remove_file(partial_name(&path));
+            return Err(io(source));
+        }
         let json = found.json(rows.exclusions());
-        uninterrupted(|| outputs.write(&[(alarms.clone(), &json)]))?;
+        let written = uninterrupted(|| outputs.write(&[(alarms.clone(), &json)]));
+        written.map_err(|error| error.leaving(vec![path.clone()]))?;
         match self.format {
             Form::Json => print(&json)?,
             Form::Text => {
