@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
-import importlib.util
 import warnings
-from pathlib import Path
 
 from ._wanted import text
 
@@ -27,6 +24,11 @@ def is_cuda(backend: str) -> bool:
 
 def _load_compiler() -> None:
     """Loads NVRTC of PyPI, so that it is found by its name; whoever needs it says if it is not there."""
+    # Here, so that `import precess` does not take their time.
+    import ctypes
+    import importlib.util
+    from pathlib import Path
+
     for package in _PACKAGES:
         try:
             found = importlib.util.find_spec(package)

@@ -28,6 +28,7 @@ IMPORTED = {
     "precess._native",
     "precess._tables",
     "precess._wanted",
+    "precess._backend",
     "precess._batch_arguments",
     "precess.batch",
     "precess.columns",

@@ -12,6 +12,7 @@ mod budget;
 pub mod diagnostic;
 mod document;
 mod identification;
+pub mod identification_example;
 mod integrator;
 mod keys;
 mod load;

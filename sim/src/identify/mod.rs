@@ -22,7 +22,6 @@ pub mod device;
 mod directions;
 mod error;
 mod estimates;
-pub mod example;
 mod model;
 mod noise;
 mod pass;

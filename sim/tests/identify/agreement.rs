@@ -1,7 +1,8 @@
 //! Swapped axes and wrong units end with an error that names them.
 
+use precess::file::identification_example as example;
+use precess::identify::IdentifyError;
 use precess::identify::recording::Recording;
-use precess::identify::{IdentifyError, example};
 use precess::scenario::Scenario;
 
 use super::identified;

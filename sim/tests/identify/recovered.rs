@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 use std::fs;
 
+use precess::file::identification_example as example;
 use precess::file::identification_from_toml;
 use precess::fit::Estimate;
 use precess::identify::recording::Recording;
-use precess::identify::{Identified, Unknowns, example};
+use precess::identify::{Identified, Unknowns};
 use precess::scenario::Scenario;
 
 use super::identified;

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use precess::file::from_toml;
+use precess::file::identification_example as example;
 use precess::identify::recording::Recording;
-use precess::identify::{Direction, Identified, Unknown, UnknownPrior, Unknowns, example};
+use precess::identify::{Direction, Identified, Unknown, UnknownPrior, Unknowns};
 use precess::scenario::Scenario;
 use precess_dynamics::JointStates as _;
 

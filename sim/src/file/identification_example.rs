@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::IdentifyError;
-use super::recording::Recording;
-use crate::file::{Diagnostics, Numbers, Tables, from_program, from_toml};
+use super::{Diagnostics, Numbers, Tables, from_program, from_toml};
+use crate::identify::IdentifyError;
+use crate::identify::recording::Recording;
 use crate::scenario::Scenario;
 
 /// Names of its files.
