@@ -27,13 +27,15 @@ pub(crate) enum How {
     Command(&'static [&'static str]),
 }
 
+/// Folders and files whose change can break a suite, from the repository's root.
+type Folders = &'static [&'static [&'static str]];
+
 /// A suite.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Suite {
     pub(crate) how: How,
     pub(crate) when: When,
-    /// Folders and files whose change can break it, from the repository's root.
-    pub(crate) broken_by: &'static [&'static [&'static str]],
+    pub(crate) broken_by: Folders,
 }
 
 /// The derivation, its proofs, and what is emitted.
@@ -77,27 +79,15 @@ const BOARD: &[&str] = &["flight"];
 /// Pages.
 const PAGES: &[&str] = &["docs", "README.md", "CHANGELOG.md"];
 
-const fn always(
-    package: &'static str,
-    target: &'static str,
-    broken_by: &'static [&'static [&'static str]],
-) -> Suite {
+const fn always(package: &'static str, target: &'static str, broken_by: Folders) -> Suite {
     Suite { how: How::Target { package, target }, when: When::Always, broken_by }
 }
 
-const fn all(
-    package: &'static str,
-    target: &'static str,
-    broken_by: &'static [&'static [&'static str]],
-) -> Suite {
+const fn all(package: &'static str, target: &'static str, broken_by: Folders) -> Suite {
     Suite { how: How::Target { package, target }, when: When::All, broken_by }
 }
 
-const fn command(
-    words: &'static [&'static str],
-    when: When,
-    broken_by: &'static [&'static [&'static str]],
-) -> Suite {
+const fn command(words: &'static [&'static str], when: When, broken_by: Folders) -> Suite {
     Suite { how: How::Command(words), when, broken_by }
 }
 
