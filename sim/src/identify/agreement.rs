@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use precess_craft::Set;
 use precess_dynamics::{Each as _, Inputs, JointStates as _, State};
 
-use super::component::wheel_joint;
+use super::component::{tip_of, wheel_joint};
 use super::error::IdentifyError;
 use super::model::Model;
 use super::timeline::{Event, Timeline};
@@ -76,8 +76,9 @@ fn motors(scenario: &Scenario, telemetry: &Telemetry) -> Result<(), IdentifyErro
             continue;
         }
         let Some(own) = kinds.get(device) else { continue };
-        let tip = own.kind().joints().len().saturating_sub(1);
-        let inertia = own.parameters().bodies.get(tip).map_or(0.0, |body| body.inertia.m11);
+        let parameters = own.parameters();
+        let tip = tip_of(own).and_then(|tip| parameters.bodies.get(tip));
+        let inertia = tip.map_or(0.0, |body| body.inertia.m11);
         let (slope, explained) = by_integral(series, rates, inertia);
         if explained > RIGHT && (slope * 1e3 - 1.0).abs() < 2.0 * NEAR {
             let sensor = series.name.clone();

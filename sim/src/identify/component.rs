@@ -5,7 +5,7 @@
 //! any value, zero included, where `U_s` and a phase are not.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Axis, JointStates as _};
+use precess_dynamics::{BuiltIn, JointStates as _};
 
 use super::error::IdentifyError;
 use crate::scenario::Scenario;
@@ -92,15 +92,6 @@ const ELEMENTS: [(usize, usize, &str); 6] =
     [(0, 0, "xx"), (1, 1, "yy"), (2, 2, "zz"), (0, 1, "xy"), (0, 2, "xz"), (1, 2, "yz")];
 const LETTERS: [&str; 3] = ["x", "y", "z"];
 
-/// The axis of a number.
-pub(super) fn axis(index: usize) -> Axis {
-    match index {
-        0 => Axis::X,
-        1 => Axis::Y,
-        _ => Axis::Z,
-    }
-}
-
 /// Whether a device has a wheel that may be off balance.
 pub(super) fn has_imbalance(scenario: &Scenario, device: usize) -> bool {
     let of = scenario.devices_on_hub().and_then(|all| all.get(device).copied());
@@ -110,6 +101,11 @@ pub(super) fn has_imbalance(scenario: &Scenario, device: usize) -> bool {
 /// The joint of the tip of a device, which is that of its wheel.
 pub(super) fn wheel_joint(scenario: &Scenario, device: usize) -> Option<usize> {
     scenario.joints().enumerate().filter(|(_, (of, ..))| *of == device).last().map(|(k, _)| k)
+}
+
+/// The number of the last body of a device, which is the wheel where it has one.
+pub(super) fn tip_of(device: &BuiltIn) -> Option<usize> {
+    device.kind().joints().len().checked_sub(1)
 }
 
 /// The state at the start, as sensors have it.
@@ -203,9 +199,9 @@ fn add_unknown(
                 return Err(IdentifyError::NoWheel { device: name_of(device) });
             };
             let name = name_of(device);
-            let tip = own.kind().joints().len().saturating_sub(1);
             let parameters = own.parameters();
-            let Some(body) = parameters.bodies.get(tip) else { return Ok(()) };
+            let tip = tip_of(own).and_then(|tip| parameters.bodies.get(tip));
+            let Some(body) = tip else { return Ok(()) };
             for (k, letter) in ["y", "z"].into_iter().enumerate() {
                 let value = body.mass * body.centre[k + 1];
                 let target = Target::Static(device, k);
@@ -227,12 +223,10 @@ fn add_unknown(
         }
         Unknown::Viscous(joint) | Unknown::Coulomb(joint) => {
             let Some((device, name, info)) = scenario.joints().nth(joint) else { return Ok(()) };
-            let first = scenario.joints().position(|(of, ..)| of == device).unwrap_or_default();
             let Some(own) = devices.get(device) else { return Ok(()) };
             let parameters = own.parameters();
-            let place = joint - first;
             let (Some(passive), Some(body)) =
-                (parameters.passive.get(place), parameters.bodies.get(place))
+                (parameters.passive.get(info.index), parameters.bodies.get(info.index))
             else {
                 return Ok(());
             };

@@ -171,7 +171,7 @@ impl Identified {
         self.residuals.iter().all(|of| of.holds)
     }
 
-    /// Whether data or priors tell everything that was asked for.
+    /// Whether data or priors tell all that is unknown.
     #[must_use]
     pub fn is_told(&self) -> bool {
         self.untold.iter().all(|of| of.has_prior)

@@ -8,11 +8,11 @@ use precess_control::rotation;
 use precess_craft::Set;
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{
-    BuiltIn, DeviceParameters, Each as _, Hub, HubMode, Inputs, JointStates as _, Mode,
+    Axis, BuiltIn, DeviceParameters, Each as _, Hub, HubMode, Inputs, JointStates as _, Mode,
     ParameterDirection, Passive, Spacecraft, State, Variable,
 };
 
-use super::component::{Component, Target, axis, wheel_joint};
+use super::component::{Component, Target, tip_of, wheel_joint};
 use super::error::IdentifyError;
 use crate::scenario::{Drive, Profile, Scenario};
 
@@ -183,7 +183,9 @@ impl Values {
         for (device, tilt) in tilts.iter().enumerate() {
             let parameters = &mut devices[device];
             parameters.mount = Rotation3::new(*tilt).matrix() * parameters.mount;
-            let (Some([s, j]), Some(tip)) = (imbalances[device], tip_of(kinds, device)) else {
+            let (Some([s, j]), Some(tip)) =
+                (imbalances[device], kinds.get(device).and_then(tip_of))
+            else {
                 continue;
             };
             let angle = if s == [0.0; 2] { 0.0 } else { s[1].atan2(s[0]) };
@@ -217,7 +219,7 @@ impl Values {
         let mut direction = ParameterDirection::none();
         let mut change = Vec::new();
         let none = || kinds.iter().map(no_change).collect::<Vec<_>>();
-        let tip = |device| tip_of(kinds, device);
+        let tip = |device: usize| kinds.get(device).and_then(tip_of);
         // The axis of the scenario's angle in those of the wheel.
         let turned = |device: usize, k: usize| {
             let (sine, cosine) = self.angles[device].sin_cos();
@@ -262,9 +264,11 @@ impl Values {
             }
             Target::Attitude(k) => {
                 let turn = left(&-self.attitude, k);
-                change.extend((0..3).map(|row| (Variable::Attitude(axis(row)), turn[row])));
+                change.extend(
+                    Axis::ALL.into_iter().map(Variable::Attitude).zip(turn.iter().copied()),
+                );
             }
-            Target::Omega(k) => change.push((Variable::Omega(axis(k)), 1.0)),
+            Target::Omega(k) => change.push((Variable::Omega(Axis::ALL[k]), 1.0)),
             Target::Coordinate(joint) => change.push((Variable::Coordinate(joint), 1.0)),
             Target::Rate(joint) => change.push((Variable::Rate(joint), 1.0)),
         }
@@ -272,13 +276,8 @@ impl Values {
     }
 }
 
-fn tip_of(kinds: &[BuiltIn], device: usize) -> Option<usize> {
-    kinds.get(device)?.kind().joints().len().checked_sub(1)
-}
-
 /// Device and place in it of a joint.
 fn place_of(scenario: &Scenario, joint: usize) -> Option<(usize, usize)> {
-    let (device, ..) = scenario.joints().nth(joint)?;
-    let first = scenario.joints().position(|(of, ..)| of == device)?;
-    Some((device, joint - first))
+    let (device, _, info) = scenario.joints().nth(joint)?;
+    Some((device, info.index))
 }

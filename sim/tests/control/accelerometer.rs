@@ -1,4 +1,4 @@
-//! An accelerometer in the loop: what it reads of the truth, its noise, and who is told.
+//! An accelerometer in the loop: what it reads of the truth, its noise, and who reads it.
 
 use precess::control::{Command, Controller, ControllerError, ControllerSample};
 use precess::engine::{Advance, Run, RunQuantities};
@@ -102,7 +102,7 @@ fn its_noise_has_the_stated_density() {
     assert!((variance / stated - 1.0).abs() < 0.075, "{variance:e} {stated:e}");
 }
 
-/// No torque; it notes what it is told.
+/// No torque; it notes what it reads.
 struct Listening(std::sync::mpsc::Sender<Option<[f64; 3]>>);
 
 impl Controller for Listening {
