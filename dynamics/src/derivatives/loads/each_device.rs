@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use crate::derivatives::loads::device_reduction::JointModes;
 use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled};
 #[cfg(feature = "lanes")]
-use crate::derivatives::loads::kernel_in_lanes::{Found, GroupKernel, Slopes};
+use crate::derivatives::loads::kernel_in_lanes::{Found, GroupKernel, LanedKernel, Slopes};
 use crate::derivatives::loads::kernel_loads::{KernelInputs, KernelLoads};
 use crate::derivatives::loads::load_columns::{GivenJoints, LoadColumns, LoadsWorkspace};
 use crate::equations::arithmetic::Arithmetic;
@@ -162,26 +162,23 @@ impl<T: Scalar> EachDevice<'_, T> {
         let modes = members.each_ref().map(|(_, modes, _)| JointModes::of::<K>(modes));
         let [first, ..] = modes;
         let alike = modes.iter().all(|of| *of == first) && self.found.eliminated.is_none();
-        let mut kernel = GroupKernel {
+        let kernel = LanedKernel {
             group,
             joints: members.each_ref().map(|(joints, ..)| *joints),
             accelerations: members.each_ref().map(|(.., accelerations)| *accelerations),
             omega: self.omega,
             hub: self.hub,
-            to: Found::Eliminated { modes: first, slopes: None, columns: &mut *self.found },
         };
         if alike {
             let slopes = (!group.blocks.free).then(|| slopes(devices, &kernel.joints));
-            if let Found::Eliminated { slopes: to, .. } = &mut kernel.to {
-                *to = slopes.as_ref();
-            }
-            return kernel.run();
+            let (slopes, columns) = (slopes.as_ref(), &mut *self.found);
+            return GroupKernel { kernel, to: Found::Eliminated { modes: first, slopes, columns } }
+                .run();
         }
         // Of the widest group so far: a narrower one has the first of them.
         self.loads.resize(width.max(self.loads.len()), KernelLoads::none());
         let lanes = self.loads.get_mut(..width)?;
-        kernel.to = Found::Loads(&mut *lanes);
-        kernel.run()?;
+        GroupKernel { kernel, to: Found::Loads(&mut *lanes) }.run()?;
         // The rest of the row follows the group, and members beyond it repeat its last.
         let each = devices.zip(members).zip(modes).zip(lanes).take(group.devices);
         for (((device, (joints, ..)), modes), loads) in each {

@@ -23,13 +23,49 @@ use crate::numbers::real::Scalar;
 use crate::numbers::vec3::{Columns, Vec3, map, rotate_transposed};
 
 /// Devices whose kernel is to be evaluated; lanes without a device repeat the last.
-pub(crate) struct GroupKernel<'a, K: Kind> {
+pub(crate) struct LanedKernel<'a, K: Kind> {
     pub(crate) group: &'a DeviceGroup<K>,
     pub(crate) joints: [&'a K::Joints<K::Scalar>; WIDEST],
     pub(crate) accelerations: [&'a K::Accelerations<K::Scalar>; WIDEST],
     /// How their base moves, in its axes.
     pub(crate) omega: Vec3<K::Scalar>,
     pub(crate) hub: HubAccelerations<K::Scalar>,
+}
+
+impl<K: Kind> LanedKernel<'_, K> {
+    /// The derivatives, along the axes of the device of each lane, which are the other. None where lanes do not support
+    /// the devices or the angles.
+    #[inline(always)]
+    pub(crate) fn evaluate<T: Number>(
+        self,
+        zero: T,
+    ) -> Option<(LoadDerivatives<K, T>, Columns<T>)> {
+        let Self { group, joints, accelerations, omega, hub } = self;
+        if group.blocks.is_lumped() {
+            return None;
+        }
+        let joints = joints_in_lanes::<K, T>(zero, joints);
+        let holds = zero.like(1.0).or(within_reach::<K, T>(zero, &joints), zero).store();
+        if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
+            return None;
+        }
+        let accelerations = accelerations_in_lanes::<K, T>(zero, accelerations);
+        let mount = group.blocks.loads_in_lanes(zero).mount;
+        let hub = Solution {
+            r_b_n_ddot: within(zero, &mount, hub.r_b_n_ddot),
+            omega_dot: within(zero, &mount, hub.omega_dot),
+        };
+        let (hub, omega) = (hub.expressed_in_b(), expressed_in_b(within(zero, &mount, omega)));
+        let pose = K::pose(&joints);
+        let constants = group.blocks.in_lanes(zero).constants;
+        let found = K::load_derivatives(&constants, &pose, &joints, &omega, &hub, &accelerations)?;
+        Some((found, mount))
+    }
+}
+
+/// Devices, and where their derivatives are written.
+pub(crate) struct GroupKernel<'a, K: Kind> {
+    pub(crate) kernel: LanedKernel<'a, K>,
     pub(crate) to: Found<'a, K>,
 }
 
@@ -55,7 +91,7 @@ impl<K: Kind> GroupKernel<'_, K> {
     /// Never inlined: one function of a kind and a width for all sets.
     #[inline(never)]
     pub(crate) fn run(self) -> Option<()> {
-        self.group.registers.dispatch(self)
+        self.kernel.group.registers.dispatch(self)
     }
 }
 
@@ -71,25 +107,9 @@ impl<K: Kind> WithSimd for GroupKernel<'_, K> {
 impl<K: Kind> GroupKernel<'_, K> {
     #[inline(always)]
     fn evaluate<T: Number>(self, zero: T) -> Option<()> {
-        let Self { group, joints, accelerations, omega, hub, to } = self;
-        if group.blocks.is_lumped() {
-            return None;
-        }
-        let joints = joints_in_lanes::<K, T>(zero, joints);
-        let holds = zero.like(1.0).or(within_reach::<K, T>(zero, &joints), zero).store();
-        if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
-            return None;
-        }
-        let accelerations = accelerations_in_lanes::<K, T>(zero, accelerations);
-        let mount = group.blocks.loads_in_lanes(zero).mount;
-        let hub = Solution {
-            r_b_n_ddot: within(zero, &mount, hub.r_b_n_ddot),
-            omega_dot: within(zero, &mount, hub.omega_dot),
-        };
-        let (hub, omega) = (hub.expressed_in_b(), expressed_in_b(within(zero, &mount, omega)));
-        let pose = K::pose(&joints);
-        let constants = group.blocks.in_lanes(zero).constants;
-        let found = K::load_derivatives(&constants, &pose, &joints, &omega, &hub, &accelerations)?;
+        let Self { kernel, to } = self;
+        let group = kernel.group;
+        let (found, mount) = kernel.evaluate(zero)?;
         match to {
             Found::Loads(loads) => match T::WIDTH {
                 2 => write::<K, T, 2>(&found, loads),
@@ -126,7 +146,7 @@ fn write<K: Kind, T: Number, const WIDTH: usize>(
 
 /// A vector in the axes of the device of each lane.
 #[inline(always)]
-fn within<U: Scalar, T: Number>(like: T, mount: &Columns<T>, v: Vec3<U>) -> Vec3<T> {
+pub(crate) fn within<U: Scalar, T: Number>(like: T, mount: &Columns<T>, v: Vec3<U>) -> Vec3<T> {
     rotate_transposed(mount, map(v, |number| like.like(number.to_f64())))
 }
 

@@ -18,6 +18,7 @@ use crate::generated::devices::*;
 use crate::model::kind::{JointInfo, Kind, no_body};
 use crate::numbers::vec3::components;
 use crate::sets::devices::DeviceSet;
+use crate::sets::with_numbers::WithNumbers;
 use crate::{
     BuiltIn, Each as _, Hub, ImbalanceModel, Inputs, JointStates as _, Mode, Passive, Spacecraft,
     State,
@@ -125,6 +126,22 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
     format!("{of_joints:?} {omega:?} {gains:?} {eliminated:?} {matrix:?}")
 }
 
+/// Accelerations with their derivatives along a direction, and the gradient of a weighted sum: to the bit.
+fn products<D: WithNumbers<Scalar = f64>>(
+    craft: &Spacecraft<D>,
+    state: &State<D>,
+    inputs: &Inputs<D>,
+    numbers: &mut Numbers,
+) -> Option<String> {
+    let [states, acting] =
+        [craft.state_variables(inputs).count(), craft.input_variables(inputs).count()];
+    let mut some = |count: usize| -> Vec<_> { (0..count).map(|_| numbers.next()).collect() };
+    let (mut of_state, mut of_inputs) = (some(states), some(acting));
+    let (accelerations, along) = craft.jvp(state, inputs, (&of_state, &of_inputs)).ok()?;
+    craft.vjp(state, inputs, &along, (&mut of_state, &mut of_inputs)).ok()?;
+    Some(format!("{accelerations:?} {along:?} {of_state:?} {of_inputs:?}"))
+}
+
 fn compare<K: Kind<Scalar = f64>>(rows: [usize; 2]) {
     let joints = [Joints::OfAnyMode, Joints::Driven, Joints::DrivenWithoutSprings];
     for joints in joints {
@@ -167,6 +184,15 @@ fn compare_with<K: Kind<Scalar = f64>>([first, wheels]: [usize; 2], joints: Join
         let one_by_one = found(&single, &state, &inputs, &mut Numbers(seed), keeping);
         assert!(side_by_side == one_by_one, "{} and wheels: {first}, {wheels}", K::NAME);
     }
+    // A locked joint must not move.
+    for ([_, rate], mode) in state.devices.states_mut().zip(inputs.modes.values()) {
+        *rate = if mode == Mode::Locked { 0.0 } else { *rate };
+    }
+    let [side_by_side, one_by_one] =
+        [&craft, &single].map(|craft| products(craft, &state, &inputs, &mut Numbers(seed)));
+    assert!(side_by_side.is_some(), "{}: no products", K::NAME);
+    assert!(side_by_side == one_by_one, "{} and wheels: {first}, {wheels}", K::NAME);
+    assert_eq!(FALLBACKS.get(), 0, "{} and wheels: {first}, {wheels}", K::NAME);
     if first.max(wheels) >= 4 && Registers::widest().is_some() {
         let [of_kind, of_wheels] = [
             craft.devices.0.iter().any(|device| device.group.is_some()),
