@@ -37,15 +37,10 @@ impl<'a, T: Scalar> Emitted<'a, T> {
         on_hub.or_else(|| ByTree::new(craft, state, inputs, accelerations).map(Self::OfTree))
     }
 
-    /// All four matrices, whole; false where that has to be done column by column.
-    pub(crate) fn fill_matrices(
-        &self,
-        slopes: &Slopes<'_, T>,
-        lists: (&[Variable], &[Variable]),
-        into: [Both<'_, T>; 2],
-    ) -> bool {
+    /// All four matrices by all states and inputs, whole; false where that has to be done column by column.
+    pub(crate) fn fill_matrices(&self, slopes: &Slopes<'_, T>, into: [Both<'_, T>; 2]) -> bool {
         match self {
-            Self::OnHub(found) => found.fill_matrices(slopes, lists, into),
+            Self::OnHub(found) => found.fill_matrices(slopes, into),
             Self::OfTree(_) => false,
         }
     }

@@ -165,7 +165,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let rows = Slopes::new(self, state, inputs, accelerations, moving);
         let emitted = self.emitted(at, accelerations, outputs, loads);
         if let Some(emitted) = &emitted
-            && emitted.fill_matrices(&rows, lists, [[&mut *c, &mut *a], [&mut *d, &mut *b]])
+            && emitted.fill_matrices(&rows, [[&mut *c, &mut *a], [&mut *d, &mut *b]])
         {
             return Ok(());
         }

@@ -105,7 +105,7 @@ impl<'a, T: Scalar> Slopes<'a, T> {
 
     /// Adds what the variables change slopes by at given accelerations; the first of which the hub's are not finite.
     #[inline(always)]
-    pub(crate) fn of_variables(
+    fn of_variables(
         &self,
         by: &[Variable],
         rows: usize,
@@ -171,7 +171,7 @@ impl<'a, T: Scalar> Slopes<'a, T> {
 
     /// Adds what a variable changes slopes by at given accelerations; false where that of B in N is among it.
     #[inline(always)]
-    fn of_variable(&self, by: Variable, slopes: &mut [T]) -> bool {
+    pub(crate) fn of_variable(&self, by: Variable, slopes: &mut [T]) -> bool {
         let unit = |axis: Axis| Axis::ALL.map(|other| if other == axis { one() } else { zero() });
         let of_joints = if self.hub { OF_HUB } else { 0 };
         let moved = match by {

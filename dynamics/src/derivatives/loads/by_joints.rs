@@ -6,12 +6,13 @@
 
 use nalgebra::DMatrix;
 
-use crate::derivatives::loads::by_loads::{ByLoads, Change, Own};
+use crate::derivatives::loads::by_loads::{ByLoads, Change};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
 use crate::derivatives::loads::load_columns::JointColumns;
+use crate::derivatives::loads::mass_system::{Block, Gains, less};
 use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER};
 use crate::derivatives::slopes::{OF_HUB, Slopes};
-use crate::derivatives::variable::Variable;
+use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Columns as Axes, Vec3, rotate_transposed, zeros};
@@ -29,22 +30,23 @@ type BothColumns<'a, T> = [&'a mut [T]; 2];
 struct Matrices<'a, T> {
     loads: &'a ByLoads<'a, T>,
     slopes: &'a Slopes<'a, T>,
-    states: &'a [Variable],
-    inputs: &'a [Variable],
     by_states: Both<'a, T>,
     by_inputs: Both<'a, T>,
 }
 
 impl<T: Scalar> ByLoads<'_, T> {
-    /// Fills them by these states and inputs. False, and what was written has no meaning, where a joint is locked or
-    /// has no input, and where a number is not finite: which one it is has to be found another way.
+    /// Fills them by all states and inputs, in the order of [`Spacecraft::state_variables`] and
+    /// [`Spacecraft::input_variables`]. False, and what was written has no meaning, where a joint is locked or has no input,
+    /// and where a number is not finite: which one it is has to be found another way.
+    ///
+    /// [`Spacecraft::state_variables`]: crate::Spacecraft::state_variables
+    /// [`Spacecraft::input_variables`]: crate::Spacecraft::input_variables
     pub(crate) fn fill_matrices(
         &self,
         slopes: &Slopes<'_, T>,
-        (states, inputs): (&[Variable], &[Variable]),
         [by_states, by_inputs]: [Both<'_, T>; 2],
     ) -> bool {
-        let of = Matrices { loads: self, slopes, states, inputs, by_states, by_inputs };
+        let of = Matrices { loads: self, slopes, by_states, by_inputs };
         let finite = match self.by {
             #[cfg(feature = "lanes")]
             Arithmetic::Dispatched(cpu) => cpu.dispatch(of),
@@ -68,53 +70,32 @@ impl<T: Scalar> Matrices<'_, T> {
     /// Whether all numbers are finite; none where a joint has other variables.
     #[inline(always)]
     fn fill(self) -> Option<bool> {
-        let Self { loads, slopes, states, inputs, by_states, by_inputs } = self;
+        let Self { loads, slopes, by_states, by_inputs } = self;
         let joints = loads.devices.joints();
-        let of_hub = states.len().checked_sub(joints.len().checked_mul(2)?)?;
-        let (states_of_hub, of_joints) = states.split_at_checked(of_hub)?;
-        let (coordinates, rates) = of_joints.split_at_checked(joints.len())?;
-        let given = inputs.len().checked_sub(joints.len())?;
-        let (inputs_of_hub, drives) = inputs.split_at_checked(given)?;
-        let lists = coordinates.iter().zip(rates).zip(drives).zip(joints).enumerate();
-        let mut regular = true;
-        for (joint, (((coordinate, rate), drive), of)) in lists {
-            regular &= matches!(coordinate, Variable::Coordinate(own) if *own == joint);
-            regular &= matches!(rate, Variable::Rate(own) if *own == joint);
-            regular &= match drive {
-                Variable::Motor(own) => of.free && *own == joint,
-                Variable::Acceleration(own) => !of.free && *own == joint,
-                _ => false,
-            };
-        }
+        let (of_hub, given) = if slopes.hub { (OF_HUB, 6) } else { (0, 0) };
+        let [states, inputs] = [&by_states, &by_inputs].map(|[of, _]| of.ncols());
+        let regular = slopes.moving.len() == joints.len()
+            && states == joints.len().checked_mul(2)?.checked_add(of_hub)?
+            && inputs == joints.len().checked_add(given)?;
         if !regular {
             return None;
         }
-        let [by_states, by_inputs] = [by_states, by_inputs].map(|[accelerations, slopes]| {
-            let heights = [accelerations.nrows(), slopes.nrows()];
-            ([accelerations.as_mut_slice(), slopes.as_mut_slice()], heights)
-        });
-        let (by_states, heights) = by_states;
+        let [(by_states, heights), (by_inputs, _)] =
+            [by_states, by_inputs].map(|[accelerations, slopes]| {
+                let heights = [accelerations.nrows(), slopes.nrows()];
+                ([accelerations.as_mut_slice(), slopes.as_mut_slice()], heights)
+            });
         let (hub, joints_of) = split(by_states, heights, of_hub)?;
         let (by_coordinates, by_rates) = split(joints_of, heights, joints.len())?;
-        let (given, by_drives) = split(by_inputs.0, heights, given)?;
-        let columns = Columns { loads, turned: slopes.hub.then_some(&slopes.bn) };
+        let (given, by_drives) = split(by_inputs, heights, given)?;
+        let columns =
+            Columns { gains: &loads.devices.gains, turned: slopes.hub.then_some(&slopes.bn) };
         let mut all = Finiteness::of_none();
-        let [accelerations, slopes_of] = hub;
-        // Most of these stay zero.
-        let (still, _) =
-            split([&mut *accelerations, &mut *slopes_of], heights, BEFORE_OMEGA.min(of_hub))?;
-        for columns in still {
-            columns.fill(zero());
-        }
-        let both = [&mut *accelerations, &mut *slopes_of];
-        for (variable, both) in states_of_hub.iter().zip(each(both, heights)) {
-            if let Some(change) = loads.change(*variable) {
-                columns.fill_hub(change, both, &mut all)?;
+        if slopes.hub {
+            loads.fill_hub(slopes, &columns, (hub, heights), &mut all)?;
+            for (base, both) in loads.by_hub().iter().zip(each(given, heights)) {
+                columns.fill(base, [zero(); 3], both, &mut all)?;
             }
-        }
-        let finite = slopes.of_variables(states_of_hub, heights[1], slopes_of, true).is_ok();
-        for (variable, both) in inputs_of_hub.iter().zip(each(given, heights)) {
-            columns.fill_hub(loads.change(*variable)?, both, &mut all)?;
         }
         let of_joints = each(by_coordinates, heights).zip(each(by_rates, heights));
         let of_joints = of_joints.zip(each(by_drives, heights)).zip(joints).enumerate();
@@ -124,16 +105,61 @@ impl<T: Scalar> Matrices<'_, T> {
             columns.fill_joint(of, &in_n, COORDINATE, by_coordinate, &mut all)?;
             columns.fill_joint(of, &in_n, DRIVE, by_drive, &mut all)?;
             columns.fill_joint(of, &in_n, RATE, [accelerations, &mut *slopes], &mut all)?;
-            let first = if columns.turned.is_some() { OF_HUB } else { 0 };
-            *slopes.get_mut(first.wrapping_add(joint))? = one();
+            *slopes.get_mut(of_hub.wrapping_add(joint))? = one();
         }
-        Some(finite && all.holds())
+        Some(all.holds())
+    }
+}
+
+impl<T: Scalar> ByLoads<'_, T> {
+    /// By the states of the hub.
+    #[inline(always)]
+    fn fill_hub(
+        &self,
+        slopes: &Slopes<'_, T>,
+        columns: &Columns<'_, T>,
+        (hub, heights): (BothColumns<'_, T>, [usize; 2]),
+        finite: &mut Finiteness<T>,
+    ) -> Option<()> {
+        let ([accelerations, slopes_of], by_omega) = split(hub, heights, BEFORE_OMEGA)?;
+        // Most of these stay zero.
+        accelerations.fill(zero());
+        slopes_of.fill(zero());
+        let (_, others) = split([accelerations, slopes_of], heights, 3)?;
+        let (by_attitude, [_, by_velocity]) = split(others, heights, 3)?;
+        for (axis, [accelerations, slopes_of]) in
+            Axis::ALL.into_iter().zip(each(by_attitude, heights))
+        {
+            let by = Variable::Attitude(axis);
+            if let Some(Change { base, field, .. }) = self.change(by) {
+                let field = field.unwrap_or_else(zeros);
+                columns.fill(&base, field, [accelerations, &mut *slopes_of], finite)?;
+            }
+            slopes.of_variable(by, slopes_of);
+            let [attitude, velocity] = slopes_of.get(3..9)?.as_chunks::<3>().0 else {
+                return None;
+            };
+            finite.see_each(attitude);
+            finite.see_each(velocity);
+        }
+        for (axis, slopes_of) in by_velocity.chunks_exact_mut(heights[1].max(1)).enumerate() {
+            *slopes_of.get_mut(axis)? = one();
+        }
+        let in_n = columns.in_n_of_group(&self.by_omega);
+        self.by_omega.iter().chain(&in_n).for_each(|row| finite.see(row));
+        for (axis, [accelerations, slopes_of]) in each(by_omega, heights).enumerate() {
+            let own = |found, block: &_| less(found, block, axis);
+            let of = (&self.by_omega, &in_n, axis);
+            columns.fill_place(of, own, [accelerations, &mut *slopes_of], finite)?;
+            *slopes_of.get_mut(axis.wrapping_add(3))? = one();
+        }
+        Some(())
     }
 }
 
 /// Column by column.
 struct Columns<'a, T> {
-    loads: &'a ByLoads<'a, T>,
+    gains: &'a Gains<T>,
     /// `[BN]`; none where the hub is fixed: it has no states.
     turned: Option<&'a Axes<T>>,
 }
@@ -156,20 +182,18 @@ impl<T: Scalar> Columns<'_, T> {
     fn fill_joint(
         &self,
         of: &JointColumns<T>,
-        [x, y, z]: &[[T; TOGETHER]; 3],
+        in_n: &[[T; TOGETHER]; 3],
         place: usize,
         both: BothColumns<'_, T>,
         finite: &mut Finiteness<T>,
     ) -> Option<()> {
-        let place = place % TOGETHER;
-        let [a, b, c, d, e, f] = &of.hub;
-        let base = [a[place], b[place], c[place], d[place], e[place], f[place]];
-        let in_n = [x[place], y[place], z[place]];
-        let [joints, rates] = self.follow(&base, (&base, in_n), both, finite)?;
-        let own = joints.get_mut(of.first..)?.iter_mut().zip(rates.get_mut(of.first..)?);
+        let [joints, rates] =
+            self.fill_place((&of.hub, in_n, place), |found, _| found, both, finite)?;
+        let last = of.first.wrapping_add(of.count);
+        let own = joints.get_mut(of.first..last)?.iter_mut().zip(rates.get_mut(of.first..last)?);
         let mut sum = zero::<T>();
-        for (line, (to, rate)) in of.less.get(..of.count)?.iter().zip(own) {
-            let found = *to - line[place];
+        for (line, (to, rate)) in of.less.iter().zip(own) {
+            let found = *to - line[place % TOGETHER];
             (*to, *rate) = (found, found);
             sum = sum + found;
         }
@@ -177,27 +201,38 @@ impl<T: Scalar> Columns<'_, T> {
         Some(())
     }
 
-    /// By a variable of the hub, but for what it changes slopes by at given accelerations.
+    /// What follows the hub's accelerations in a place of a group, as `own` changes it.
     #[inline(always)]
-    fn fill_hub(
+    fn fill_place<'b>(
         &self,
-        Change { base, field, own }: Change<'_, T>,
+        (hub, [x, y, z], place): (&HubGroup<T>, &[[T; TOGETHER]; 3], usize),
+        own: impl Fn([T; TOGETHER], &Block<T>) -> [T; TOGETHER],
+        both: BothColumns<'b, T>,
+        finite: &mut Finiteness<T>,
+    ) -> Option<BothColumns<'b, T>> {
+        let place = place % TOGETHER;
+        let [a, b, c, d, e, f] = hub;
+        let base = [a[place], b[place], c[place], d[place], e[place], f[place]];
+        self.follow(&base, (&base, [x[place], y[place], z[place]]), own, both, finite)
+    }
+
+    /// What follows these accelerations of the hub, to which those of the field are added.
+    #[inline(always)]
+    fn fill(
+        &self,
+        base: &Six<T>,
+        [x, y, z]: Vec3<T>,
         both: BothColumns<'_, T>,
         finite: &mut Finiteness<T>,
     ) -> Option<()> {
-        let ([a, b, c, d, e, f], [x, y, z]) = (base, field.unwrap_or_else(zeros));
+        let [a, b, c, d, e, f] = *base;
         let hub = [a + x, b + y, c + z, d, e, f];
         let of_b = [hub[0], hub[1], hub[2]];
         let in_n = self.turned.map_or_else(zeros, |bn| rotate_transposed(bn, of_b));
         finite.see_each(&of_b);
         finite.see_each(&[d, e, f]);
         finite.see_each(&in_n);
-        let [joints, rates] = self.follow(&base, (&hub, in_n), both, finite)?;
-        if let Own::All(axis) = own {
-            self.loads.devices.gains.subtract_by_omega(axis as usize, joints);
-            rates.iter_mut().zip(&*joints).for_each(|(to, from)| *to = *from);
-            joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
-        }
+        self.follow(base, (&hub, in_n), |found, _| found, both, finite)?;
         Some(())
     }
 
@@ -208,6 +243,7 @@ impl<T: Scalar> Columns<'_, T> {
         &self,
         base: &Six<T>,
         (hub, [x, y, z]): (&Six<T>, Vec3<T>),
+        own: impl Fn([T; TOGETHER], &Block<T>) -> [T; TOGETHER],
         [accelerations, slopes]: BothColumns<'b, T>,
         finite: &mut Finiteness<T>,
     ) -> Option<BothColumns<'b, T>> {
@@ -221,8 +257,7 @@ impl<T: Scalar> Columns<'_, T> {
             rest = of_joints;
         }
         let (coordinates, rates) = rest.split_at_mut_checked(joints.len())?;
-        let gains = &self.loads.devices.gains;
-        gains.follow_twice(base, [&mut *joints, &mut *rates, coordinates], finite);
+        self.gains.follow_twice(base, own, [&mut *joints, &mut *rates, coordinates], finite);
         (rates.len() == joints.len()).then_some([joints, rates])
     }
 }

@@ -13,7 +13,7 @@ use crate::derivatives::loads::each_device::{EachDevice, Moving};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
 use crate::derivatives::loads::load_columns::{JointColumns, LoadColumns, LoadsWorkspace};
 use crate::derivatives::loads::mass_system::MassSystem;
-use crate::derivatives::loads::side_by_side::{Finiteness, Six, TOGETHER, are_finite};
+use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER, are_finite};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::arithmetic::Arithmetic;
@@ -37,8 +37,8 @@ pub(crate) struct ByLoads<'a, T> {
     /// Of the joints, with the hub's accelerations for the right side of its equations.
     pub(crate) devices: &'a LoadColumns<T>,
     system: MassSystem<T>,
-    hub: HubConstants<T>,
-    omega: Vec3<T>,
+    /// The hub's accelerations by each component of its angular velocity.
+    pub(crate) by_omega: HubGroup<T>,
     /// A uniform field, B axes.
     gravity: Vec3<T>,
     hub_is_free: bool,
@@ -71,14 +71,15 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
         let devices = &mut workspace.columns;
-        let reduction = HubReduction { hub: &craft.hub, mass: craft.mass(), devices, hub_is_free };
-        let system = match by {
+        let (hub, mass) = (&craft.hub, craft.mass());
+        let reduction = HubReduction { hub, omega, mass, devices, hub_is_free };
+        let (system, by_omega) = match by {
             #[cfg(feature = "lanes")]
             Arithmetic::Dispatched(cpu) => cpu.dispatch(reduction),
             Arithmetic::Portable => reduction.run(),
         };
         let devices = &mut workspace.columns;
-        Some(Self { by, devices, system, hub: craft.hub, omega, gravity, hub_is_free })
+        Some(Self { by, devices, system, by_omega, gravity, hub_is_free })
     }
 
     /// The accelerations' derivatives by these variables into the columns of a matrix, whose other rows stay as they
@@ -164,21 +165,29 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
                 return Some(Change { base, field: Some(field), own: Own::None });
             }
             Variable::Omega(axis) => {
-                let own = of_both(self.hub.loads_by_omega(self.omega, unit(axis)));
-                let mut right = still;
-                for ((to, own), devices) in right.iter_mut().zip(own).zip(&self.devices.omega) {
-                    *to = devices[place(axis)] - own;
-                }
-                let base = self.system.hub(&right, still);
+                let base = self.by_omega.map(|row| row[place(axis)]);
                 return Some(Change { base, field: None, own: Own::All(axis) });
             }
-            Variable::Force(axis) => self.system.hub_by_unit(place(axis)),
-            Variable::TorqueB(axis) => self.system.hub_by_unit(place(axis).wrapping_add(3)),
+            Variable::Force(axis) => *self.system.hub_by_units()?.get(place(axis))?,
+            Variable::TorqueB(axis) => {
+                *self.system.hub_by_units()?.get(place(axis).wrapping_add(3))?
+            }
             Variable::HubAcceleration(axis) => of_both([unit(axis), zeros]),
             Variable::HubAngularAcceleration(axis) => of_both([zeros, unit(axis)]),
             _ => return None,
         };
         Some(Change { base, field: None, own: Own::None })
+    }
+
+    /// The hub's accelerations by its inputs: by force and torque, by themselves where they are given.
+    #[inline(always)]
+    pub(crate) fn by_hub(&self) -> [Six<T>; 6] {
+        let units = [0, 1, 2, 3, 4, 5].map(|row| {
+            let mut base = [zero(); 6];
+            base[row] = one();
+            base
+        });
+        self.system.hub_by_units().copied().unwrap_or(units)
     }
 
     /// By the coordinate of a joint, by its rate, or by what drives it.
@@ -197,6 +206,7 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
 /// The hub's equations, to be solved for the right sides of all joints.
 struct HubReduction<'a, T> {
     hub: &'a HubConstants<T>,
+    omega: Vec3<T>,
     /// Of the whole.
     mass: T,
     devices: &'a mut LoadColumns<T>,
@@ -204,15 +214,23 @@ struct HubReduction<'a, T> {
 }
 
 impl<T: Scalar> HubReduction<'_, T> {
-    /// In place of the right sides the hub's accelerations.
+    /// In place of the right sides the hub's accelerations; those by its angular velocity, too.
     #[inline(always)]
-    fn run(self) -> MassSystem<T> {
-        let Self { hub, mass, devices, hub_is_free } = self;
+    fn run(self) -> (MassSystem<T>, HubGroup<T>) {
+        let Self { hub, omega, mass, devices, hub_is_free } = self;
         let system = MassSystem::new(hub, mass, &devices.matrix, hub_is_free);
         for joint in devices.joints_mut() {
             system.hub_of_group(&mut joint.hub);
         }
-        system
+        let mut by_omega = devices.omega;
+        for (axis, unit) in UNITS.into_iter().enumerate() {
+            let own = of_both(hub.loads_by_omega(omega, unit.map(T::from_f64)));
+            for (row, own) in by_omega.iter_mut().zip(own) {
+                row[axis] = row[axis] - own;
+            }
+        }
+        system.hub_of_group(&mut by_omega);
+        (system, by_omega)
     }
 }
 
@@ -259,13 +277,16 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, T> {
 /// The same by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 impl<T: Scalar> pulp::WithSimd for HubReduction<'_, T> {
-    type Output = MassSystem<T>;
+    type Output = (MassSystem<T>, HubGroup<T>);
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> MassSystem<T> {
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
         self.run()
     }
 }
+
+/// Along each axis of B.
+const UNITS: [Vec3<f64>; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Force and moment about B.
 #[inline(always)]

@@ -14,7 +14,7 @@ use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
 
 /// Of some joints in a row.
-type Block<T> = [[T; TOGETHER]; 9];
+pub(crate) type Block<T> = [[T; TOGETHER]; 9];
 
 /// How free joints follow the hub: `-M_jj⁻¹ M_jh` by each of its accelerations; then by how much less they accelerate by
 /// each component of its angular velocity. Some joints after one another side by side.
@@ -59,11 +59,12 @@ impl<T: Scalar> Gains<T> {
         }
     }
 
-    /// The same, twice, and zeros: three lists of as many joints.
+    /// The same as `own` changes it, twice, and zeros: three lists of as many joints.
     #[inline(always)]
     pub(crate) fn follow_twice(
         &self,
         base: &Six<T>,
+        own: impl Fn([T; TOGETHER], &Block<T>) -> [T; TOGETHER],
         [out, copy, zeros]: [&mut [T]; 3],
         finite: &mut Finiteness<T>,
     ) {
@@ -72,12 +73,12 @@ impl<T: Scalar> Gains<T> {
         let (cleared, last_zeros) = zeros.as_chunks_mut::<TOGETHER>();
         let whole = fours.iter_mut().zip(copies).zip(cleared);
         for (((to, copy), zeros), block) in whole.zip(&self.blocks) {
-            let found = followed(block, base);
+            let found = own(followed(block, base), block);
             (*to, *copy, *zeros) = (found, found, [zero(); TOGETHER]);
             finite.see(&found);
         }
         if let (Some(block), false) = (self.blocks.last(), last.is_empty()) {
-            let found = followed(block, base);
+            let found = own(followed(block, base), block);
             finite.see(&found);
             let few = last.iter_mut().zip(last_copy).zip(last_zeros);
             for (((to, copy), cleared), found) in few.zip(found) {
@@ -125,6 +126,18 @@ fn followed<T: Scalar>(block: &Block<T>, base: &Six<T>) -> [T; TOGETHER] {
     found
 }
 
+/// What some joints accelerate less what they do by the angular velocity about an axis.
+#[inline(always)]
+pub(crate) fn less<T: Scalar>(
+    mut found: [T; TOGETHER],
+    block: &Block<T>,
+    axis: usize,
+) -> [T; TOGETHER] {
+    let line = block.get(axis.wrapping_add(6)).into_iter().flatten();
+    found.iter_mut().zip(line).for_each(|(to, less)| *to = *to - *less);
+    found
+}
+
 /// The hub's equations with the joints of all devices eliminated.
 #[derive(Debug)]
 pub(crate) struct MassSystem<T> {
@@ -162,19 +175,20 @@ impl<T: Scalar> MassSystem<T> {
     #[inline(always)]
     pub(crate) fn hub_of_group(&self, group: &mut HubGroup<T>) {
         let mut base = [[zero(); TOGETHER]; 6];
-        for (column, loads) in self.inverse.iter().flatten().zip(&*group) {
-            for (to, entry) in base.iter_mut().zip(column) {
-                add_product(to, *entry, loads);
+        if let Some(inverse) = &self.inverse {
+            for (column, loads) in inverse.iter().zip(&*group) {
+                for (to, entry) in base.iter_mut().zip(column) {
+                    add_product(to, *entry, loads);
+                }
             }
         }
         *group = base;
     }
 
-    /// The same for a unit of the right side.
+    /// The same for each unit of the right side; none where they are given.
     #[inline(always)]
-    pub(crate) fn hub_by_unit(&self, place: usize) -> Six<T> {
-        let column = self.inverse.as_ref().and_then(|inverse| inverse.get(place));
-        column.copied().unwrap_or([zero(); 6])
+    pub(crate) fn hub_by_units(&self) -> Option<&[Six<T>; 6]> {
+        self.inverse.as_ref()
     }
 }
 
