@@ -1,8 +1,9 @@
 //! [`Linearization`]: the matrices of the linearised system, in a stated order.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Dyn, VecStorage};
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::dual::column::{Column, Outputs};
@@ -107,8 +108,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let joints = inputs.modes.values().count();
         let variables = joints.saturating_add(S::modes(self)).saturating_mul(2).saturating_add(12);
         let list = || Vec::with_capacity(variables);
-        let [a, b, c, d] = [(); 4].map(|()| DMatrix::from_element(0, 0, zero()));
-        let (states, by_inputs, outputs_of) = (list(), list(), Vec::new());
+        let [a, b, c, d] = [(); 4].map(|()| zeros(0, 0));
+        let (states, by_inputs, outputs_of) = (list(), list(), Vec::with_capacity(variables));
         let accelerations = self.no_accelerations();
         let mut found = Linearization {
             accelerations,
@@ -311,7 +312,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         let Self { a, b, c, d, .. } = self;
         for (matrix, (rows, columns)) in [a, b, c, d].into_iter().zip(sizes) {
             if matrix.shape() != (rows, columns) {
-                *matrix = DMatrix::from_element(rows, columns, zero());
+                *matrix = zeros(rows, columns);
             }
         }
     }
@@ -334,6 +335,12 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
         let joints = accelerations.devices.values();
         hub.chain(joints).chain(modes).chain(momentum).chain(loads)
     }
+}
+
+/// A matrix of zeros. What the allocator clears is not cleared again.
+pub(crate) fn zeros<T: Scalar>(rows: usize, columns: usize) -> DMatrix<T> {
+    let elements = vec![zero(); rows.saturating_mul(columns)];
+    DMatrix::from_data(VecStorage::new(Dyn(rows), Dyn(columns), elements))
 }
 
 /// The columns of a matrix, empty where it has no rows.

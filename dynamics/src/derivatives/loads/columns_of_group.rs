@@ -70,7 +70,8 @@ impl<K: Kind, T: Number> GroupColumns<'_, K, T> {
         let devices = group.devices;
         let loads = lane_loads::<K, T, N>(zero, found, slopes);
         let first = columns.next;
-        let lanes = columns.next_joints().as_chunks_mut::<N>().0.first_chunk_mut::<WIDTH>()?;
+        let lanes = columns.next_joints_of_group(const { N.saturating_mul(WIDTH) });
+        let lanes = lanes.as_chunks_mut::<N>().0.first_chunk_mut::<WIDTH>()?;
         let groups = DeviceGroups {
             joints: &loads.joints,
             omega: &loads.omega,

@@ -64,9 +64,6 @@ impl<'a, T: Scalar> EachDevice<'a, T> {
         LoadsWorkspace { columns: found, loads }: &'a mut LoadsWorkspace<T>,
     ) -> Self {
         found.begin(joints);
-        if loads.is_empty() {
-            loads.push(KernelLoads::none());
-        }
         Self { by, omega, hub, found, loads }
     }
 
@@ -274,6 +271,9 @@ impl<T: Scalar> Visit<T, Moving> for EachDevice<'_, T> {
         check_count::<K>()?;
         let (omega, hub) = (self.omega, self.hub);
         let inputs = KernelInputs { device, joints, accelerations, omega, hub };
+        if self.loads.is_empty() {
+            self.loads.push(KernelLoads::none());
+        }
         let [loads, ..] = self.loads.as_mut_slice() else { return Ok(()) };
         loads.evaluate(self.by, &inputs)?;
         eliminate(self.by, device, JointModes::of::<K>(given.modes), loads, self.found);

@@ -10,8 +10,6 @@ use crate::derivatives::loads::kernel_loads::KernelLoads;
 use crate::derivatives::loads::mass_system::Gains;
 use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
 use crate::model::joint_array::MAX_JOINTS;
-#[cfg(feature = "lanes")]
-use crate::numbers::laned::WIDEST;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Columns;
 
@@ -36,19 +34,13 @@ impl<T: Scalar> JointColumns<T> {
     }
 }
 
-/// The largest number of joints of devices that are computed side by side.
-#[cfg(feature = "lanes")]
-const GROUP: usize = WIDEST * MAX_JOINTS;
-#[cfg(not(feature = "lanes"))]
-const GROUP: usize = 0;
-
 /// The number of joints of a device, and these eliminated.
 type Kept<T> = (usize, JointElimination<T, MAX_JOINTS>);
 
 /// Those of all devices with their joints eliminated.
 #[derive(Debug)]
 pub(crate) struct LoadColumns<T> {
-    /// Those of the joints, and room for a group more: lanes without a device are written, too.
+    /// Those of the joints, and of lanes without a device in the last group, which are written, too.
     joints: Vec<JointColumns<T>>,
     /// How many joints there are.
     count: usize,
@@ -82,8 +74,16 @@ impl<T: Scalar> LoadColumns<T> {
         (self.count, self.next) = (joints, 0);
         self.omega = [[zero(); TOGETHER]; 6];
         self.matrix = [[zero(); 6]; 6];
-        self.joints.resize(joints.saturating_add(GROUP), JointColumns::none());
+        self.make_room(joints);
         self.gains.resize(joints);
+    }
+
+    /// Makes room for so many joints, where there is less.
+    fn make_room(&mut self, joints: usize) {
+        if self.joints.len() < joints {
+            self.joints.reserve_exact(joints.saturating_sub(self.joints.len()));
+            self.joints.resize(joints, JointColumns::none());
+        }
     }
 
     /// Those of each joint.
@@ -96,9 +96,18 @@ impl<T: Scalar> LoadColumns<T> {
         self.joints.get_mut(..self.count).unwrap_or_default()
     }
 
-    /// Those of the joints that come next, and room for a group.
+    /// Those of the joints that come next.
     pub(crate) fn next_joints(&mut self) -> &mut [JointColumns<T>] {
         self.joints.get_mut(self.next..).unwrap_or_default()
+    }
+
+    /// Those of so many joints that come next, of lanes without a device, too.
+    // Never inlined: room is made at the last group of the first state only.
+    #[cfg(feature = "lanes")]
+    #[inline(never)]
+    pub(crate) fn next_joints_of_group(&mut self, joints: usize) -> &mut [JointColumns<T>] {
+        self.make_room(self.next.saturating_add(joints));
+        self.next_joints()
     }
 }
 

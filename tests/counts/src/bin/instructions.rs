@@ -82,6 +82,9 @@ impl Cases {
         self.products("1", &[dgvscmg(); 1]);
         self.products("4", &[dgvscmg(); 4]);
         self.products("16", &[dgvscmg(); 16]);
+        self.allocated("1", &[dgvscmg(); 1]);
+        self.allocated("4", &[dgvscmg(); 4]);
+        self.allocated("16", &[dgvscmg(); 16]);
         self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
         each_kind(self);
         self.steering();
@@ -159,6 +162,24 @@ impl Cases {
             move || {
                 let commands = black_box([0.1; 12]);
                 let _ = black_box(craft.servo(&servo, &state, &inputs, &commands, &[0.0; 12]));
+            }
+        });
+    }
+
+    /// Matrices that are allocated, and a step with its derivatives.
+    fn allocated<D: WithNumbers<Scalar = f64>>(&mut self, name: &str, devices: &D) {
+        self.case(&format!("linearize/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            move || {
+                let (state, inputs) = (black_box(&state), black_box(&inputs));
+                let _ = black_box(craft.linearize(state, inputs, &Outputs::accelerations()));
+            }
+        });
+        self.case(&format!("linearize_step/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            move || {
+                let (state, inputs) = (black_box(&state), black_box(&inputs));
+                let _ = black_box(craft.linearize_step(state, inputs, STEP));
             }
         });
     }
