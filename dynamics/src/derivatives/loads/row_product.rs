@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 use crate::derivatives::loads::by_loads::{ByLoads, Change, Own};
 use crate::derivatives::loads::kernel_loads::{COORDINATE, RATE};
-use crate::derivatives::loads::side_by_side::{Six, add_product};
+use crate::derivatives::loads::side_by_side::add_product;
 use crate::derivatives::variable::Variable;
 use crate::equations::arithmetic::Arithmetic;
 use crate::numbers::real::{Scalar, zero};
@@ -30,31 +30,37 @@ pub(crate) struct ChangeRows<'a, T> {
 struct StateRow<T> {
     /// Where it is among the states.
     row: usize,
-    /// The hub's accelerations, as seen from what falls with the field.
-    base: Six<T>,
+    /// The hub's acceleration and angular acceleration, as seen from what falls with the field.
+    base: [Vec3<T>; 2],
 }
+
+/// The hub's accelerations in some columns: linear, angular.
+type HubColumns<T> = [[[T; COLUMNS]; 3]; 2];
 
 /// What is read of the derivatives; kept from stage to stage.
 #[derive(Debug)]
 pub(crate) struct RowProduct<T> {
+    /// The states that change anything.
     states: Vec<StateRow<T>>,
-    /// The field by states.
+    /// The field, by numbers of these states.
     field: Vec<(usize, Vec3<T>)>,
-    /// By how much less joints accelerate by states of their own device and by the angular velocity: the entries of the
+    /// By how much less joints accelerate by such states, of their own device and the angular velocity: the entries of the
     /// first joint, of the second, and so on.
     less: Vec<(usize, T)>,
     /// How many entries each joint has.
     counts: Vec<usize>,
-    /// Where the coordinate and the rate of each joint are among the states, and the angular velocity.
+    /// Which of these states are the coordinate and the rate of each joint, and the angular velocity.
     places: Vec<[Option<usize>; 2]>,
     omega: [Option<usize>; 3],
+    /// The changes of these states, in some columns.
+    changes: Vec<[T; COLUMNS]>,
 }
 
 impl<T: Scalar> RowProduct<T> {
     pub(crate) fn new() -> Self {
         let (states, field, less) = (Vec::new(), Vec::new(), Vec::new());
-        let (counts, places) = (Vec::new(), Vec::new());
-        Self { states, field, less, counts, places, omega: [None; 3] }
+        let (counts, places, changes) = (Vec::new(), Vec::new(), Vec::new());
+        Self { states, field, less, counts, places, omega: [None; 3], changes }
     }
 
     /// Writes the product of the derivatives by these states with their changes.
@@ -75,7 +81,7 @@ impl<T: Scalar> RowProduct<T> {
 
     /// Reads what the states change.
     fn read(&mut self, loads: &ByLoads<'_, T>, states: &[Variable]) {
-        let Self { states: rows, field: fields, less, counts, places, omega } = self;
+        let Self { states: rows, field: fields, less, counts, places, omega, .. } = self;
         let joints = loads.devices.joints();
         rows.clear();
         fields.clear();
@@ -84,19 +90,21 @@ impl<T: Scalar> RowProduct<T> {
         *omega = [None; 3];
         for (row, variable) in states.iter().enumerate() {
             let Some(Change { base, field, own }) = loads.change(*variable) else { continue };
-            rows.push(StateRow { row, base });
+            let number = rows.len();
+            let [a, b, c, d, e, f] = base;
+            rows.push(StateRow { row, base: [[a, b, c], [d, e, f]] });
             if let Some(field) = field {
-                fields.push((row, field));
+                fields.push((number, field));
             }
             match (own, variable) {
-                (Own::All(axis), _) => omega[axis as usize % 3] = Some(row),
+                (Own::All(axis), _) => omega[axis as usize % 3] = Some(number),
                 (
                     Own::Device { place, .. },
                     Variable::Coordinate(joint) | Variable::Rate(joint),
                 ) => {
                     let of = places.get_mut(*joint).and_then(|of| of.get_mut(place));
                     if let Some(of) = of {
-                        *of = Some(row);
+                        *of = Some(number);
                     }
                 }
                 _ => {}
@@ -112,10 +120,10 @@ impl<T: Scalar> RowProduct<T> {
             for (of, places) in own.iter().zip(places.iter().skip(joint.first)) {
                 let Some(line) = of.less.get(line) else { continue };
                 let entries = places.iter().zip([line[COORDINATE], line[RATE]]);
-                less.extend(entries.filter_map(|(row, entry)| row.map(|row| (row, entry))));
+                less.extend(entries.filter_map(|(state, entry)| state.map(|state| (state, entry))));
             }
             let by_omega = omega.iter().zip(loads.devices.gains.by_omega(number));
-            less.extend(by_omega.filter_map(|(row, entry)| row.map(|row| (row, entry))));
+            less.extend(by_omega.filter_map(|(state, entry)| state.map(|state| (state, entry))));
             counts.push(less.len().wrapping_sub(before));
         }
     }
@@ -123,7 +131,7 @@ impl<T: Scalar> RowProduct<T> {
 
 /// A product by the instructions of this CPU.
 struct Product<'a, 'b, T> {
-    of: &'a RowProduct<T>,
+    of: &'a mut RowProduct<T>,
     loads: &'a ByLoads<'b, T>,
     rows: ChangeRows<'a, T>,
 }
@@ -142,50 +150,68 @@ impl<T: Scalar> Product<'_, '_, T> {
     #[inline(always)]
     fn write(self) {
         let Self { of, loads, rows: ChangeRows { changes, width, accelerations } } = self;
+        let RowProduct { states, field, less, counts, changes: own, .. } = of;
         for first in (0..width).step_by(COLUMNS) {
-            let group = |row: usize| -> Option<&[T; COLUMNS]> {
-                changes.get(row.wrapping_mul(width).wrapping_add(first)..)?.first_chunk()
-            };
-            let mut to = accelerations.chunks_exact_mut(width.max(1)).map_while(|line| {
-                let (_, group) = line.split_at_mut_checked(first)?;
-                group.first_chunk_mut::<COLUMNS>()
-            });
-            let mut base = [[zero::<T>(); COLUMNS]; 6];
-            let mut meets = false;
-            for StateRow { row, base: by } in &of.states {
-                let Some(change) = group(*row) else { continue };
-                meets = meets || change.iter().any(|change| !change.vanishes());
-                for (sum, by) in base.iter_mut().zip(by) {
-                    add_product(sum, *by, change);
-                }
-            }
-            if !meets {
+            own.clear();
+            // The changes of all columns are far from each other.
+            own.extend(states.iter().map(|StateRow { row, .. }| {
+                let from = row.wrapping_mul(width).wrapping_add(first);
+                let some = changes.get(from..).and_then(|row| row.first_chunk());
+                some.copied().unwrap_or([zero(); COLUMNS])
+            }));
+            let mut to = accelerations
+                .chunks_exact_mut(width.max(1))
+                .map_while(|line| line.get_mut(first..)?.first_chunk_mut::<COLUMNS>());
+            if !own.iter().any(changes_any) {
                 to.for_each(|to| *to = [zero(); COLUMNS]);
                 continue;
             }
+            let base: HubColumns<T> = [hub::<T, 0>(states, own), hub::<T, 1>(states, own)];
             let mut hub = base;
-            for (row, field) in &of.field {
-                let Some(change) = group(*row) else { continue };
-                for (sum, by) in hub.iter_mut().zip(field) {
+            for (state, field) in &*field {
+                let Some(change) = own.get(*state) else { continue };
+                for (sum, by) in hub[0].iter_mut().zip(field) {
                     add_product(sum, *by, change);
                 }
             }
             // In this order: the row after those of the hub stays.
-            hub.into_iter().zip(to.by_ref()).for_each(|(hub, to)| *to = hub);
-            let mut less = of.less.as_slice();
-            for ((number, to), count) in to.enumerate().zip(&of.counts) {
+            hub.as_flattened().iter().zip(to.by_ref()).for_each(|(hub, to)| *to = *hub);
+            let mut less = less.as_slice();
+            for ((number, to), count) in to.enumerate().zip(&*counts) {
                 let mut sum = [zero::<T>(); COLUMNS];
-                for (by, base) in loads.devices.gains.of_joint(number).iter().zip(&base) {
+                let gains = loads.devices.gains.of_joint(number);
+                for (by, base) in gains.iter().zip(base.as_flattened()) {
                     add_product(&mut sum, *by, base);
                 }
-                let (own, others) = less.split_at_checked(*count).unwrap_or_default();
+                let (entries, others) = less.split_at_checked(*count).unwrap_or_default();
                 less = others;
-                for (row, entry) in own {
-                    let Some(change) = group(*row) else { continue };
+                for (state, entry) in entries {
+                    let Some(change) = own.get(*state) else { continue };
                     add_product(&mut sum, -*entry, change);
                 }
                 *to = sum;
             }
         }
     }
+}
+
+/// Whether anything changes in some columns.
+#[inline(always)]
+fn changes_any<T: Scalar>(of: &[T; COLUMNS]) -> bool {
+    of.iter().fold(false, |any, change| any | !change.vanishes())
+}
+
+/// The hub's linear or angular acceleration in some columns: as many sums as there are registers for.
+#[inline(always)]
+fn hub<T: Scalar, const WHICH: usize>(
+    states: &[StateRow<T>],
+    changes: &[[T; COLUMNS]],
+) -> [[T; COLUMNS]; 3] {
+    let mut sums = [[zero::<T>(); COLUMNS]; 3];
+    for (StateRow { base, .. }, change) in states.iter().zip(changes) {
+        for (sum, by) in sums.iter_mut().zip(base.get(WHICH).into_iter().flatten()) {
+            add_product(sum, *by, change);
+        }
+    }
+    sums
 }

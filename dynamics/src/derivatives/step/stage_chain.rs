@@ -12,10 +12,9 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
-use crate::derivatives::linearization::columns_of;
 use crate::derivatives::loads::row_product::{COLUMNS, ChangeRows};
 use crate::derivatives::slopes::{OF_HUB, Slopes};
-use crate::derivatives::step::stage_product::{Product, add_elements};
+use crate::derivatives::step::stage_product::{Product, add_elements, write_columns};
 use crate::equations::arithmetic::Arithmetic;
 use crate::numbers::vec3::cross;
 
@@ -215,18 +214,8 @@ impl StageChain {
         }
         let mut first = 0_usize;
         for matrix in into {
-            let (rows, columns) = matrix.shape();
-            let mut lines = self.states.sum.chunks(width.saturating_mul(COLUMNS).max(1));
-            // Some rows at a time: what is read of one column is near what is read of the next.
-            for row in (0..rows).step_by(COLUMNS) {
-                let Some(lines) = lines.next() else { break };
-                for (number, column) in (first..).zip(columns_of(matrix)) {
-                    let to = column.iter_mut().skip(row);
-                    let from = lines.iter().skip(number).step_by(width.max(1));
-                    to.zip(from).for_each(|(to, from)| *to = *from);
-                }
-            }
-            first = first.saturating_add(columns);
+            write_columns((&self.states.sum, width), first, matrix);
+            first = first.saturating_add(matrix.ncols());
         }
     }
 }

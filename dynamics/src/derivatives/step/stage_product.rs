@@ -9,7 +9,9 @@ use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
+use crate::derivatives::linearization::columns_of;
 use crate::derivatives::loads::row_product::COLUMNS;
+use crate::derivatives::loads::side_by_side::TOGETHER;
 
 /// Of how many rows.
 const ROWS: usize = 2;
@@ -98,12 +100,61 @@ fn summed(packed: &[[f64; ROWS]], changes: &[[f64; COLUMNS]]) -> [[f64; COLUMNS]
 /// Adds the elements of a matrix to rows of this width, from a column on.
 #[inline(always)]
 pub(crate) fn add_elements(matrix: &DMatrix<f64>, first: usize, (to, width): (&mut [f64], usize)) {
-    let columns = matrix.as_slice().chunks_exact(matrix.nrows().max(1));
-    for (number, column) in (first..).zip(columns) {
-        for (line, element) in to.chunks_mut(width.max(1)).zip(column) {
-            if let Some(to) = line.get_mut(number) {
-                *to += *element;
+    let columns = || matrix.as_slice().chunks_exact(matrix.nrows().max(1));
+    let mut row = 0_usize;
+    for some in to.chunks_mut(width.saturating_mul(TOGETHER).max(1)) {
+        let (mut lines, mut after) = (some.chunks_exact_mut(width.max(1)), row);
+        let four = [(); TOGETHER].map(|()| lines.next().and_then(|line| line.get_mut(first..)));
+        match four {
+            [Some(a), Some(b), Some(c), Some(d)] => {
+                let lines = a.iter_mut().zip(b).zip(c).zip(d);
+                for ((((a, b), c), d), column) in lines.zip(columns()) {
+                    let elements = column.get(row..).and_then(|of| of.first_chunk::<TOGETHER>());
+                    let Some([w, x, y, z]) = elements else { break };
+                    (*a, *b, *c, *d) = (*a + w, *b + x, *c + y, *d + z);
+                }
+            }
+            // The last rows.
+            few => {
+                for line in few.into_iter().flatten() {
+                    for (to, column) in line.iter_mut().zip(columns()) {
+                        *to += column.get(after).copied().unwrap_or_default();
+                    }
+                    after = after.saturating_add(1);
+                }
             }
         }
+        row = row.saturating_add(TOGETHER);
+    }
+}
+
+/// Writes columns of rows of this width, from a column on, into those of a matrix.
+#[inline(always)]
+pub(crate) fn write_columns((of, width): (&[f64], usize), first: usize, matrix: &mut DMatrix<f64>) {
+    let mut row = 0_usize;
+    for some in of.chunks(width.saturating_mul(TOGETHER).max(1)) {
+        let (mut lines, mut after) = (some.chunks_exact(width.max(1)), row);
+        let four = [(); TOGETHER].map(|()| lines.next().and_then(|line| line.get(first..)));
+        match four {
+            [Some(a), Some(b), Some(c), Some(d)] => {
+                let lines = a.iter().zip(b).zip(c).zip(d);
+                for ((((a, b), c), d), column) in lines.zip(columns_of(matrix)) {
+                    let to = column.get_mut(row..).and_then(|to| to.first_chunk_mut());
+                    if let Some(to) = to {
+                        *to = [*a, *b, *c, *d];
+                    }
+                }
+            }
+            // The last rows.
+            few => {
+                for line in few.into_iter().flatten() {
+                    for (from, column) in line.iter().zip(columns_of(matrix)) {
+                        column.iter_mut().skip(after).take(1).for_each(|to| *to = *from);
+                    }
+                    after = after.saturating_add(1);
+                }
+            }
+        }
+        row = row.saturating_add(TOGETHER);
     }
 }
