@@ -16,8 +16,9 @@ use crate::file::identification_example as example;
 use crate::file::{from_file, identification_from_toml};
 use crate::fit::Estimate;
 use crate::identify::device::device;
-use crate::identify::{Identified, NamedEstimate, Progress, identify};
+use crate::identify::{Design, Identified, Manoeuvre, NamedEstimate, Progress, design, identify};
 use crate::report::identify::IdentifyReport;
+use crate::scenario::Scenario;
 use crate::telemetry::Telemetry;
 use crate::units::Plain;
 
@@ -27,6 +28,8 @@ Examples:
       write an example: bus.toml, bus-unknown.toml and bus-telemetry.csv
   precess identify bus.toml --unknown bus-unknown.toml --data bus-telemetry.csv --out results
       find the unknowns: a table, and results/bus-identified.toml for scenarios
+  precess identify bus.toml --unknown bus-unknown.toml --data bus-telemetry.csv --design slew.toml spin-up.toml
+      also what each of these manoeuvres, scenarios of the same spacecraft, would tell
 Where the model does not hold, or the data do not tell an unknown without a prior, the command says so and exits with 2.
 The files are described in docs/identify.md.";
 
@@ -42,6 +45,9 @@ pub(super) struct IdentifyCommand {
     /// Telemetry: CSV, NPZ or Parquet.
     #[arg(long, required_unless_present = "example", value_name = "FILE")]
     data: Option<PathBuf>,
+    /// Manoeuvres, scenarios of the same spacecraft: what each would tell that the telemetry does not.
+    #[arg(long, value_name = "SCENARIO", num_args = 1.., conflicts_with = "example")]
+    design: Vec<PathBuf>,
     /// Write an example into this folder.
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["file", "unknown", "data"])]
     example: Option<PathBuf>,
@@ -67,6 +73,7 @@ impl IdentifyCommand {
         let (scenario, _) = from_file(path, &[]).map_err(CommandError::Scenario)?;
         let file = identification_from_toml(unknown, &scenario).map_err(CommandError::Scenario)?;
         let telemetry = Telemetry::read(data, &file.layout).map_err(|error| other(&error))?;
+        let manoeuvres = self.manoeuvres()?;
         // Silent where the output is no terminal.
         let bar = ProgressBar::new_spinner();
         let mut progress = |at: &Progress| {
@@ -82,6 +89,14 @@ impl IdentifyCommand {
         bar.finish_and_clear();
         let found =
             found.map_err(|error| CommandError::Other(format!("{}: {error}", data.display())))?;
+        let manoeuvres: Vec<_> =
+            manoeuvres.iter().map(|(name, scenario)| Manoeuvre { name, scenario }).collect();
+        let designed = if manoeuvres.is_empty() {
+            String::new()
+        } else {
+            let of = design(&scenario, &file.unknowns, &found, &manoeuvres);
+            design_table(&of.map_err(|error| other(&error))?)
+        };
         let text = device(&found, &scenario, &file.layouts);
         let of_unknowns = std::fs::read_to_string(unknown)
             .map_err(|source| CommandError::Io { path: unknown.clone(), source })?;
@@ -98,10 +113,64 @@ impl IdentifyCommand {
         ];
         let paths = uninterrupted(|| Outputs::reserve(&self.out, &[], self.force)?.write(&files))?;
         let paths: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
-        print(&format!("{}\n\n{}\n{}\n", file.title, table(&found), paths.join("\n")))?;
+        let table = table(&found) + &designed;
+        print(&format!("{}\n\n{table}\n{}\n", file.title, paths.join("\n")))?;
         let exit = if found.holds() && found.is_told() { Exit::Success } else { Exit::Violated };
         Ok(exit)
     }
+}
+
+impl IdentifyCommand {
+    /// The scenarios of `--design` with their names.
+    fn manoeuvres(&self) -> Result<Vec<(String, Scenario)>, CommandError> {
+        let read = |path: &PathBuf| {
+            let (scenario, _) = from_file(path, &[]).map_err(CommandError::Scenario)?;
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            Ok((name, scenario))
+        };
+        self.design.iter().map(read).collect()
+    }
+}
+
+/// What manoeuvres would tell, for people.
+fn design_table(of: &Design) -> String {
+    let number = |value: f64| if value.is_finite() { six(value) } else { "not told".to_owned() };
+    let mut head = vec!["standard deviation".to_owned(), "record".to_owned()];
+    head.extend(of.manoeuvres.iter().map(|name| format!("with {name}")));
+    let mut rows = vec![head.clone()];
+    for own in &of.numbers {
+        let mut cells = vec![own.name.clone(), number(own.alone)];
+        cells.extend(own.with.iter().map(|with| number(*with)));
+        cells.push(own.unit.to_owned());
+        rows.push(cells);
+    }
+    let mut text = "\nmanoeuvres\n".to_owned();
+    let lengths = of.manoeuvres.iter().zip(&of.durations);
+    text.extend(lengths.map(|(name, length)| format!("- {name}: {} s\n", Plain(*length))));
+    text.push_str(&format!("\n{}", aligned(&rows)));
+    if !of.directions.is_empty() {
+        let mut list = String::new();
+        head[0].replace_range(.., "in steps of it");
+        let mut rows = vec![head];
+        for (number, own) in of.directions.iter().enumerate() {
+            let place = number + 1;
+            // Writing to a string cannot fail.
+            let _ = writeln!(list, "{place}. {}", own.direction);
+            let mut cells = vec![place.to_string(), "not told".to_owned()];
+            cells.extend(own.with.iter().enumerate().map(|(manoeuvre, deviation)| {
+                let told = if own.is_told_by(manoeuvre) { "told" } else { "not told" };
+                format!("{told}, {deviation:.2e}")
+            }));
+            rows.push(cells);
+        }
+        let _ = write!(
+            text,
+            "\nwhat the record does not tell of the spacecraft, a change by any multiple of\n{list}\nits standard deviation by the \
+             readings\n{}",
+            aligned(&rows)
+        );
+    }
+    text
 }
 
 fn write_example(folder: &std::path::Path, force: bool) -> Result<Exit, CommandError> {
@@ -137,10 +206,19 @@ fn table(found: &Identified) -> String {
         let told = wheel.told;
         let degrees = |angle: &Estimate| angle.times(180.0 / std::f64::consts::PI);
         rows.push(heading(&wheel.device));
-        rows.push(row("U_s", &wheel.u_s.times(1e5), "g cm", told));
-        rows.push(row("U_d", &wheel.u_d.times(1e7), "g cm^2", told));
-        rows.push(row("phase of U_d", &degrees(&wheel.phase), "deg", told));
-        rows.push(row("angle at the start", &degrees(&wheel.angle), "deg", told));
+        let [u_s, u_d] = wheel.hidden;
+        for (name, estimate, unit, hidden) in [
+            ("U_s", wheel.u_s.times(1e5), "g cm", u_s),
+            ("U_d", wheel.u_d.times(1e7), "g cm^2", u_d),
+            ("phase of U_d", degrees(&wheel.phase), "deg", u_s || u_d),
+            ("angle at the start", degrees(&wheel.angle), "deg", u_s),
+        ] {
+            let mut cells = row(name, &estimate, unit, told);
+            if let (true, true, Some(cell)) = (told, hidden, cells.get_mut(1)) {
+                "hidden by noise".clone_into(cell);
+            }
+            rows.push(cells);
+        }
     }
     rows.push(heading("numbers"));
     let of_wheel = |of: &&NamedEstimate| {

@@ -3,7 +3,10 @@
 //! - **Gyro.** The scenario's own spacecraft under the measured torques, from the first readings on, explains a share of the variance of
 //!   the readings. Where it is below a half as they are, and above four fifths for other axes, signs or a usual unit, these are named.
 //! - **Tachometers.** A first reading that is the scenario's rate in rpm or revolutions a second.
-//! - **Motors.** The rate of a wheel against the integral of its torque by its moment of inertia.
+//! - **Motors.** The rate of a wheel against the integral of its torque by its moment of inertia, and against those of other
+//!   wheels, whose columns may be exchanged.
+//! - **Wheels.** Where all columns of two wheels are exchanged, each torque still agrees with its rate; the motion does not. Of the variance
+//!   that the motion leaves, more than three quarters are explained with the two exchanged.
 
 use nalgebra::Vector3;
 use precess_craft::Set;
@@ -22,6 +25,9 @@ const BLOCK: f64 = 0.25;
 /// Shares of the variance: below the first the axes are in doubt, above the second others are right.
 const DOUBTFUL: f64 = 0.5;
 const RIGHT: f64 = 0.8;
+/// Above this share nothing is in doubt; below it two wheels are exchanged where that leaves this share of what is left.
+const SURE: f64 = 0.9;
+const LEFT: f64 = 0.25;
 /// A ratio this near to that of two units is one.
 const NEAR: f64 = 0.1;
 /// Units in which a gyro may read.
@@ -47,7 +53,8 @@ pub(super) fn check(
 ) -> Result<(), IdentifyError> {
     tachometers(stated, telemetry)?;
     motors(stated, telemetry)?;
-    gyro(of, timeline)
+    exchanged(stated, telemetry)?;
+    gyro(of, telemetry, timeline)
 }
 
 fn tachometers(scenario: &Scenario, telemetry: &Telemetry) -> Result<(), IdentifyError> {
@@ -89,6 +96,42 @@ fn motors(scenario: &Scenario, telemetry: &Telemetry) -> Result<(), IdentifyErro
     Ok(())
 }
 
+/// Rates of wheels that are explained by the torques of others, and not by their own.
+fn exchanged(scenario: &Scenario, telemetry: &Telemetry) -> Result<(), IdentifyError> {
+    let all: Vec<(&Series, &Series)> = telemetry
+        .series
+        .iter()
+        .filter_map(|motor| {
+            let Sensor::Motor(joint) = motor.sensor else { return None };
+            Some((motor, telemetry.of(Sensor::Tachometer(joint))?))
+        })
+        .collect();
+    let column = |of: &Series| of.name.rsplit(' ').next().unwrap_or_default().to_owned();
+    let mut what: Vec<String> = Vec::new();
+    let mut shares = [0.0_f64, 1.0];
+    for (torque, own) in &all {
+        let (_, share) = by_integral(torque, own, 1.0);
+        // A torque that does not act explains nothing.
+        if share >= DOUBTFUL || scenario.joints().count() < 2 {
+            continue;
+        }
+        let others = all.iter().filter(|(of, _)| of.sensor != torque.sensor);
+        let best = others
+            .map(|(_, rates)| (by_integral(torque, rates, 1.0).1, rates))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((so, rates)) = best.filter(|(so, _)| *so > RIGHT) {
+            what.push(format!("{} is the column {}", column(own), column(rates)));
+            shares = [shares[0].max(share), shares[1].min(so)];
+        }
+    }
+    // One alone is a wheel whose torque is by chance that of another.
+    if what.len() < 2 {
+        return Ok(());
+    }
+    let of = "rates of wheels by the integrals of their torques";
+    Err(IdentifyError::Wheels { what: what.join(" and "), of, explained: shares })
+}
+
 /// Slope and explained share of the changes of a rate by the integral of a torque over a moment of inertia.
 fn by_integral(torque: &Series, rates: &Series, inertia: f64) -> (f64, f64) {
     let Some(first) = rates.values.first() else { return (1.0, 0.0) };
@@ -115,19 +158,63 @@ fn by_integral(torque: &Series, rates: &Series, inertia: f64) -> (f64, f64) {
     if xx > 0.0 && yy > 0.0 { (xy / xx, xy * xy / (xx * yy)) } else { (1.0, 0.0) }
 }
 
-fn gyro(scenario: &Scenario, timeline: &Timeline) -> Result<(), IdentifyError> {
+fn gyro(
+    scenario: &Scenario,
+    telemetry: &Telemetry,
+    timeline: &Timeline,
+) -> Result<(), IdentifyError> {
     let model = Model::new(scenario, &[], &[])?;
     let readings = blocks(timeline);
     let (Some(first), true) = (readings.first(), readings.len() > 8) else { return Ok(()) };
-    let share = |turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
+    let same = [0; 2];
+    let share = |turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>, pair: [usize; 2]| {
         let start = turn(&first.1);
         let turned: Vec<_> = readings.iter().map(|(time, of)| (*time, turn(of))).collect();
-        explained(&model, timeline, start, &turned)
+        explained(&model, timeline, (start, pair), &turned)
     };
-    let as_it_is = share(&|of| *of);
-    if as_it_is >= DOUBTFUL {
+    let as_it_is = share(&|of| *of, same);
+    if as_it_is >= SURE {
         return Ok(());
     }
+    let mut wheels = (as_it_is, same);
+    for pair in pairs(telemetry) {
+        let found = share(&|of| *of, pair);
+        if found > wheels.0 {
+            wheels = (found, pair);
+        }
+    }
+    let axes = if as_it_is < DOUBTFUL { axes(as_it_is, &|turn| share(turn, same)) } else { None };
+    let least = axes.as_ref().map_or(as_it_is, |(found, _)| *found).max(RIGHT);
+    if wheels.0 > least && 1.0 - wheels.0 < LEFT * (1.0 - as_it_is) {
+        let name = |joint: usize| scenario.joints().nth(joint).map_or("", |(_, name, _)| name);
+        let [a, b] = wheels.1.map(name);
+        let what = format!("{a} has the columns of {b} and {b} has the columns of {a}");
+        let explained = [as_it_is, wheels.0];
+        return Err(IdentifyError::Wheels { what, of: "the gyro", explained });
+    }
+    match axes.filter(|(found, _)| *found > RIGHT) {
+        Some((found, what)) => Err(IdentifyError::Axes { what, explained: [as_it_is, found] }),
+        None => Ok(()),
+    }
+}
+
+/// Joints of wheels with torques and rates, two by two.
+fn pairs(telemetry: &Telemetry) -> Vec<[usize; 2]> {
+    let joint = |of: &Series| match of.sensor {
+        Sensor::Motor(joint) if telemetry.of(Sensor::Tachometer(joint)).is_some() => Some(joint),
+        _ => None,
+    };
+    let joints: Vec<usize> = telemetry.series.iter().filter_map(joint).collect();
+    let later = |place: usize| joints.get(place + 1..).unwrap_or_default().iter();
+    let all = joints.iter().enumerate();
+    all.flat_map(|(place, a)| later(place).map(move |b| [*a, *b])).collect()
+}
+
+/// The axes, signs and unit of the gyro that explain the most, with their share; none where these are as they are.
+fn axes(
+    as_it_is: f64,
+    share: &dyn Fn(&dyn Fn(&Vector3<f64>) -> Vector3<f64>) -> f64,
+) -> Option<(f64, String)> {
     let mut best = (as_it_is, String::new());
     for (size, unit) in RATES {
         for order in ORDERS {
@@ -153,10 +240,7 @@ fn gyro(scenario: &Scenario, timeline: &Timeline) -> Result<(), IdentifyError> {
             }
         }
     }
-    if best.0 > RIGHT && !best.1.is_empty() {
-        return Err(IdentifyError::Axes { what: best.1, explained: [as_it_is, best.0] });
-    }
-    Ok(())
+    Some(best).filter(|(_, what)| !what.is_empty())
 }
 
 /// Means of the gyro's readings over blocks, with the times of their middles.
@@ -180,11 +264,12 @@ fn blocks(timeline: &Timeline) -> Vec<(f64, Vector3<f64>)> {
     blocks
 }
 
-/// Share of the variance of readings that the motion from an angular velocity on explains.
+/// Share of the variance of readings that the motion from an angular velocity on explains, with the columns of a pair of joints
+/// exchanged.
 fn explained(
     model: &Model,
     timeline: &Timeline,
-    start: Vector3<f64>,
+    (start, [a, b]): (Vector3<f64>, [usize; 2]),
     readings: &[(f64, Vector3<f64>)],
 ) -> f64 {
     let mean = readings.iter().map(|(_, of)| of).sum::<Vector3<f64>>();
@@ -192,6 +277,15 @@ fn explained(
     let mean = mean / readings.len() as f64;
     let (mut state, mut inputs) = (model.state.clone(), model.inputs.clone());
     state.omega = start;
+    let rates: Vec<f64> = state.devices.states().map(|[_, rate]| rate).collect();
+    let other = |joint: usize| match joint {
+        joint if joint == a => b,
+        joint if joint == b => a,
+        joint => joint,
+    };
+    for (joint, [_, rate]) in state.devices.states_mut().enumerate() {
+        *rate = rates.get(other(joint)).copied().unwrap_or(*rate);
+    }
     let [mut squares, mut variance] = [0.0; 2];
     let mut events = timeline.events.iter().peekable();
     let mut now = timeline.start;
@@ -201,7 +295,7 @@ fn explained(
             let moved = advance(model, state, &inputs, (at - now, timeline.step));
             let Some(moved) = moved else { return f64::NEG_INFINITY };
             (state, now) = (moved, *at);
-            if let Some(motor) = inputs.motors.values_mut().nth(*joint) {
+            if let Some(motor) = inputs.motors.values_mut().nth(other(*joint)) {
                 *motor = *torque;
             }
         }

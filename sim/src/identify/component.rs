@@ -118,6 +118,28 @@ pub(super) struct Start {
     pub(super) joints: Vec<(Option<f64>, Option<f64>)>,
 }
 
+impl Component {
+    /// The coordinate at the start of a joint whose encoder nobody reads: any angle.
+    pub(super) fn free_coordinate(scenario: &Scenario, joint: usize) -> Option<Self> {
+        let (_, device, info) = scenario.joints().nth(joint)?;
+        let [start, _] = scenario.initial.devices.states().nth(joint)?;
+        Some(Self {
+            target: Target::Coordinate(joint),
+            name: format!("{device}.{} at the start", info.coordinate),
+            unit: info.units()[0],
+            start,
+            prior: None,
+            scale: std::f64::consts::PI,
+        })
+    }
+
+    /// Whether it is of the spacecraft, and not of the start of a record.
+    pub(super) fn is_of_spacecraft(&self) -> bool {
+        use Target::{Attitude, Bias, Coordinate, Omega, Rate};
+        !matches!(self.target, Attitude(_) | Bias(_) | Coordinate(_) | Omega(_) | Rate(_))
+    }
+}
+
 /// The numbers of all unknowns, and of the state at the start.
 pub(super) fn components(
     scenario: &Scenario,

@@ -122,7 +122,11 @@ fn of_device(found: &Identified, scenario: &Scenario, index: usize) -> String {
             }
         }
         if let (Some(of), true) = (wheel.filter(|of| of.told), last == Some(joint)) {
-            let note = interval(&of.angle, "rad");
+            let note = if of.hidden[0] {
+                "hidden by noise".to_owned()
+            } else {
+                interval(&of.angle, "rad")
+            };
             let _ = writeln!(keys, "angle = \"{} rad\"  # {note}", number(of.angle.value));
         }
         if !keys.is_empty() {
@@ -150,9 +154,22 @@ fn imbalance(out: &mut String, of: &WheelEstimate) {
         out.push_str("# the data do not tell its imbalance\n");
         return;
     }
-    let _ = writeln!(out, "# U_s {}", interval(&of.u_s, "kg m"));
-    let _ = writeln!(out, "# U_d {}", interval(&of.u_d, "kg m^2"));
-    let _ = writeln!(out, "# phase {}", interval(&of.phase, "rad"));
+    let amplitude = |estimate: &Estimate, hidden: bool, unit: &str| {
+        let [_, high] = estimate.interval;
+        if hidden {
+            format!("hidden by noise, 95 %: up to {high:.4e} {unit}")
+        } else {
+            interval(estimate, unit)
+        }
+    };
+    let _ = writeln!(out, "# U_s {}", amplitude(&of.u_s, of.hidden[0], "kg m"));
+    let _ = writeln!(out, "# U_d {}", amplitude(&of.u_d, of.hidden[1], "kg m^2"));
+    let phase = if of.hidden == [false; 2] {
+        interval(&of.phase, "rad")
+    } else {
+        "hidden by noise".to_owned()
+    };
+    let _ = writeln!(out, "# phase {phase}");
     let _ = writeln!(
         out,
         "imbalance = {{ static = \"{} kg m\", dynamic = \"{} kg m^2\", phase = \"{} rad\" }}",

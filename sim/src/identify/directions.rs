@@ -27,6 +27,18 @@ pub struct Direction {
     pub(super) vector: Vec<f64>,
 }
 
+impl Direction {
+    /// The direction of numbers of unit scale, in SI.
+    pub(super) fn in_units_of(mut self, components: &[Component]) -> Self {
+        for (name, change, _) in &mut self.changes {
+            if let Some(of) = components.iter().find(|of| of.name == *name) {
+                *change *= of.scale;
+            }
+        }
+        self
+    }
+}
+
 impl fmt::Display for Direction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, (name, change, unit)) in self.changes.iter().enumerate() {

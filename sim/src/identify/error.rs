@@ -60,6 +60,15 @@ pub enum IdentifyError {
         /// Share of the readings' variance that the model explains as they are, and so.
         explained: [f64; 2],
     },
+    /// Columns of wheels are those of others.
+    Wheels {
+        /// What would agree: `rw1.spin is the column rw2.spin`.
+        what: String,
+        /// The readings that say so.
+        of: &'static str,
+        /// Share of their variance that the model explains as they are, and so.
+        explained: [f64; 2],
+    },
     /// A tachometer's unit or a motor's is another.
     Unit {
         /// The sensor.
@@ -88,6 +97,13 @@ pub enum IdentifyError {
     NotConverged {
         /// The largest step by its standard deviation.
         step: f64,
+    },
+    /// A manoeuvre whose information is not computed.
+    Manoeuvre {
+        /// Its name.
+        name: String,
+        /// Why.
+        reason: String,
     },
     /// The normal equations have no solution.
     Singular,
@@ -133,6 +149,13 @@ impl fmt::Display for IdentifyError {
                 100.0 * so,
                 100.0 * as_it_is.max(0.0)
             ),
+            Self::Wheels { what, of, explained: [as_it_is, so] } => write!(
+                f,
+                "columns of wheels are others than the model's: if {what}, the model explains {:.0} % of the variance of {of}, and as they \
+                 are {:.0} %; correct the columns",
+                100.0 * so,
+                100.0 * as_it_is.max(0.0)
+            ),
             Self::Unit { sensor, unit, key, ratio } => write!(
                 f,
                 "the {sensor} reads {} times what the model has: its unit is {unit}; state `{key} = \"{unit}\"`",
@@ -153,6 +176,7 @@ impl fmt::Display for IdentifyError {
                  in the scenario",
                 Plain(*step)
             ),
+            Self::Manoeuvre { name, reason } => write!(f, "of the manoeuvre `{name}`: {reason}"),
             Self::Singular => f.write_str("the normal equations have no solution; state priors"),
             Self::Interrupted => f.write_str("it was interrupted"),
         }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::amplitude::{about, normal, polar};
 use super::component::{Component, Target, wheel_joint};
 use super::directions::{Direction, untold};
 use super::pass::Left;
@@ -10,8 +11,6 @@ use crate::fit::Estimate;
 use crate::scenario::Scenario;
 use crate::telemetry::{Exclusion, Telemetry};
 
-/// The quantile 0.975 of the normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
 /// The model holds where no sensor has a larger mean square of residuals.
 pub const SQUARES_MAX: f64 = 1.5;
 /// Quantile of what few residuals reach by chance, once in 10,000.
@@ -49,10 +48,12 @@ pub struct WheelEstimate {
     pub u_s: Estimate,
     /// Dynamic imbalance, kg m².
     pub u_d: Estimate,
-    /// By which the torque of `U_d` leads the force of `U_s`, rad.
+    /// By which the torque of `U_d` leads the force of `U_s`, rad; anything within half a turn where noise hides one of them.
     pub phase: Estimate,
-    /// The angle of the wheel at the start of the record at which `U_s` is along its y axis, rad.
+    /// The angle of the wheel at the start of the record at which `U_s` is along its y axis, rad; so, too.
     pub angle: Estimate,
+    /// Whether noise hides `U_s`, and `U_d`: the interval reaches to zero, and its upper end is a bound.
+    pub hidden: [bool; 2],
     /// Whether the data, or a prior, tell all four.
     pub told: bool,
 }
@@ -107,6 +108,8 @@ pub struct Identified {
     /// Steps of the estimation over the whole record.
     pub steps: usize,
     pub(super) components: Vec<Component>,
+    /// Of the data, without priors.
+    pub(super) information: DMatrix<f64>,
 }
 
 impl Identified {
@@ -162,6 +165,7 @@ impl Identified {
             step: timeline.step,
             steps,
             components: components.to_vec(),
+            information,
         }
     }
 
@@ -182,11 +186,6 @@ impl Identified {
     pub fn number(&self, name: &str) -> Option<&NamedEstimate> {
         self.numbers.iter().find(|of| of.name == name)
     }
-}
-
-fn normal(value: f64, deviation: f64) -> Estimate {
-    let half = NORMAL * deviation;
-    Estimate { value, deviation, interval: [value - half, value + half] }
 }
 
 fn residuals(left: &[Left]) -> Vec<SensorResidual> {
@@ -220,15 +219,17 @@ fn covariance(
     })
 }
 
-/// Of two components: length, angle and their gradients.
-fn polar(of: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
+/// Of two components: length, angle and their gradients; of none of the angle no finite one.
+fn gradients(of: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
     let length = of[0].hypot(of[1]);
-    let [cosine, sine] = if length > 0.0 { of.map(|x| x / length) } else { [1.0, 0.0] };
-    let inverse = if length > 0.0 { length.recip() } else { f64::INFINITY };
-    ([length, sine.atan2(cosine)], [[cosine, sine], [-sine * inverse, cosine * inverse]])
+    if length <= 0.0 {
+        return ([0.0; 2], [[1.0, 0.0], [0.0, f64::INFINITY]]);
+    }
+    let [cosine, sine] = of.map(|x| x / length);
+    ([length, sine.atan2(cosine)], [[cosine, sine], [-sine / length, cosine / length]])
 }
 
-/// `U_s`, `U_d` and angles of each wheel, by the first order of its four numbers.
+/// `U_s`, `U_d` and angles of each wheel, from its four numbers.
 fn wheels(
     scenario: &Scenario,
     components: &[Component],
@@ -249,19 +250,25 @@ fn wheels(
         let places = [y, z, j12, j13];
         let at = |place: usize| values.get(place).copied().unwrap_or_default();
         let own = DMatrix::from_fn(4, 4, |row, column| covariance[(places[row], places[column])]);
-        let ([u_s, angle], [by_u_s, by_angle]) = polar([at(y), at(z)]);
+        let ([u_s, angle], [by_u_s, by_angle]) = gradients([at(y), at(z)]);
         // The torque is along `J_13 w_y - J_12 w_z`.
-        let ([u_d, torque], [by_u_d, by_torque]) = polar([at(j13), -at(j12)]);
+        let ([u_d, torque], [by_u_d, by_torque]) = gradients([at(j13), -at(j12)]);
         let deviation = |gradient: [f64; 4]| {
             let gradient = DVector::from_column_slice(&gradient);
-            gradient.dot(&(&own * &gradient)).max(0.0).sqrt()
+            let squared = gradient.dot(&(&own * &gradient));
+            if squared.is_nan() { f64::INFINITY } else { squared.max(0.0).sqrt() }
         };
+        let of_static = |[y, z]: [f64; 2]| deviation([y, z, 0.0, 0.0]);
+        let of_dynamic = |[y, z]: [f64; 2]| deviation([0.0, 0.0, -z, y]);
         let phase = deviation([-by_angle[0], -by_angle[1], -by_torque[1], by_torque[0]]);
-        let coordinate = wheel_joint(scenario, index).and_then(|joint| {
-            let (_, device, info) = scenario.joints().nth(joint)?;
-            Some(format!("{device}.{}", info.coordinate))
-        });
+        let found_static = polar([u_s, angle], [of_static(by_u_s), of_static(by_angle)]);
+        let found_dynamic = polar([u_d, torque], [of_dynamic(by_u_d), of_dynamic(by_torque)]);
+        let hidden = [found_static.hidden, found_dynamic.hidden];
         let joint = wheel_joint(scenario, index).unwrap_or_default();
+        let coordinate = scenario
+            .joints()
+            .nth(joint)
+            .map(|(_, device, info)| format!("{device}.{}", info.coordinate));
         let nominal = precess_dynamics::JointStates::states(&scenario.initial.devices)
             .nth(joint)
             .map_or(0.0, |of| of[0]);
@@ -270,13 +277,11 @@ fn wheels(
             device: name.clone(),
             index,
             coordinate: coordinate.unwrap_or_default(),
-            u_s: normal(u_s, deviation([by_u_s[0], by_u_s[1], 0.0, 0.0])),
-            u_d: normal(u_d, deviation([0.0, 0.0, -by_u_d[1], by_u_d[0]])),
-            phase: normal(wrapped(torque - angle), phase),
-            angle: normal(
-                wrapped(nominal + angle),
-                deviation([by_angle[0], by_angle[1], 0.0, 0.0]),
-            ),
+            u_s: found_static.length,
+            u_d: found_dynamic.length,
+            phase: about(wrapped(torque - angle), phase, hidden[0] || hidden[1]),
+            angle: about(wrapped(nominal + angle), of_static(by_angle), hidden[0]),
+            hidden,
             told,
         });
     }

@@ -8,8 +8,9 @@
 //!   -> motion with exact derivatives, normal equations                  model, pass
 //!   -> Gauss and Newton's steps over longer and longer parts            solve
 //!   -> what the data do not tell                                        directions
-//!   -> estimates, correlations, what each sensor leaves                 estimates
+//!   -> estimates, correlations, what each sensor leaves                 estimates, amplitude
 //!   -> parts of a scenario                                              device
+//!   -> what a manoeuvre would add                                       design
 //! ```
 //!
 //! The motion is that of the scenario's spacecraft under the measured torques of its motors, which are held from reading to reading.
@@ -17,7 +18,9 @@
 //! the scenario does not have is seen in the residuals, and not estimated.
 
 mod agreement;
+mod amplitude;
 mod component;
+mod design;
 pub mod device;
 mod directions;
 mod error;
@@ -30,6 +33,7 @@ mod solve;
 mod timeline;
 
 pub use component::{Component, Unknown, UnknownPrior};
+pub use design::{Design, DirectionDesign, Manoeuvre, NumberDesign, design};
 pub use directions::Direction;
 pub use error::IdentifyError;
 pub use estimates::{

@@ -14,6 +14,9 @@ use super::error::IdentifyError;
 use crate::scenario::SampledController;
 use crate::telemetry::{Sensor, Telemetry};
 
+/// Standard deviations from which a residual counts by its size.
+const HUBER: f64 = 3.0;
+
 /// What the file of unknowns states of the noise of joints, beside the quanta of the scenario.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointNoise {
@@ -38,6 +41,8 @@ pub(super) struct SensorNoise {
     pub(super) star_mount: Matrix3<f64>,
     pub(super) tachometer: f64,
     pub(super) encoder: f64,
+    /// Standard deviations from which a residual counts by its size.
+    pub(super) bound: f64,
 }
 
 impl SensorNoise {
@@ -58,6 +63,7 @@ impl SensorNoise {
             star_mount: Matrix3::identity(),
             tachometer: stated.tachometer.hypot(sensors.tachometer_quantum / 12_f64.sqrt()),
             encoder: stated.encoder.hypot(sensors.encoder_quantum / 12_f64.sqrt()),
+            bound: HUBER,
         };
         if telemetry.of(Sensor::Gyro).is_some() {
             let gyro = sensors.gyro.ok_or_else(|| unknown("gyro", "controller.sensors.gyro"))?;

@@ -3,7 +3,7 @@
 //!
 //! A residual is divided by its standard deviation. The bias of the gyro walks: of each axis the innovations of the filter with this one
 //! state are independent, and so are those of the derivatives, by the same gains (Maybeck, *Stochastic Models, Estimation and Control*,
-//! 5.10). Beyond [`HUBER`] standard deviations a residual counts by its size and not by its square (Huber, Ann. Math. Statist. 35(1),
+//! 5.10). Beyond three standard deviations a residual counts by its size and not by its square (Huber, Ann. Math. Statist. 35(1),
 //! 1964): of normal noise that is one in 370, and intervals are wider by 0.1 %.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
@@ -16,8 +16,6 @@ use super::model::Model;
 use super::noise::SensorNoise;
 use super::timeline::{Event, Timeline};
 
-/// Standard deviations from which a residual counts by its size.
-pub(super) const HUBER: f64 = 3.0;
 /// A rate beyond this, rad/s, is of a motion that has left all bounds.
 const RATE_MAX: f64 = 1e6;
 /// Kinds of sensors.
@@ -27,7 +25,7 @@ pub(super) const KINDS: usize = 4;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Left {
     pub(super) count: u64,
-    /// Weighted squares of residuals within [`HUBER`] and beyond, each by its variance, cut at that.
+    /// Weighted squares of residuals within the bound and beyond, each by its variance, cut at that.
     pub(super) squares: f64,
     pub(super) outliers: u64,
 }
@@ -241,7 +239,8 @@ impl Running<'_> {
                 total += filter.variance;
                 // An outlier moves the bias no farther than the bound does.
                 let size = residual.abs() / total.sqrt();
-                let weight = if size > HUBER { HUBER / size } else { 1.0 };
+                let bound = self.noise.bound;
+                let weight = if size > bound { bound / size } else { 1.0 };
                 let gain = weight * filter.variance / total;
                 filter.mean += gain * residual;
                 for (to, innovation) in filter.slopes.iter_mut().zip(&self.row) {
@@ -284,12 +283,13 @@ impl Running<'_> {
     fn add(&mut self, residual: f64, deviation: f64, kind: usize) {
         let r = residual / deviation;
         let size = r.abs();
-        let outlies = size > HUBER;
-        let weight = if outlies { HUBER / size } else { 1.0 };
-        self.pass.cost += if outlies { HUBER * (size - 0.5 * HUBER) } else { 0.5 * r * r };
+        let bound = self.noise.bound;
+        let outlies = size > bound;
+        let weight = if outlies { bound / size } else { 1.0 };
+        self.pass.cost += if outlies { bound * (size - 0.5 * bound) } else { 0.5 * r * r };
         let left = &mut self.pass.left[kind];
         left.count += 1;
-        left.squares += size.min(HUBER) * size.min(HUBER);
+        left.squares += size.min(bound) * size.min(bound);
         left.outliers += u64::from(outlies);
         let inverse = deviation.recip();
         // Few of the numbers move a reading.

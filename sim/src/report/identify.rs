@@ -118,10 +118,19 @@ impl IdentifyReport<'_> {
             let (name, told) = (wheel.device.as_str(), wheel.told);
             let degrees = |angle: &Estimate| angle.times(180.0 / PI);
             // 1 kg m is 1e5 g cm, 1 kg m² is 1e7 g cm².
-            rows.push(row(name, "U_s", &wheel.u_s.times(1e5), "g cm", told));
-            rows.push(row(name, "U_d", &wheel.u_d.times(1e7), "g cm²", told));
-            rows.push(row(name, "phase of U_d", &degrees(&wheel.phase), "deg", told));
-            rows.push(row(name, "angle at the start", &degrees(&wheel.angle), "deg", told));
+            let [u_s, u_d] = wheel.hidden;
+            for (what, estimate, unit, hidden) in [
+                ("U_s", wheel.u_s.times(1e5), "g cm", u_s),
+                ("U_d", wheel.u_d.times(1e7), "g cm²", u_d),
+                ("phase of U_d", degrees(&wheel.phase), "deg", u_s || u_d),
+                ("angle at the start", degrees(&wheel.angle), "deg", u_s),
+            ] {
+                let (state, mut cells) = row(name, what, &estimate, unit, told);
+                if let (true, true, Some(cell)) = (told, hidden, cells.get_mut(2)) {
+                    "hidden by noise".clone_into(cell);
+                }
+                rows.push((state, cells));
+            }
         }
         for of in &self.found.numbers {
             rows.push(row("", &of.name, &of.estimate, of.unit, of.told));

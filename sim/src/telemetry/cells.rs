@@ -1,4 +1,5 @@
-//! [`Cells`]: rows of a file of telemetry, in which cells may be empty: CSV row by row, NPZ and Parquet at once.
+//! [`Cells`]: rows of a file of telemetry, in which cells may be empty: CSV row by row, NPZ and Parquet at once, as columns in
+//! memory.
 
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -42,7 +43,7 @@ impl Cells {
     pub(super) fn open(path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {
         let failed = |fault| TelemetryError { file: path.to_owned(), fault };
         let ends = |name: &str| path.extension().is_some_and(|of| of.eq_ignore_ascii_case(name));
-        let (names, mut rows) = if ends("npz") {
+        let (names, rows) = if ends("npz") {
             let (names, columns) = of_npz(path).map_err(failed)?;
             (names, Rows::Kept(columns))
         } else if ends("parquet") {
@@ -55,6 +56,26 @@ impl Cells {
             let names = head.iter().map(str::to_owned).collect();
             (names, Rows::Csv(Box::new(reader), csv::StringRecord::new()))
         };
+        Self::of(path, (names, rows), layout)
+    }
+
+    /// Of columns in memory, which messages call so.
+    pub(super) fn of_columns(
+        path: &Path,
+        columns: Vec<(String, Vec<f64>)>,
+        layout: &TelemetryLayout,
+    ) -> Result<Self, TelemetryError> {
+        let (names, columns) = columns.into_iter().unzip();
+        Self::of(path, (names, Rows::Kept(columns)), layout)
+    }
+
+    /// Those that a layout has.
+    fn of(
+        path: &Path,
+        (names, mut rows): (Vec<String>, Rows),
+        layout: &TelemetryLayout,
+    ) -> Result<Self, TelemetryError> {
+        let failed = |fault| TelemetryError { file: path.to_owned(), fault };
         let place = |name: &String| names.iter().position(|of| of == name);
         let Some(time) = place(&layout.time) else {
             let name = layout.time.clone();

@@ -87,7 +87,27 @@ impl Telemetry {
     ///
     /// What makes the file unreadable as telemetry, with the remedy.
     pub fn read(path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {
-        let mut rows = TelemetryRows::open(path, layout)?;
+        Self::of_rows(TelemetryRows::open(path, layout)?, path)
+    }
+
+    /// Of columns in memory, each with its name; NaN where a sensor has no reading. Messages call them `name`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn of_columns(
+        name: &str,
+        columns: Vec<(String, Vec<f64>)>,
+        layout: &TelemetryLayout,
+    ) -> Result<Self, TelemetryError> {
+        let path = Path::new(name);
+        Self::of_rows(
+            TelemetryRows::of(Cells::of_columns(path, columns, layout)?, path, layout)?,
+            path,
+        )
+    }
+
+    fn of_rows(mut rows: TelemetryRows, path: &Path) -> Result<Self, TelemetryError> {
         let present = rows.sensors().to_vec();
         let empty = |of: &SensorColumns| Series {
             sensor: of.sensor,
@@ -144,7 +164,10 @@ impl TelemetryRows {
     ///
     /// A file that cannot be read, no column of the time or of any sensor, and some but not all columns of a sensor.
     pub fn open(path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {
-        let cells = Cells::open(path, layout)?;
+        Self::of(Cells::open(path, layout)?, path, layout)
+    }
+
+    fn of(cells: Cells, path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {
         let present = cells.present(layout)?;
         Ok(Self { screen: Screen::new(path, present, layout.time_size), cells, ended: false })
     }

@@ -1,4 +1,4 @@
-//! Swapped axes and wrong units end with an error that names them.
+//! Swapped axes, swapped wheels and wrong units end with an error that names them.
 
 use precess::file::identification_example as example;
 use precess::identify::IdentifyError;
@@ -67,4 +67,28 @@ fn speeds_in_rpm_and_torques_in_millinewton_metres_are_named() {
     let in_millis = |cells: &mut Vec<String>| times(&mut cells[5], 1e3);
     let found = error(in_millis);
     assert!(matches!(&found, IdentifyError::Unit { unit: "mN m", .. }), "{found}");
+}
+
+#[test]
+fn swapped_wheels_are_named() {
+    // Columns: time, gyro, then rate and motor of each wheel.
+    let all_of_two = |cells: &mut Vec<String>| {
+        cells.swap(4, 6);
+        cells.swap(5, 7);
+    };
+    let found = error(all_of_two).to_string();
+    assert!(found.contains("rw1 has the columns of rw2 and rw2 has the columns of rw1"), "{found}");
+    let of_opposite = |cells: &mut Vec<String>| {
+        cells.swap(6, 10);
+        cells.swap(7, 11);
+    };
+    let found = error(of_opposite).to_string();
+    assert!(found.contains("rw2 has the columns of rw4 and rw4 has the columns of rw2"), "{found}");
+}
+
+#[test]
+fn swapped_rates_of_wheels_are_named() {
+    let found = error(|cells| cells.swap(4, 8)).to_string();
+    let both = "rw1.spin is the column rw3.spin and rw3.spin is the column rw1.spin";
+    assert!(found.contains(both), "{found}");
 }

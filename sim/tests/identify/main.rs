@@ -1,7 +1,10 @@
-//! Numbers of a spacecraft from seeded telemetry of another one: the truth within intervals, what the data do not tell, bad data.
+//! Numbers of a spacecraft from seeded telemetry of another one: the truth within intervals, what the data do not tell and which
+//! manoeuvre would, bad data.
 
 mod agreement;
+mod designed;
 mod recovered;
+mod richer;
 mod untold;
 
 use std::fs;

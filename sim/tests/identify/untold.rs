@@ -16,12 +16,13 @@ use super::recovered::unknowns;
 const SHORT: f64 = 4.0;
 
 /// The scenario of the example without friction of its wheels.
-fn frictionless() -> Scenario {
+pub(crate) fn frictionless() -> Scenario {
     let text = example::SCENARIO.replace("damping = \"1e-5 N m s/rad\"\n", "");
     from_toml("bus", &text, Path::new("")).expect("a scenario").0
 }
 
-fn found(scenario: &Scenario, torque: f64, of: &[Unknown]) -> Identified {
+/// These unknowns, with priors of imbalances and moments, near the truth.
+pub(crate) fn known(of: &[Unknown], others: &Unknowns) -> Unknowns {
     let prior = |unknown: &Unknown| UnknownPrior {
         unknown: *unknown,
         deviations: match unknown {
@@ -30,11 +31,18 @@ fn found(scenario: &Scenario, torque: f64, of: &[Unknown]) -> Identified {
             _ => Vec::new(),
         },
     };
-    let own =
-        Unknowns { unknowns: of.iter().map(prior).collect(), is_near: true, ..unknowns(scenario) };
+    Unknowns { unknowns: of.iter().map(prior).collect(), is_near: true, ..others.clone() }
+}
+
+/// A short record under torques of this amplitude, N m.
+pub(crate) fn record(scenario: &Scenario, torque: f64) -> String {
     let recording = Recording { duration: SHORT, torque, ..example::RECORDING };
-    let text = recording.csv(scenario).expect("telemetry");
-    identified(scenario, &text, &own).expect("estimates")
+    recording.csv(scenario).expect("telemetry")
+}
+
+pub(crate) fn found(scenario: &Scenario, torque: f64, of: &[Unknown]) -> Identified {
+    let own = known(of, &unknowns(scenario));
+    identified(scenario, &record(scenario, torque), &own).expect("estimates")
 }
 
 fn names(direction: &Direction) -> Vec<&str> {
