@@ -1,13 +1,15 @@
 //! [`DeviceContributions`]: what the devices add to the equations of the hub once their joints are eliminated, for a
-//! program that has the hub itself and solves its equations.
+//! program that has the hub itself and solves its equations; and [`JointGains`], by which the joints' accelerations follow.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::Assembly;
-use crate::equations::error::SolveError;
+use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
+use crate::equations::system::Solution;
+use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, components, finite, vector, zeros};
@@ -15,6 +17,7 @@ use crate::results::momentum::first_moments;
 use crate::sets::devices::{ConstantShares, Devices};
 use crate::sets::per_device as data;
 use crate::solve::diagnosis::overflow;
+use crate::solve::elimination::back_substitute;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -24,8 +27,8 @@ use crate::solve::state::State;
 ///
 /// The hub's equations are `(M_hub + M) [a; omega'] = h_hub + h`, with `a` the inertial acceleration of B; in a uniform field
 /// `g`, expressed in B, that acceleration less `g`: gravity of the inputs is not read, nor are the hub's mode, force
-/// and torque. The joints' accelerations are those on a [prescribed hub](crate::HubMode::Prescribed) with that `a` and `omega'`,
-/// without gravity.
+/// and torque. The joints' accelerations are [`Spacecraft::joint_accelerations`] with that `a` and `omega'`: those on a
+/// [prescribed hub](crate::HubMode::Prescribed), without gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceContributions<T = f64> {
     /// `M`, force by `a`, kg; symmetric.
@@ -48,6 +51,10 @@ pub struct DeviceContributions<T = f64> {
     pub inertia: Matrix3<T>,
 }
 
+/// What [`Spacecraft::joint_accelerations`] needs of an elimination: each joint's acceleration is linear in the hub's.
+#[derive(Clone, Debug)]
+pub struct JointGains<D: Devices>(D::Per<data::Gains>);
+
 impl<D: Devices> Spacecraft<D> {
     /// What the devices contribute to the equations of the hub, their joints eliminated: motors, springs, friction and
     /// modes of the joints, and wrenches on the bodies, are those of the inputs.
@@ -60,26 +67,77 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
+        self.eliminate_joints(state, inputs, &mut self.joint_gains())
+    }
+
+    /// Gains before any elimination: [`Self::joint_accelerations`] rejects them.
+    pub fn joint_gains(&self) -> JointGains<D> {
+        JointGains(D::new_data(&self.devices, &data::Gains))
+    }
+
+    /// [`Self::device_contributions`], and the gains by which the accelerations of the joints follow once those of the
+    /// hub are known.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::device_contributions`]; the gains are then of no use.
+    pub fn eliminate_joints<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        gains: &mut JointGains<D>,
+    ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
         if !self.are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
-        let found = self.contributions(state, inputs);
+        let found = self.contributions(state, inputs, &mut gains.0);
         found.map_err(|failure| self.diagnosis(state, inputs, failure))
+    }
+
+    /// Accelerations of the joints, rad/s^2 or m/s^2, device by device, on a hub with the inertial acceleration `a` of B, less
+    /// that of a uniform field, m/s^2, and the angular acceleration `omega_dot`, rad/s^2, both expressed in B.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] where an acceleration of the hub is infinite or NaN, [`SolveError::Overflow`] of the first
+    /// joint whose acceleration is, as it is where the gains are not of these devices.
+    pub fn joint_accelerations(
+        &self,
+        gains: &JointGains<D>,
+        a: &Vector3<D::Scalar>,
+        omega_dot: &Vector3<D::Scalar>,
+    ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
+        let hub = Solution { r_b_n_ddot: components(a), omega_dot: components(omega_dot) };
+        if !hub.is_finite() {
+            let of = a.iter().chain(omega_dot).copied();
+            let value = of.into_iter().find(|number| !number.is_finite()).unwrap_or(zero());
+            return Err(SolveError::NotFinite { what: Quantity::HubAcceleration, value });
+        }
+        let mut found = D::new_data(&self.devices, &data::Accelerations);
+        if back_substitute::<D>(&self.devices, &gains.0, &hub, &mut found) {
+            return Ok(found);
+        }
+        let not_finite = found.values().zip(self.joints()).find(|(value, _)| !value.is_finite());
+        let joint = not_finite.or_else(|| found.values().zip(self.joints()).next());
+        let what = joint.map_or(Quantity::HubAcceleration, |(_, (device, info))| {
+            Quantity::JointAcceleration { device, joint: info.body }
+        });
+        Err(SolveError::Overflow { what })
     }
 
     fn contributions<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
+        gains: &mut D::Per<data::Gains>,
     ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
         let omega = components(&state.omega);
         let environment = Environment { omega, central: None, impulse: false, reduction: None };
         let nothing = HubConstants { m_b: zero(), first_moment: zeros(), i_b_b: Symmetric::zero() };
         let constant = nothing.with_constant_shares(D::list::<ConstantShares>(&self.devices));
         let mut assembly = Assembly::new(&constant, zeros(), zeros());
-        let mut gains = D::new_data(&self.devices, &data::Gains);
         let (given, by) = (inputs.of_joints(), self.arithmetic);
-        self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut gains)?;
+        self.eliminate_devices(by, state, given, &environment, &mut assembly, gains)?;
         let (body, system) = (assembly.body(), assembly.system(omega));
         let [_, prime] = first_moments::<D>(&self.devices, &state.devices);
         let found = DeviceContributions {

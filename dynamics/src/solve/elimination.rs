@@ -207,6 +207,9 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
         if let Some(gains) = gains {
             *out = K::back_substitute(gains, &self.hub);
             self.finite &= out.values().all(Scalar::is_finite);
+        } else {
+            // A device that was not eliminated has its gains in a group, or none.
+            self.finite &= self.groups.is_some();
         }
         Ok(())
     }
@@ -216,7 +219,10 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<'_, T> {
         carrying: &PreparedCarrying<C, D>,
         (gains, out): <Substituted as Bundle<T>>::Of<'_, Carrying<C, D>>,
     ) -> Result<(), Infallible> {
-        let Some(of_carrier) = &gains.carrier else { return Ok(()) };
+        let Some(of_carrier) = &gains.carrier else {
+            self.finite = false;
+            return Ok(());
+        };
         let (joints, [r_b_n_ddot, omega_dot]) = C::outward(of_carrier, &self.hub);
         self.finite &= joints.values().all(Scalar::is_finite);
         out.carrier = joints;

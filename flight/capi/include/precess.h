@@ -44,10 +44,12 @@ extern "C" {
 #define PRECESS_MAX_JOINTS 3
 #define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
 #define PRECESS_SPACECRAFT_SIZE 16384
+#define PRECESS_JOINT_GAINS_SIZE 5120
 #elif PRECESS_TABLE_VERSION == 2
 #define PRECESS_MAX_JOINTS 7
 #define PRECESS_TABLE_SIZE(devices) (124 + 2320 * (devices))
 #define PRECESS_SPACECRAFT_SIZE 73728
+#define PRECESS_JOINT_GAINS_SIZE 28672
 #define PRECESS_MAX_PLATFORMS 4   /* platforms on the hub without platforms on them, */
 #define PRECESS_MAX_LOWER 1       /* on the hub with platforms on them, */
 #define PRECESS_MAX_UPPER 1       /* platforms on each of these, */
@@ -69,6 +71,8 @@ extern "C" {
 #define precess_momentum_of precess_momentum_of_v2
 #define precess_loads_of precess_loads_of_v2
 #define precess_contributions_of precess_contributions_of_v2
+#define precess_eliminate precess_eliminate_v2
+#define precess_joint_accelerations_of precess_joint_accelerations_of_v2
 #else
 #error "PRECESS_TABLE_VERSION is 1 or 2"
 #endif
@@ -244,6 +248,11 @@ typedef struct precess_contributions {
     double inertia[9];            /* of the devices about B, joints locked, kg m^2 */
 } precess_contributions;
 
+/* Memory of what precess_eliminate keeps of the joints; its contents are the library's. May be copied as a whole. */
+typedef struct precess_joint_gains {
+    uint64_t opaque[PRECESS_JOINT_GAINS_SIZE / 8];
+} precess_joint_gains;
+
 /* Version of the library: PRECESS_VERSION of the header it belongs to. */
 uint32_t precess_version(void);
 
@@ -337,6 +346,17 @@ int32_t precess_momentum_of(const precess_spacecraft *craft, const precess_state
 int32_t precess_contributions_of(const precess_spacecraft *craft, const precess_state *state,
                                  const precess_inputs *inputs, precess_contributions *out,
                                  precess_fault *fault);
+
+/* The same, and the gains by which the accelerations of the joints follow. */
+int32_t precess_eliminate(const precess_spacecraft *craft, const precess_state *state,
+                          const precess_inputs *inputs, precess_contributions *out,
+                          precess_joint_gains *gains, precess_fault *fault);
+
+/* Accelerations of the joints where those of the hub are a = `linear` (m/s^2) and omega' = `angular` (rad/s^2) of
+ * precess_contributions, three numbers each, which are copied to `out`. The gains are those of this spacecraft. */
+int32_t precess_joint_accelerations_of(const precess_spacecraft *craft, const precess_joint_gains *gains,
+                                       const double *linear, const double *angular,
+                                       precess_accelerations *out, precess_fault *fault);
 
 /* Loads (N, N m) at this instant, joints' along PRECESS_AXES_. */
 int32_t precess_loads_of(const precess_spacecraft *craft, const precess_state *state,

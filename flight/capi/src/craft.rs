@@ -17,7 +17,7 @@ pub const ALIGN: usize = 8;
 
 /// The first field of a valid spacecraft; with the version, so that other builds reject it, and with the
 /// joints that a device has at most, so that structures of another version of the interface are rejected.
-const fn made_by(joints: usize) -> u64 {
+pub(crate) const fn made_by(joints: usize) -> u64 {
     0x5052_4543_0000_0000 | (joints as u64) << 24 | crate::VERSION as u64
 }
 

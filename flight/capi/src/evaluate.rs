@@ -253,10 +253,7 @@ where
             1 => About::CentreOfMass,
             2 => {
                 // SAFETY: by contract.
-                let &[x, y, z] = unsafe { memory::slice(point, 3) }? else {
-                    return Err(Code::Null.into());
-                };
-                About::Point(Vector3::new(x, y, z))
+                About::Point(Vector3::from(unsafe { memory::vector(point) }?))
             }
             _ => return Err(Code::UnknownChoice.into()),
         };

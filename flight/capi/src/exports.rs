@@ -4,7 +4,7 @@
 
 use core::ffi::c_void;
 
-use crate::contributions::contributions_of;
+use crate::contributions::{Gains, contributions_of, eliminate, joint_accelerations_of};
 use crate::craft::{Craft, init};
 use crate::error::Fault;
 use crate::evaluate::{accelerations_of, energy, momentum_of, step, stop};
@@ -165,6 +165,22 @@ versions! {
         state: *const State<J>,
         inputs: *const Inputs<J>,
         out: *mut Contributions,
+        fault: *mut Fault,
+    );
+    eliminate "precess_eliminate" "precess_eliminate_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        inputs: *const Inputs<J>,
+        out: *mut Contributions,
+        gains: *mut Gains,
+        fault: *mut Fault,
+    );
+    joint_accelerations_of "precess_joint_accelerations_of" "precess_joint_accelerations_of_v2" (
+        craft: *const Craft,
+        gains: *const Gains,
+        linear: *const f64,
+        angular: *const f64,
+        out: *mut Accelerations<J>,
         fault: *mut Fault,
     );
     steering_terms_of "precess_steering_terms_of" "precess_steering_terms_of_v2" (

@@ -60,6 +60,8 @@ where
         ("PRECESS_MAX_SUBSTEPS", crate::evaluate::MAX_SUBSTEPS as usize),
         ("PRECESS_SPACECRAFT_SIZE", Versions::SIZE),
         ("sizeof(precess_spacecraft)", Versions::SIZE),
+        ("PRECESS_JOINT_GAINS_SIZE", Versions::GAINS_SIZE),
+        ("sizeof(precess_joint_gains)", Versions::GAINS_SIZE),
         ("PRECESS_SPACECRAFT_ALIGN", crate::craft::ALIGN),
         ("PRECESS_TABLE_VERSION", crate::table::version(J) as usize),
         ("PRECESS_TABLE_SIZE(0)", crate::table::size(0, J)),

@@ -130,6 +130,21 @@ pub unsafe fn slice<'a, T: Plain>(pointer: *const T, count: usize) -> Result<&'a
     Ok(unsafe { core::slice::from_raw_parts(pointer, count) })
 }
 
+/// Three numbers.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`].
+///
+/// # Safety
+///
+/// A pointer that is neither points to three readable numbers.
+pub unsafe fn vector(pointer: *const f64) -> Result<[f64; 3], Code> {
+    // SAFETY: by contract.
+    let &[x, y, z] = unsafe { slice(pointer, 3) }? else { return Err(Code::Null) };
+    Ok([x, y, z])
+}
+
 /// Room for numbers in a row, to be written.
 ///
 /// # Errors

@@ -212,6 +212,7 @@ where
         ("table", "precess_table_write", "table"),
         ("state", "precess_state_at_rest", "state"),
         ("inputs", "precess_inputs_none", "inputs"),
+        ("gains", "precess_eliminate", "gains"),
     ] {
         let found = calls.iter().find(|call| call.name.trim_end_matches("_v2") == of).unwrap();
         let (code, arguments) = called(found, &contents, Changed::Nothing);
@@ -223,6 +224,7 @@ where
             "craft" => Versions::SIZE,
             "table" => usize::try_from(pointer("length").unwrap().memory[0]).unwrap(),
             "state" => size_of::<State<J>>(),
+            "gains" => Versions::GAINS_SIZE,
             _ => size_of::<Inputs<J>>(),
         };
         made.truncate(length);
@@ -237,7 +239,9 @@ where
     let mut stopping = read::<Inputs<J>>(&contents[inputs].1);
     stopping.mode[0][0] = 2;
     contents.push(("stopping", bytes(&stopping)));
-    contents.push(("torque", bytes(&[1.0, 2.0, 3.0])));
+    for name in ["torque", "linear", "angular"] {
+        contents.push((name, bytes(&[1.0, 2.0, 3.0])));
+    }
     let [line, drag] = tracking::contents();
     contents.extend([("line", line), ("drag", drag)]);
     contents.push(("law", bytes(&law::<J>())));

@@ -10,7 +10,7 @@ use crate::craft::{Craft, StoredSpacecraft};
 use crate::entry_map::EntryMap;
 use crate::error::{Code, Fault, Rejection};
 use crate::evaluate::{take_state_and_inputs, with};
-use crate::memory::{OutputPointer, refer, slice};
+use crate::memory::{OutputPointer, refer, vector};
 use crate::state::state_of;
 use crate::types::{self, PerJoint};
 use crate::version::{Interface, SetOf, Versions, give, take};
@@ -144,8 +144,7 @@ where
         // SAFETY: by contract.
         let (state, law) = unsafe { (state_of(craft, refer(state)?), refer(law)?) };
         // SAFETY: by contract.
-        let &[x, y, z] = unsafe { slice(torque, 3) }? else { return Err(Code::Null.into()) };
-        let torque = Vector3::new(x, y, z);
+        let torque = Vector3::from(unsafe { vector(torque) }?);
         out.write(if J == VERSIONS[0] {
             allocated::<J, { JOINTS[0] }>(craft, &state, law, &torque)?
         } else {

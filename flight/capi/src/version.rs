@@ -49,6 +49,8 @@ pub(crate) trait Interface<const J: usize> {
     type Entry: Plain;
     /// `PRECESS_SPACECRAFT_SIZE`.
     const SIZE: usize;
+    /// `PRECESS_JOINT_GAINS_SIZE`.
+    const GAINS_SIZE: usize;
     /// An entry of zeros.
     const EMPTY: Self::Entry;
 
@@ -65,6 +67,7 @@ impl Interface<3> for Versions {
     type Entry = Device<3>;
 
     const SIZE: usize = 16_384;
+    const GAINS_SIZE: usize = 5120;
     const EMPTY: Device<3> = Device::EMPTY;
 
     fn set(entries: &[Device<3>]) -> Result<(List, EntryMap), Rejection> {
@@ -92,6 +95,7 @@ impl Interface<7> for Versions {
     type Entry = Entry;
 
     const SIZE: usize = 73_728;
+    const GAINS_SIZE: usize = 28_672;
     const EMPTY: Entry = Entry::EMPTY;
 
     fn set(entries: &[Entry]) -> Result<(Second, EntryMap), Rejection> {

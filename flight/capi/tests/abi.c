@@ -52,34 +52,7 @@ static int32_t init(uint32_t count, precess_fault *fault)
     return precess_init(&craft, sizeof craft, &hub, devices, count, fault);
 }
 
-/* The equation of forces of a hub whose centre of mass is B, with what its devices contribute; and their joints. */
-static void contributes(const precess_state *state, const precess_inputs *inputs, uint32_t joints)
-{
-    precess_contributions devices_of;
-    precess_accelerations found, again;
-    precess_inputs prescribed = *inputs;
-    uint32_t joint;
-    int row, column;
-    IS(precess_accelerations_of(&craft, state, inputs, &found, 0), PRECESS_OK);
-    IS(precess_contributions_of(&craft, state, inputs, &devices_of, 0), PRECESS_OK);
-    for (row = 0; row < 3; row++) {
-        double sum = hub.mass * found.linear[row] - devices_of.force[row];
-        for (column = 0; column < 3; column++) {
-            sum += devices_of.force_by_linear[3 * row + column] * found.linear[column];
-            sum += devices_of.force_by_angular[3 * row + column] * found.angular[column];
-        }
-        NEAR(sum, 0.0, 1e-10);
-    }
-    for (row = 0; row < 3; row++) {
-        prescribed.hub_linear[row] = found.linear[row];
-        prescribed.hub_angular[row] = found.angular[row];
-    }
-    prescribed.hub_mode = PRECESS_HUB_PRESCRIBED;
-    IS(precess_accelerations_of(&craft, state, &prescribed, &again, 0), PRECESS_OK);
-    for (joint = 0; joint < joints; joint++) {
-        NEAR(again.joint[0][joint], found.joint[0][joint], 1e-12);
-    }
-}
+#include "contributions.h"
 
 /* Every kind, by itself: steps conserve momentum, devices and hub make the equations. */
 static void every_kind(void)

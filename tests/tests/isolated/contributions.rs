@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use precess_dynamics::{
-    About, Devices, Each, Gravity, Hub, HubMode, JointStates, Mode, SolveError, Spacecraft,
+    About, Devices, Each, Gravity, Hub, HubMode, JointStates, Mode, Quantity, SolveError,
+    Spacecraft,
 };
 use precess_tests::cases;
 
@@ -41,7 +42,9 @@ fn equations_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, wha
     let mut inputs = of.inputs.clone();
     inputs.hub = HubMode::Free;
     let found = craft.accelerations(&of.state, &inputs).expect("regular");
-    let devices = craft.device_contributions(&of.state, &inputs).expect("regular");
+    let mut gains = craft.joint_gains();
+    let devices = craft.eliminate_joints(&of.state, &inputs, &mut gains).expect("regular");
+    assert_eq!(Ok(devices), craft.device_contributions(&of.state, &inputs), "{what}");
     let field = match inputs.gravity {
         Gravity::Uniform(g) => precess_dynamics::Attitude::dcm(&of.state.attitude) * g,
         _ => Vector3::zeros(),
@@ -65,6 +68,14 @@ fn equations_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, wha
         HubMode::Prescribed { r_b_n_ddot: found.r_b_n_ddot - field, omega_dot: found.omega_dot };
     (inputs.hub, inputs.gravity) = (prescribed, Gravity::None);
     let joints = craft.accelerations(&of.state, &inputs).expect("regular").devices;
+    let a = found.r_b_n_ddot - field;
+    let by_gains = craft.joint_accelerations(&gains, &a, &found.omega_dot).expect("regular");
+    for (joint, expected) in by_gains.values().zip(joints.values()) {
+        assert!(
+            (joint - expected).abs() <= ROUNDING * (1.0 + expected.abs()),
+            "{what}: {joint:e} by gains, {expected:e}"
+        );
+    }
     for (joint, expected) in joints.values().zip(found.devices.values()) {
         assert!(
             (joint - expected).abs() <= ROUNDING * (1.0 + expected.abs()),
@@ -134,4 +145,25 @@ fn a_state_or_a_locked_joint_that_accelerations_reject_is_rejected() {
     of.state.omega.x = f64::NAN;
     let rejected = of.solver.device_contributions(&of.state, &of.inputs);
     assert!(matches!(rejected, Err(SolveError::NotFinite { .. })), "{rejected:?}");
+}
+
+#[test]
+fn gains_of_no_elimination_and_a_hub_that_is_not_finite_are_rejected() {
+    let of = mixed(3, &Options::default());
+    let still = Vector3::zeros();
+    let mut gains = of.solver.joint_gains();
+    let rejected = of.solver.joint_accelerations(&gains, &still, &still);
+    let first = matches!(
+        rejected,
+        Err(SolveError::Overflow { what: Quantity::JointAcceleration { device: 0, .. } })
+    );
+    assert!(first, "{rejected:?}");
+    of.solver.eliminate_joints(&of.state, &of.inputs, &mut gains).expect("regular");
+    assert!(of.solver.joint_accelerations(&gains, &still, &still).is_ok());
+    let rejected = of.solver.joint_accelerations(&gains, &still, &Vector3::new(0.0, f64::NAN, 0.0));
+    let what = Quantity::HubAcceleration;
+    assert!(
+        matches!(rejected, Err(SolveError::NotFinite { what: of, .. }) if of == what),
+        "{rejected:?}"
+    );
 }
