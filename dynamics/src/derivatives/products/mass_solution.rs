@@ -4,6 +4,9 @@ use crate::derivatives::loads::kernel::NotEmitted;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
+use crate::equations::joint_inputs::Environment;
+#[cfg(feature = "lanes")]
+use crate::equations::side_by_side::gains::GroupGains;
 use crate::equations::system::Solution;
 use crate::isolation::carrier::Carrier;
 use crate::model::kind::Kind;
@@ -15,7 +18,7 @@ use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
 use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::per_device as data;
-use crate::solve::elimination::back_substitute;
+use crate::solve::elimination::{Eliminated, Elimination, substitute};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 
@@ -74,16 +77,55 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
         given: Option<Solution<D::Scalar>>,
         joints: &mut D::Per<data::Accelerations>,
     ) -> Result<Solution<D::Scalar>, NotEmitted> {
-        let (coordinates, inputs) = at;
         let mut assembly = Assembly::new(&self.body, force, moment);
         let mut gains = D::new_data(&self.devices, &data::Gains);
-        let data = (coordinates, inputs.of_joints(), &*joints, &mut gains);
-        let mut visitor = AtRest { assembly: &mut assembly };
-        D::visit::<Loaded, _>(&self.devices, data, &mut visitor)?;
+        #[cfg(feature = "lanes")]
+        let mut groups = GroupGains::none();
+        if self.passive {
+            let (coordinates, inputs) = at;
+            let data = (coordinates, inputs.of_joints(), &*joints, &mut gains);
+            let mut visitor = AtRest { assembly: &mut assembly };
+            D::visit::<Loaded, _>(&self.devices, data, &mut visitor)?;
+        } else {
+            // Without springs and friction, as an evaluation at rest.
+            let (coordinates, inputs) = at_rest::<D, S>(at, joints);
+            let environment =
+                Environment { omega: zeros(), central: None, impulse: false, reduction: None };
+            let mut elimination = Elimination::new(&environment, &mut assembly, 0, self.arithmetic);
+            #[cfg(feature = "lanes")]
+            {
+                elimination.groups = Some(&mut groups);
+            }
+            let data = (&coordinates, inputs.of_joints(), &mut gains);
+            let eliminated = D::visit::<Eliminated, _>(&self.devices, data, &mut elimination);
+            eliminated.map_err(|_| NotEmitted)?;
+        }
+        #[cfg(feature = "lanes")]
+        let groups = (!self.passive).then_some(&mut groups);
+        #[cfg(not(feature = "lanes"))]
+        let groups = None;
         // Its pivots are those of the accelerations, which were accepted.
         let hub = given.unwrap_or_else(|| assembly.system(zeros()).solved().0);
         // What is not finite is rejected by who calls.
-        let _ = back_substitute::<D>(&self.devices, &gains, &hub, joints);
+        let _ = substitute::<D>(&self.devices, &gains, &hub, joints, groups);
         Ok(hub)
     }
+}
+
+/// The joints at rest, and these loads for what drives them: of prescribed ones the accelerations.
+fn at_rest<D: Devices, S: StructureDerivatives>(
+    (coordinates, inputs): (&D::Per<data::Joints>, &Inputs<D, S>),
+    loads: &D::Per<data::Accelerations>,
+) -> (D::Per<data::Joints>, Inputs<D, S>) {
+    let (mut coordinates, mut inputs) = (coordinates.clone(), inputs.clone());
+    coordinates.states_mut().for_each(|[_, rate]| *rate = zero());
+    let to = inputs.modes.values_mut().zip(inputs.motors.values_mut());
+    for ((mode, motor), load) in to.zip(loads.values()) {
+        (*mode, *motor) = match *mode {
+            Mode::Driven => (Mode::Driven, load),
+            Mode::Prescribed(_) => (Mode::Prescribed(load), zero()),
+            Mode::Locked => (Mode::Locked, zero()),
+        };
+    }
+    (coordinates, inputs)
 }
