@@ -13,7 +13,7 @@ use crate::derivatives::loads::load_columns::LoadsWorkspace;
 use crate::derivatives::loads::row_product::ChangeRows;
 use crate::derivatives::slopes::Slopes;
 use crate::derivatives::structure::StructureDerivatives;
-use crate::derivatives::variable::{Axis, Variable};
+use crate::derivatives::variable::{Axis, Variable, hub_states};
 use crate::derivatives::workspace::Workspace;
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
@@ -300,10 +300,18 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         inputs: &Inputs<D, S>,
         outputs: &Outputs<D::Scalar>,
     ) {
-        // Inner iteration: what the iterators chain is then a loop each.
-        let Self { states, inputs: by_inputs, .. } = self;
+        let Self { states, inputs: by_inputs, workspace: Workspace { moving, .. }, .. } = self;
+        Slopes::list_moving(inputs, moving);
+        let moving = || moving.iter().copied();
+        let modes = || 0..S::modes(craft);
+        // Those of `state_variables`, of which each list has a known length.
         states.clear();
-        craft.state_variables(inputs).for_each(|variable| states.push(variable));
+        states.extend_from_slice(hub_states(&inputs.hub));
+        states.extend(moving().map(Variable::Coordinate));
+        states.extend(moving().map(Variable::Rate));
+        states.extend(modes().map(Variable::ModalCoordinate));
+        states.extend(modes().map(Variable::ModalRate));
+        // Inner iteration: what the iterators chain is then a loop each.
         by_inputs.clear();
         craft.input_variables(inputs).for_each(|variable| by_inputs.push(variable));
         craft.outputs(outputs, &mut self.outputs);
@@ -311,9 +319,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         let sizes = [(states, states), (states, by_inputs), (rows, states), (rows, by_inputs)];
         let Self { a, b, c, d, .. } = self;
         for (matrix, (rows, columns)) in [a, b, c, d].into_iter().zip(sizes) {
-            if matrix.shape() != (rows, columns) {
-                *matrix = zeros(rows, columns);
-            }
+            set_size(matrix, rows, columns);
         }
     }
 }
@@ -338,9 +344,16 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
 }
 
 /// A matrix of zeros. What the allocator clears is not cleared again.
-pub(crate) fn zeros<T: Scalar>(rows: usize, columns: usize) -> DMatrix<T> {
+fn zeros<T: Scalar>(rows: usize, columns: usize) -> DMatrix<T> {
     let elements = vec![zero(); rows.saturating_mul(columns)];
     DMatrix::from_data(VecStorage::new(Dyn(rows), Dyn(columns), elements))
+}
+
+/// Allocates a matrix again where it has another size; otherwise its elements stay as they are.
+pub(crate) fn set_size<T: Scalar>(matrix: &mut DMatrix<T>, rows: usize, columns: usize) {
+    if matrix.shape() != (rows, columns) {
+        *matrix = zeros(rows, columns);
+    }
 }
 
 /// The columns of a matrix, empty where it has no rows.

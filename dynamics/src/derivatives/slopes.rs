@@ -47,11 +47,8 @@ impl<'a, T: Scalar> Slopes<'a, T> {
         state: &State<D, A, S>,
         inputs: &Inputs<D, S>,
         accelerations: &Accelerations<D, S>,
-        moving: &'a mut Vec<usize>,
+        moving: &'a [usize],
     ) -> Self {
-        let modes = inputs.modes.values().enumerate();
-        moving.clear();
-        modes.filter(|(_, mode)| *mode != Mode::Locked).for_each(|(joint, _)| moving.push(joint));
         Self {
             by: craft.arithmetic,
             bn: columns(&state.attitude.dcm()),
@@ -62,6 +59,16 @@ impl<'a, T: Scalar> Slopes<'a, T> {
             joints: inputs.modes.values().count(),
             modes: S::modes(craft),
         }
+    }
+
+    /// Lists the joints that are not locked.
+    pub(crate) fn list_moving<D: Devices<Scalar = T>, S: StructureDerivatives>(
+        inputs: &Inputs<D, S>,
+        moving: &mut Vec<usize>,
+    ) {
+        let modes = inputs.modes.values().enumerate();
+        moving.clear();
+        modes.filter(|(_, mode)| *mode != Mode::Locked).for_each(|(joint, _)| moving.push(joint));
     }
 
     /// The change of the acceleration of B, N axes, where the attitude changes by a small rotation.

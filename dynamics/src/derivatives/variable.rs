@@ -129,6 +129,59 @@ impl Variable {
     }
 }
 
+/// The states of a hub, in order: none of one that is fixed.
+pub(crate) fn hub_states<T>(mode: &HubMode<T>) -> &'static [Variable] {
+    const STATES: [Variable; 12] = {
+        let [x, y, z] = Axis::ALL;
+        [
+            Variable::Position(x),
+            Variable::Position(y),
+            Variable::Position(z),
+            Variable::Attitude(x),
+            Variable::Attitude(y),
+            Variable::Attitude(z),
+            Variable::Velocity(x),
+            Variable::Velocity(y),
+            Variable::Velocity(z),
+            Variable::Omega(x),
+            Variable::Omega(y),
+            Variable::Omega(z),
+        ]
+    };
+    if matches!(mode, HubMode::Fixed) { &[] } else { &STATES }
+}
+
+/// The inputs of a hub, in order: none of one that is fixed.
+pub(crate) fn hub_inputs<T>(mode: &HubMode<T>) -> &'static [Variable] {
+    const LOADS: [Variable; 6] = {
+        let [x, y, z] = Axis::ALL;
+        [
+            Variable::Force(x),
+            Variable::Force(y),
+            Variable::Force(z),
+            Variable::TorqueB(x),
+            Variable::TorqueB(y),
+            Variable::TorqueB(z),
+        ]
+    };
+    const GIVEN: [Variable; 6] = {
+        let [x, y, z] = Axis::ALL;
+        [
+            Variable::HubAcceleration(x),
+            Variable::HubAcceleration(y),
+            Variable::HubAcceleration(z),
+            Variable::HubAngularAcceleration(x),
+            Variable::HubAngularAcceleration(y),
+            Variable::HubAngularAcceleration(z),
+        ]
+    };
+    match mode {
+        HubMode::Free => &LOADS,
+        HubMode::Fixed => &[],
+        HubMode::Prescribed { .. } => &GIVEN,
+    }
+}
+
 impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
     /// The states of the linearised system, in this order: position, attitude, velocity and angular
     /// velocity of the hub, coordinates of the joints, rates of the joints; modal coordinates of a
@@ -137,10 +190,8 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
     /// What does not move is no state: those of a [fixed](HubMode::Fixed) hub and of
     /// [locked](Mode::Locked) joints are left out. [`Self::derivatives`] takes them nevertheless.
     pub fn state_variables(&self, inputs: &Inputs<D, S>) -> impl Iterator<Item = Variable> {
-        let hub = !matches!(inputs.hub, HubMode::Fixed);
-        let of_hub = [Variable::Position, Variable::Attitude, Variable::Velocity, Variable::Omega];
         let moving = || inputs.modes.values().enumerate().filter(|(_, mode)| *mode != Mode::Locked);
-        let of_hub = of_hub.into_iter().filter(move |_| hub).flat_map(|of| Axis::ALL.map(of));
+        let of_hub = hub_states(&inputs.hub).iter().copied();
         of_hub
             .chain(moving().map(|(joint, _)| Variable::Coordinate(joint)))
             .chain(moving().map(|(joint, _)| Variable::Rate(joint)))
@@ -154,11 +205,7 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
     /// child body of each joint; of a flexible structure the force on each mode, force and moment on
     /// each mount.
     pub fn input_variables(&self, inputs: &Inputs<D, S>) -> impl Iterator<Item = Variable> {
-        let of_hub: [fn(Axis) -> Variable; 2] = match inputs.hub {
-            HubMode::Free => [Variable::Force, Variable::TorqueB],
-            _ => [Variable::HubAcceleration, Variable::HubAngularAcceleration],
-        };
-        let held = matches!(inputs.hub, HubMode::Fixed);
+        let of_hub = hub_inputs(&inputs.hub).iter().copied();
         let modes = inputs.modes.values().zip(self.joints()).enumerate();
         let of_joints = modes.filter_map(|(joint, (mode, (_, info)))| match mode {
             Mode::Driven => Some(Variable::Motor(joint)),
@@ -170,7 +217,6 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
             let force = Axis::ALL.map(|axis| Variable::BodyForce(joint, axis));
             force.into_iter().chain(Axis::ALL.map(|axis| Variable::BodyMoment(joint, axis)))
         });
-        let of_hub = of_hub.into_iter().filter(move |_| !held).flat_map(|of| Axis::ALL.map(of));
         let on_mounts = (0..S::mounts(self)).flat_map(|mount| {
             let force = Axis::ALL.map(|axis| Variable::MountForce(mount, axis));
             force.into_iter().chain(Axis::ALL.map(|axis| Variable::MountMoment(mount, axis)))

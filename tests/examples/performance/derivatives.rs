@@ -153,7 +153,7 @@ impl Page {
 const OURS: &str = "linearized-into";
 
 /// Service, what its time is compared with, and its title.
-const SERVICES: [[&str; 3]; 10] = [
+const SERVICES: [[&str; 3]; 11] = [
     ["evaluation", "evaluation", "an evaluation"],
     ["derivatives", "evaluation", "`derivatives`: by states and inputs"],
     ["linearized-into", "evaluation", "`linearize_into`: by states and inputs, matrices kept"],
@@ -163,5 +163,14 @@ const SERVICES: [[&str; 3]; 10] = [
     ["differences", "evaluation", "central differences by the same variables"],
     ["by-parameters", "evaluation", "`parameter_derivatives`: by six parameters a device"],
     ["single-step", "single-step", "an RK4 step"],
-    ["linearized-step", "single-step", "`linearize_step`: by states and inputs"],
+    [
+        "linearized-step",
+        "single-step",
+        "`linearize_step`: by states and inputs, matrices allocated",
+    ],
+    [
+        "linearized-step-into",
+        "single-step",
+        "`linearize_step_into`: by states and inputs, matrices kept",
+    ],
 ];

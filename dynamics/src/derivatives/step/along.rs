@@ -14,6 +14,7 @@ use crate::derivatives::linearization::IntoColumns;
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::direction::ParameterDirection;
 use crate::derivatives::parameters::loads::ParameterLoads;
+use crate::derivatives::step::workspace::ChainWorkspace;
 use crate::derivatives::variable::Variable;
 use crate::derivatives::workspace::Workspace;
 use crate::model::parameters::Hub;
@@ -92,7 +93,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             supported = written.is_some();
             Ok(written.unwrap_or_default())
         };
-        let into = [&mut none, &mut after];
+        let into = ([&mut none, &mut after], &mut ChainWorkspace::new());
         let next = self.chained((state, inputs), (dt, Some(changes)), into, &mut derivatives)?;
         Ok(supported.then_some((next, after)))
     }

@@ -10,12 +10,12 @@ use crate::attitude::parameterisation::Attitude;
 use crate::attitude::quaternion::{Quaternion, rate};
 use crate::derivatives::dual::column::Outputs;
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::linearization::IntoColumns;
-use crate::derivatives::linearization::columns_of;
+use crate::derivatives::linearization::{IntoColumns, columns_of, set_size};
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
-use crate::derivatives::step::stage_chain::{StageChain, StageDerivatives, numbers};
+use crate::derivatives::step::stage_chain::{StageDerivatives, numbers};
+use crate::derivatives::step::workspace::{ChainWorkspace, StepWorkspace};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::Variable;
 use crate::derivatives::workspace::Workspace;
@@ -54,6 +54,7 @@ pub struct StepLinearization<D: WithNumbers<Scalar = f64>, S: StructureData = Ri
     pub a: DMatrix<f64>,
     /// Derivatives of the state after the step by the inputs, which are held.
     pub b: DMatrix<f64>,
+    workspace: StepWorkspace,
 }
 
 /// Of what is held, at a stage with its accelerations: the derivatives of accelerations by it, and by states, or their
@@ -79,18 +80,60 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         inputs: &Inputs<D, S>,
         dt: f64,
     ) -> Result<StepLinearization<D, S>, DerivativeError<f64>> {
-        let states: Vec<_> = self.state_variables(inputs).collect();
-        let by_inputs: Vec<_> = self.input_variables(inputs).collect();
-        let (rows, held) = (states.len(), by_inputs.len());
-        let (mut a, mut b) = (DMatrix::zeros(rows, rows), DMatrix::zeros(rows, held));
+        let [states, by_inputs] = [(); 2].map(|()| Vec::new());
+        let [a, b] = [(); 2].map(|()| DMatrix::zeros(0, 0));
+        let workspace = StepWorkspace::new();
+        let next = state.clone();
+        let mut found =
+            StepLinearization { state: next, states, inputs: by_inputs, a, b, workspace };
+        self.linearize_step_into(state, inputs, dt, &mut found)?;
+        Ok(found)
+    }
+
+    /// As [`Self::linearize_step`], into what an earlier call returned: its matrices and lists are written, and allocated
+    /// again only where they have another size.
+    ///
+    /// ```
+    /// # use nalgebra::{Matrix3, Vector3};
+    /// # use precess_dynamics::{Hub, Inputs, ReactionWheel, Spacecraft, State};
+    /// # let inertia = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    /// # let hub = Hub { m_b: 80.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() * 9.0 };
+    /// let craft = Spacecraft::new(&hub, &[ReactionWheel::bare_wheel(4.0, inertia)])?;
+    /// let (mut state, inputs): (State<[ReactionWheel; 1]>, _) = (State::at_rest(), Inputs::none());
+    /// let mut kept = craft.linearize_step(&state, &inputs, 0.01)?;
+    /// for spin in [10.0, 20.0] {
+    ///     state.devices[0].spin = spin;
+    ///     craft.linearize_step_into(&state, &inputs, 0.01, &mut kept)?;
+    ///     assert_eq!(kept, craft.linearize_step(&state, &inputs, 0.01)?);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::linearize_step`]; state and matrices then have no meaning.
+    pub fn linearize_step_into(
+        &self,
+        state: &State<D, Quaternion, S>,
+        inputs: &Inputs<D, S>,
+        dt: f64,
+        into: &mut StepLinearization<D, S>,
+    ) -> Result<(), DerivativeError<f64>> {
+        let StepLinearization { state: next, states, inputs: by_inputs, a, b, workspace } = into;
+        states.clear();
+        states.extend(self.state_variables(inputs));
+        by_inputs.clear();
+        by_inputs.extend(self.input_variables(inputs));
+        set_size(a, states.len(), states.len());
+        set_size(b, states.len(), by_inputs.len());
         let lists = (states.as_slice(), by_inputs.as_slice());
-        let mut workspace = Workspace::new();
+        let StepWorkspace { of_stage, chain } = workspace;
         let mut derivatives = |stage: &_, found: &_, into: IntoColumns<'_, f64>| {
-            self.acceleration_columns((stage, inputs), found, lists, into, &mut workspace)
+            self.acceleration_columns((stage, inputs), found, lists, into, of_stage)
         };
-        let into = [&mut a, &mut b];
-        let state = self.chained((state, inputs), (dt, None), into, &mut derivatives)?;
-        Ok(StepLinearization { state, states, inputs: by_inputs, a, b })
+        let to = ([a, b], chain);
+        *next = self.chained((state, inputs), (dt, None), to, &mut derivatives)?;
+        Ok(())
     }
 
     /// The state after a step; its derivatives by the state before it, where those have columns, and by what is
@@ -99,38 +142,40 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         &self,
         (state, inputs): (&State<D, Quaternion, S>, &Inputs<D, S>),
         (dt, changes): (f64, Option<&DMatrix<f64>>),
-        [a, b]: [&mut DMatrix<f64>; 2],
+        ([a, b], workspace): ([&mut DMatrix<f64>; 2], &mut ChainWorkspace),
         derivatives: ByHeld<'_, D, S>,
     ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
-        let (mut stages, mut moving) = (Vec::with_capacity(4), Vec::new());
+        let mut stages = Vec::with_capacity(4);
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)?;
             stages.push((weight, stage.clone(), found.clone()));
             Ok(())
         })?;
         let accelerations = self.joints().count().saturating_add(S::modes(self)).saturating_add(6);
-        let mut by_states = DMatrix::zeros(accelerations, b.nrows());
-        let mut by_held = DMatrix::zeros(accelerations, b.ncols());
+        let ChainWorkspace { chain, by_states, by_held, moving } = workspace;
+        Slopes::list_moving(inputs, moving);
+        set_size(by_states, accelerations, b.nrows());
+        set_size(by_held, accelerations, b.ncols());
         let hub = !matches!(inputs.hub, HubMode::Fixed);
         let first =
             stages.first().map_or_else(Quaternion::identity, |(_, stage, _)| stage.attitude);
         let mut last = numbers(first);
-        let mut chain = match changes {
-            Some(changes) => StageChain::of_changes(changes, first, hub),
-            None => StageChain::new([b.nrows(), a.ncols(), b.ncols()], first, hub),
-        };
+        match changes {
+            Some(changes) => chain.begin_changes(changes, first, hub),
+            None => chain.begin_step([b.nrows(), a.ncols(), b.ncols()], first, hub),
+        }
         // The last stage leads to no other.
         let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
         for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
-            let slopes = Slopes::new(self, stage, inputs, found, &mut moving);
-            chain.begin(stage.attitude, &slopes, accelerations);
-            let into = (chain.rows(), [&mut by_states, &mut by_held]);
+            let slopes = Slopes::new(self, stage, inputs, found, moving);
+            chain.begin_stage(stage.attitude, &slopes, accelerations);
+            let into = (chain.rows(), [&mut *by_states, &mut *by_held]);
             let written = derivatives(stage, found, into)?;
             let at = StageDerivatives {
                 attitude: stage.attitude,
                 slopes,
-                by_states: (!written).then_some(&by_states),
-                by_held: &by_held,
+                by_states: (!written).then_some(&*by_states),
+                by_held: &*by_held,
             };
             chain.stage(&at, [*weight, offset]);
             let turns = rate(numbers(stage.attitude), components(&stage.omega));
@@ -181,7 +226,8 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
                 })?;
                 Ok(written)
             };
-        craft.chained((state, inputs), (dt, None), [&mut a, &mut b], &mut derivatives)?;
+        let to = ([&mut a, &mut b], &mut ChainWorkspace::new());
+        craft.chained((state, inputs), (dt, None), to, &mut derivatives)?;
         Ok(b)
     }
 }

@@ -6,7 +6,6 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
@@ -22,15 +21,15 @@ use crate::numbers::vec3::cross;
 pub(crate) type Numbers = [f64; 4];
 
 /// Rows before the step, at the stage, and after the stages so far.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Rows {
     start: Vec<f64>,
     now: Vec<f64>,
     sum: Vec<f64>,
 }
 
-/// The changes so far.
-#[derive(Debug)]
+/// The changes so far. Kept from one step to the next, it is allocated once.
+#[derive(Debug, Default)]
 pub(crate) struct StageChain {
     /// How many columns are by states: the first ones.
     by_states: usize,
@@ -43,6 +42,8 @@ pub(crate) struct StageChain {
     product: Product,
     /// Of the accelerations.
     accelerations: Vec<f64>,
+    /// Four rows that are read at once.
+    buffer: Vec<f64>,
     /// Whether the changes are those before the step, each of one state.
     first: bool,
 }
@@ -58,50 +59,53 @@ pub(crate) struct StageDerivatives<'a> {
 }
 
 impl StageChain {
-    /// Of columns by some states before the step, or by none, and by what is held, where the attitude is this one; `hub`
-    /// is whether it moves.
-    pub(crate) fn new(
+    /// Begins a step: of columns by some states before it, or by none, and by what is held, where the attitude is this one;
+    /// `hub` is whether it moves.
+    pub(crate) fn begin_step(
+        &mut self,
         [rows, by_states, by_held]: [usize; 3],
         attitude: Quaternion,
         hub: bool,
-    ) -> Self {
-        let columns = by_states.saturating_add(by_held);
-        let width = columns.next_multiple_of(COLUMNS);
-        let mut states = vec![0.0; width.saturating_mul(rows)];
-        for (number, line) in states.chunks_mut(width.max(1)).take(by_states).enumerate() {
+    ) {
+        let width = by_states.saturating_add(by_held).next_multiple_of(COLUMNS);
+        let lines = cleared(&mut self.states.start, width.saturating_mul(rows));
+        for (number, line) in lines.chunks_mut(width.max(1)).take(by_states).enumerate() {
             line.iter_mut().skip(number).take(1).for_each(|to| *to = 1.0);
         }
-        Self { by_states, ..Self::started(states, width, attitude, hub) }
+        (self.by_states, self.first) = (by_states, true);
+        self.start(width, attitude, hub);
     }
 
     /// Of columns that all change the state before the step, so, and what is held, where the attitude is this one.
-    pub(crate) fn of_changes(changes: &DMatrix<f64>, attitude: Quaternion, hub: bool) -> Self {
+    pub(crate) fn begin_changes(
+        &mut self,
+        changes: &DMatrix<f64>,
+        attitude: Quaternion,
+        hub: bool,
+    ) {
         let width = changes.ncols().next_multiple_of(COLUMNS);
-        let mut states = vec![0.0; width.saturating_mul(changes.nrows())];
-        add_elements(changes, 0, (&mut states, width));
-        Self { first: false, ..Self::started(states, width, attitude, hub) }
+        let lines = cleared(&mut self.states.start, width.saturating_mul(changes.nrows()));
+        add_elements(changes, 0, (lines, width));
+        (self.by_states, self.first) = (0, false);
+        self.start(width, attitude, hub);
     }
 
-    /// Of these rows before the step.
-    fn started(states: Vec<f64>, width: usize, attitude: Quaternion, hub: bool) -> Self {
-        let mut turns = vec![0.0; width.saturating_mul(4)];
-        if hub && let Some(rotation) = lines(&states, width, 3, 3) {
+    /// Of the rows of states before the step.
+    fn start(&mut self, width: usize, attitude: Quaternion, hub: bool) {
+        let Self { states, turns, .. } = self;
+        let of_turns = cleared(&mut turns.start, width.saturating_mul(4));
+        if hub && let Some(rotation) = lines(&states.start, width, 3, 3) {
             let by_rotation = UNITS.map(|unit| rate(numbers(attitude), unit));
-            combine(&by_rotation, (rotation, width), &mut turns);
+            combine(&by_rotation, (rotation, width), of_turns);
         }
-        Self {
-            by_states: 0,
-            width,
-            states: Rows::new(states),
-            turns: Rows::new(turns),
-            product: Product::default(),
-            accelerations: Vec::new(),
-            first: true,
-        }
+        states.begin();
+        turns.begin();
+        self.accelerations.clear();
+        self.width = width;
     }
 
     /// Goes to a stage of this attitude, with so many accelerations.
-    pub(crate) fn begin(
+    pub(crate) fn begin_stage(
         &mut self,
         attitude: Quaternion,
         slopes: &Slopes<'_, f64>,
@@ -157,20 +161,20 @@ impl StageChain {
     /// The hub's rows.
     #[inline(always)]
     fn hub(&mut self, slopes: &Slopes<'_, f64>, q: Numbers, by: [f64; 2]) {
-        let Self { width, states, turns, accelerations, .. } = self;
+        let Self { width, states, turns, accelerations, buffer, .. } = self;
         let width = *width;
         let none = || [0.0; 3];
         let Some(accelerated) = lines(accelerations, width, 0, 6) else { return };
         let (linear, angular) = accelerated.split_at(width.saturating_mul(3));
         let three = width.saturating_mul(3);
-        let mut buffer = vec![0.0; width.saturating_mul(4)];
+        let buffer = cleared(buffer, width.saturating_mul(4));
         // Of q' = rate(q, omega), which is linear in both.
         let by_turn = QUATERNIONS.map(|unit| rate(unit, slopes.omega));
-        combine(&by_turn, (&turns.now, width), &mut buffer);
+        combine(&by_turn, (&turns.now, width), buffer);
         if let Some(omega) = lines(&states.now, width, 9, 3) {
-            combine(&UNITS.map(|unit| rate(q, unit)), (omega, width), &mut buffer);
+            combine(&UNITS.map(|unit| rate(q, unit)), (omega, width), buffer);
         }
-        turns.follow(0, &buffer, by);
+        turns.follow(0, buffer, by);
         states.follow_rates([0, three.saturating_mul(2)], three, by);
         let (moved, _) = buffer.split_at_mut(three);
         moved.fill(0.0);
@@ -206,7 +210,7 @@ impl StageChain {
 
     /// Writes the columns by states and by what is held after the step, whose quaternion was this before it was
     /// normalised.
-    pub(crate) fn finish(mut self, attitude: Numbers, hub: bool, into: [&mut DMatrix<f64>; 2]) {
+    pub(crate) fn finish(&mut self, attitude: Numbers, hub: bool, into: [&mut DMatrix<f64>; 2]) {
         let width = self.width;
         if hub && let Some(rotation) = lines_mut(&mut self.states.sum, width, 3, 3) {
             rotation.fill(0.0);
@@ -239,8 +243,10 @@ impl pulp::WithSimd for Dispatched<'_, '_> {
 }
 
 impl Rows {
-    fn new(start: Vec<f64>) -> Self {
-        Self { now: start.clone(), sum: start.clone(), start }
+    /// Goes to the start.
+    fn begin(&mut self) {
+        self.now.clone_from(&self.start);
+        self.sum.clone_from(&self.start);
     }
 
     /// Adds slopes to the numbers from a place on, and sets those of the next stage.
@@ -291,6 +297,13 @@ fn combine<const TO: usize>(columns: &[[f64; TO]], (from, width): (&[f64], usize
             to.iter_mut().zip(from).for_each(|(to, from)| *to += *element * *from);
         }
     }
+}
+
+/// So many zeros.
+fn cleared(of: &mut Vec<f64>, count: usize) -> &mut [f64] {
+    of.clear();
+    of.resize(count, 0.0);
+    of
 }
 
 /// Some rows.

@@ -182,6 +182,16 @@ impl Cases {
                 let _ = black_box(craft.linearize_step(state, inputs, STEP));
             }
         });
+        self.case(&format!("linearize_step_into/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let kept = RefCell::new(craft.linearize_step(&state, &inputs, STEP).ok());
+            move || {
+                if let Some(kept) = kept.borrow_mut().as_mut() {
+                    let (state, inputs) = (black_box(&state), black_box(&inputs));
+                    let _ = black_box(craft.linearize_step_into(state, inputs, STEP, kept));
+                }
+            }
+        });
     }
 
     fn cases<D: WithNumbers<Scalar = f64>>(&mut self, name: &str, devices: &D) {

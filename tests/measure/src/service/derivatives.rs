@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::{Each as _, JointStates as _};
 use precess_dynamics::{
     Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs, ParameterVariable, Quaternion,
-    Spacecraft, State, Variable,
+    Spacecraft, State, StepLinearization, Variable,
 };
 use precess_tests::stored::Stored;
 use serde_json::{Value, json};
@@ -33,6 +33,7 @@ pub(super) struct Derivatives<const N: usize> {
     inputs: Inputs<Set<N>>,
     variables: Vec<Variable>,
     kept: Linearization<Set<N>>,
+    kept_step: StepLinearization<Set<N>>,
     /// A direction of states and of inputs, and the gradient by them.
     products: [Vec<f64>; 4],
 }
@@ -46,10 +47,22 @@ impl<const N: usize> Derivatives<N> {
             craft.state_variables(&inputs).chain(craft.input_variables(&inputs)).collect();
         let (stored, devices) = (stored.clone(), *devices);
         let kept = craft.linearize(&state, &inputs, &Outputs::accelerations())?;
+        let kept_step = craft.linearize_step(&state, &inputs, STEP)?;
         let sizes = [kept.states.len(), kept.inputs.len()];
         let [of_states, of_inputs] = sizes.map(|size| vec![1.0; size]);
         let products = [of_states.clone(), of_inputs.clone(), of_states, of_inputs];
-        Ok(Self { name, stored, devices, craft, state, inputs, variables, kept, products })
+        Ok(Self {
+            name,
+            stored,
+            devices,
+            craft,
+            state,
+            inputs,
+            variables,
+            kept,
+            kept_step,
+            products,
+        })
     }
 
     /// One call; the angular acceleration that it finds on the way.
@@ -113,6 +126,10 @@ impl<const N: usize> Derivatives<N> {
             Name::LinearizedStep => {
                 let found = self.craft.linearize_step(state, inputs, STEP)?;
                 Ok((black_box(&found).state.omega - state.omega) / STEP)
+            }
+            Name::LinearizedStepInto => {
+                self.craft.linearize_step_into(state, inputs, STEP, &mut self.kept_step)?;
+                Ok((black_box(&self.kept_step).state.omega - state.omega) / STEP)
             }
             _ => {
                 let found = self.craft.accelerations(state, inputs)?;

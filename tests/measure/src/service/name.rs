@@ -79,6 +79,9 @@ pub(crate) enum Name {
     /// A step linearised about a state and inputs
     #[cfg(feature = "lanes")]
     LinearizedStep,
+    /// The same into matrices that are kept
+    #[cfg(feature = "lanes")]
+    LinearizedStepInto,
 }
 
 impl Name {
@@ -133,6 +136,7 @@ impl Name {
             Self::ByParameters => ("`parameter_derivatives`", "derivatives", None, 1),
             Self::SingleStep => ("an RK4 step", "derivatives", None, 1),
             Self::LinearizedStep => ("`linearize_step`", "derivatives", None, 1),
+            Self::LinearizedStepInto => ("`linearize_step_into`", "derivatives", None, 1),
         })
     }
 }

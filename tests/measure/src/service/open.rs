@@ -73,7 +73,8 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         | Name::Differences
         | Name::ByParameters
         | Name::SingleStep
-        | Name::LinearizedStep => of_derivatives(name, &Stored::read(file)?),
+        | Name::LinearizedStep
+        | Name::LinearizedStepInto => of_derivatives(name, &Stored::read(file)?),
         _ => of_evaluations(name, &Stored::read(file)?),
     }
 }
