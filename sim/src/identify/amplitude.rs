@@ -158,6 +158,7 @@ mod tests {
     fn an_amplitude_is_within_its_interval_in_95_percent_at_any_size() {
         // Intervals of lengths that are found, every 0.01.
         let table: Vec<[f64; 2]> = (0..2_000).map(|k| of_ratio(0.01 * f64::from(k))).collect();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2,000")]
         let interval = |found: f64| table[(100.0 * found).round() as usize];
         let errors = errors();
         let all: f64 = errors.iter().map(|_| 1.0).sum::<f64>().powi(2);
