@@ -15,6 +15,8 @@ use crate::equations::side_by_side::fallbacks;
 #[cfg(feature = "lanes")]
 use crate::equations::side_by_side::group::DeviceGroup;
 use crate::isolation::carrier::Carrier;
+#[cfg(feature = "lanes")]
+use crate::model::kernels::Kernels;
 use crate::model::kind::{Kind, LoadDerivatives};
 use crate::model::mode::Mode;
 use crate::numbers::each::{Each, JointStates, filled};
@@ -40,13 +42,20 @@ pub(crate) struct HubMotion<T> {
     pub(crate) gravity: Vec3<T>,
 }
 
+/// State and accelerations of the joints of a device.
+#[cfg(feature = "lanes")]
+type Member<'a, K> = (
+    &'a <K as Kernels>::Joints<<K as Kind>::Scalar>,
+    &'a <K as Kernels>::Accelerations<<K as Kind>::Scalar>,
+);
+
 impl<T: Scalar> HubMotion<T> {
     /// The kernels of devices side by side.
     #[cfg(feature = "lanes")]
     fn in_lanes<'a, K: Kind<Scalar = T>>(
         &self,
         group: &'a DeviceGroup<K>,
-        members: [(&'a K::Joints<T>, &'a K::Accelerations<T>); WIDEST],
+        members: [Member<'a, K>; WIDEST],
     ) -> LanedKernel<'a, K> {
         LanedKernel {
             group,
@@ -106,7 +115,7 @@ impl<T: Scalar> Visit<T, Directed> for AlongDirection<T> {
         let [of_force, of_moment] = &mut self.hub;
         *of_force = add(*of_force, rotate(&device.mount, force));
         *of_moment = add(*of_moment, rotate(&device.mount, moment));
-        subtract_loads(device, (joints, given, direction), loads.values(), driven);
+        subtract_loads(device, (joints, given), direction, loads.values(), driven);
         Ok(())
     }
 
@@ -149,7 +158,7 @@ impl<T: Scalar> Visit<T, Directed> for AlongDirection<T> {
                         break;
                     };
                     let loads = loads.values().map(|load| T::from_f64(load.at(lane)));
-                    subtract_loads(device, (joints, given, direction), loads, driven);
+                    subtract_loads(device, (joints, given), direction, loads, driven);
                 }
                 return Ok(count);
             }
@@ -175,7 +184,8 @@ impl<T: Scalar> Visit<T, Directed> for AlongDirection<T> {
 /// Subtracts what driven joints need more along a direction: these loads, and what springs and friction take.
 fn subtract_loads<K: Kind>(
     device: &Device<K>,
-    (joints, given, direction): (&K::Joints<K::Scalar>, DeviceInputs<'_, K>, &K::Joints<K::Scalar>),
+    (joints, given): (&K::Joints<K::Scalar>, DeviceInputs<'_, K>),
+    direction: &K::Joints<K::Scalar>,
     loads: impl Iterator<Item = K::Scalar>,
     driven: &mut K::Accelerations<K::Scalar>,
 ) {
@@ -234,7 +244,7 @@ impl<T: Scalar> Visit<T, Weighed> for ByWeights<T> {
             *to = sub(*to, rotate(&device.mount, exerted));
         }
         let of_joints = coordinates.values().zip(rates.values()).zip(accelerations.values());
-        write_gradient(device, (joints, given), of_joints, (weights, gradient));
+        write_gradient(device, (joints, given), of_joints, weights, gradient);
         Ok(())
     }
 
@@ -282,7 +292,7 @@ impl<T: Scalar> Visit<T, Weighed> for ByWeights<T> {
                     let of = |block: Block| T::from_f64(block.at(lane));
                     let states = coordinates.values().map(of).zip(rates.values().map(of));
                     let of_joints = states.zip(accelerations.values().map(of));
-                    write_gradient(device, (joints, given), of_joints, (weights, gradient));
+                    write_gradient(device, (joints, given), of_joints, weights, gradient);
                 }
                 return Ok(count);
             }
@@ -311,7 +321,8 @@ fn write_gradient<K: Kind>(
     device: &Device<K>,
     (joints, given): (&K::Joints<K::Scalar>, DeviceInputs<'_, K>),
     of_joints: impl Iterator<Item = ((K::Scalar, K::Scalar), K::Scalar)>,
-    (weights, gradient): (&mut K::Accelerations<K::Scalar>, &mut K::Joints<K::Scalar>),
+    weights: &mut K::Accelerations<K::Scalar>,
+    gradient: &mut K::Joints<K::Scalar>,
 ) {
     let passive = joints.states().zip(device.passive.values());
     let each = weights.values_mut().zip(gradient.states_mut()).zip(given.modes.values());
