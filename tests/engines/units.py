@@ -5,25 +5,22 @@
 Of each scenario, with fixed steps, and of FMI 2.0 and FMI 3.0: FMPy validates the unit without a finding and compiles it without
 a warning; outputs of Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them;
 Model Exchange by CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and
-on nothing else; a restored state, and one of bytes, repeats what followed it.
+on nothing else; a restored state, and one of bytes, repeats what followed it. Units that run the simulator's engine, of an
+isolated platform and of a controller, are validated, and their outputs have the bits of every column that the run records.
 
 Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
 requirements.txt.
 """
 
 import argparse
-import csv
 import os
 import random
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 MISSING = 77
-ROOT = Path(__file__).resolve().parent.parent.parent
-SCENARIOS = ROOT / "scenarios"
 # CVode, and by how much it may differ from Co-Simulation, of the larger of one and the output's largest magnitude.
 TOLERANCE = 1e-10
 AGREEMENT = 1e-7
@@ -33,7 +30,9 @@ try:
     import numpy as np
     from fmpy.build import build_platform_binary
     from fmpy.validation import validate_fmu
+    from engine_units import check as check_engine
     from importers import instance
+    from recordings import SCENARIOS, programs, ran, recorded
 except ModuleNotFoundError as error:
     if error.name not in ("fmpy", "numpy"):
         raise
@@ -107,23 +106,6 @@ CASES = (
     ("fixed", "1e-3", 1000.0, 1.0, FIXED, None),
     ("pushed", "1e-3", 1000.0, 1.0, PUSHED, None),
 )
-
-
-def programs():
-    """The folder of `precess` and `precess-bake`, which are built."""
-    cargo = os.environ.get("CARGO", "cargo")
-    build = [cargo, "build", "--quiet", "-p", "precess", "-p", "precess-bake", "--bins"]
-    subprocess.run(build, cwd=ROOT, check=True)
-    target = os.environ.get("CARGO_TARGET_DIR", ROOT / "target")
-    return Path(target) / "debug"
-
-
-def ran(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode not in (0, 2, 3):
-        sys.exit(done.stderr)
-
-
 class Unit:
     """A unit that is exported, validated, unpacked and compiled."""
 
@@ -163,24 +145,6 @@ def stepped(unit, one, inputs, step, start, count):
         one.step(time, step)
     rows.append(unit.read(one))
     return rows
-
-
-def recorded(folder, programs, file, step, duration, rate):
-    """Samples of `precess run` with the same steps, by the unit's names."""
-    out = folder / f"{file.stem}-results"
-    keys = {
-        "run.integrator": "rk4",
-        "run.step": f"{step} s",
-        "run.duration": f"{duration!r} s",
-        "output.rate": f"{rate!r} Hz",
-        "output.formats": '["csv"]',
-    }
-    settings = [part for key, value in keys.items() for part in ("--set", f"{key}={value}")]
-    ran(programs / "precess", "run", file, "--out", out, *settings)
-    with open(out / f"{file.stem}.csv", encoding="utf-8") as text:
-        head, *rows = csv.reader(line for line in text if not line.startswith("#"))
-    columns = {name.split(" ")[0].replace(".", "_"): index for index, name in enumerate(head)}
-    return columns, rows
 
 
 def co_simulation(unit, run, case):
@@ -351,6 +315,7 @@ def main():
                     f" bits of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed",
                     flush=True,
                 )
+        check_engine(folder, built)
 
 
 if __name__ == "__main__":

@@ -28,8 +28,9 @@ pub use equations::run_quantities::RunQuantities;
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
 pub(crate) use quantities::member_loads::MemberLoads;
+pub(crate) use runs::driven_by_program;
 pub use runs::{
-    Advance, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
+    Advance, CoupledRun, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
     run_with_controllers,
 };
 

@@ -14,6 +14,12 @@ pub enum FmuError {
     NoDevice,
     /// Steps are chosen by a tolerance.
     Tolerance,
+    /// The structure of a file, which a unit has not beside it.
+    File,
+    /// A controller that is another program, by its name.
+    Program(String),
+    /// A column that the scenario records and has not: why.
+    Column(String),
     /// A controller, by its name.
     Controller(String),
     /// An empirical source of forces, by its name.
@@ -68,6 +74,14 @@ impl fmt::Display for FmuError {
                 "steps of Co-Simulation are of one length, and this scenario has a tolerance; state the length by `--step`, \
                  or `integrator = \"rk4\"` and `step` in `[run]`",
             ),
+            Self::File => f.write_str(
+                "the structure is in a file, which a unit has not beside it; remove `[structure]`"
+            ),
+            Self::Program(name) => write!(
+                f,
+                "controller {name} is another program, which a unit does not start; choose another law"
+            ),
+            Self::Column(why) => f.write_str(why),
             Self::Controller(name) => write!(
                 f,
                 "controller {name} is not in the solver in C; remove `[[controller]]`: motor torques are inputs"

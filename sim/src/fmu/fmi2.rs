@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::variables::{Role, Variable};
+use super::variables::Role;
 use super::xml::{Contents, DECLARATION, Header};
 
 /// The document.
@@ -20,8 +20,11 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let both = "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" \
-                canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"false\"";
+    let saves = !of.is_run;
+    let both = format!(
+        "canGetAndSetFMUstate=\"{saves}\" canSerializeFMUstate=\"{saves}\" \
+         canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"false\""
+    );
     let own = [
         (
             "ModelExchange",
@@ -33,12 +36,14 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
              canInterpolateInputs=\"false\" maxOutputDerivativeOrder=\"0\" canRunAsynchronuously=\"false\"",
         ),
     ];
-    for (kind, capabilities) in own {
-        let _ = write!(
-            text,
-            "  <{kind} modelIdentifier=\"{}\" {capabilities} {both}>\n    <SourceFiles>\n",
-            of.identifier
-        );
+    for (kind, capabilities) in own.into_iter().skip(usize::from(of.is_run)) {
+        let _ =
+            write!(text, "  <{kind} modelIdentifier=\"{}\" {capabilities} {both}", of.identifier);
+        if of.sources.is_empty() {
+            text.push_str("/>\n");
+            continue;
+        }
+        text.push_str(">\n    <SourceFiles>\n");
         for source in of.sources {
             let _ = writeln!(text, "      <File name=\"{source}\"/>");
         }
@@ -58,18 +63,22 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         );
     }
     text.push_str("  </ModelVariables>\n");
-    structure(&mut text, header, of.variables);
+    structure(&mut text, header, of);
     text.push_str("</fmiModelDescription>\n");
     text
 }
 
 /// Outputs, derivatives, and what is computed in initialisation, each with what it depends on, by numbers of variables.
-fn structure(text: &mut String, header: &Header, variables: &[Variable]) {
+fn structure(text: &mut String, header: &Header, of: &Contents<'_>) {
+    let Contents { variables, is_run, .. } = *of;
     let numbers: BTreeMap<usize, usize> =
         variables.iter().zip(1..).map(|(variable, number)| (variable.place, number)).collect();
     let of_place = |place: usize| numbers.get(&place).copied().unwrap_or_default();
     let unknowns = header.unknowns(variables);
     text.push_str("  <ModelStructure>\n    <Outputs>\n");
+    for place in &unknowns.computed {
+        let _ = writeln!(text, "      <Unknown index=\"{}\"/>", of_place(*place));
+    }
     for place in unknowns.outputs {
         let number = of_place(place);
         let _ = writeln!(
@@ -78,6 +87,14 @@ fn structure(text: &mut String, header: &Header, variables: &[Variable]) {
         );
     }
     text.push_str("    </Outputs>\n");
+    if is_run {
+        text.push_str("    <InitialUnknowns>\n");
+        for place in &unknowns.computed {
+            let _ = writeln!(text, "      <Unknown index=\"{}\"/>", of_place(*place));
+        }
+        text.push_str("    </InitialUnknowns>\n  </ModelStructure>\n");
+        return;
+    }
     for (list, unknowns) in
         [("Derivatives", unknowns.derivatives), ("InitialUnknowns", unknowns.initial)]
     {

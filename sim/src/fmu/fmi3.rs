@@ -19,8 +19,11 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let both = "needsExecutionTool=\"false\" canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" \
-                providesDirectionalDerivatives=\"false\" providesAdjointDerivatives=\"false\"";
+    let saves = !of.is_run;
+    let both = format!(
+        "needsExecutionTool=\"false\" canGetAndSetFMUState=\"{saves}\" canSerializeFMUState=\"{saves}\" \
+         providesDirectionalDerivatives=\"false\" providesAdjointDerivatives=\"false\""
+    );
     let own = [
         ("ModelExchange", "needsCompletedIntegratorStep=\"true\""),
         (
@@ -29,7 +32,7 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
              hasEventMode=\"false\"",
         ),
     ];
-    for (kind, capabilities) in own {
+    for (kind, capabilities) in own.into_iter().skip(usize::from(of.is_run)) {
         let _ = writeln!(
             text,
             "  <{kind} modelIdentifier=\"{}\" {both} {capabilities}/>",
@@ -55,6 +58,11 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
 fn structure(text: &mut String, header: &Header, variables: &[Variable]) {
     let unknowns = header.unknowns(variables);
     text.push_str("  <ModelStructure>\n");
+    for kind in ["Output", "InitialUnknown"] {
+        for place in &unknowns.computed {
+            let _ = writeln!(text, "    <{kind} valueReference=\"{place}\"/>");
+        }
+    }
     for place in unknowns.outputs {
         let _ = writeln!(
             text,

@@ -17,6 +17,7 @@
 #[cfg(feature = "tool")]
 mod archive;
 mod dependencies;
+mod engine;
 mod error;
 mod fmi2;
 mod fmi3;
@@ -39,6 +40,7 @@ use sha2::{Digest as _, Sha256};
 
 #[cfg(feature = "tool")]
 pub use archive::{archive, compiler_arguments, platform};
+pub use engine::EngineFmu;
 pub use error::FmuError;
 pub use sources::headers;
 pub use version::FmiVersion;
@@ -153,8 +155,13 @@ impl Fmu {
             .filter(|path| sources::is_compiled(path))
             .collect();
         let identifier = self.name.as_str();
-        let contents =
-            xml::Contents { identifier, token, sources: &compiled, variables: &self.variables };
+        let contents = xml::Contents {
+            identifier,
+            token,
+            sources: &compiled,
+            variables: &self.variables,
+            is_run: false,
+        };
         let (description, build) = match version {
             FmiVersion::Two => (fmi2::description(&self.description, &contents), None),
             FmiVersion::Three => (

@@ -137,7 +137,7 @@ pub(super) fn values(layout: &Layout, constants: &Constants, variables: &[Variab
 }
 
 /// A number of C with the same bits; infinity as the largest.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "DBL_MAX" } else { "-DBL_MAX" }.to_owned();
     }

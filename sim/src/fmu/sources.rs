@@ -15,6 +15,12 @@ const SHARED: [File; 7] = [
     ("precess_instance_motion.c", include_str!("c/precess_instance_motion.c")),
     ("precess_instance_state.c", include_str!("c/precess_instance_state.c")),
 ];
+/// In the place of the solver's face: that of the engine.
+const ENGINE: [File; 3] = [
+    ("precess_engine.h", include_str!("c/engine/precess_engine.h")),
+    ("precess_fmu.c", include_str!("c/engine/precess_fmu.c")),
+    ("precess_fmu.h", include_str!("c/engine/precess_fmu.h")),
+];
 const FMI2: [File; 4] = [
     ("precess_fmi2.c", include_str!("c/precess_fmi2.c")),
     ("precess_fmi2.h", include_str!("c/precess_fmi2.h")),
@@ -48,6 +54,16 @@ pub(super) fn all(version: FmiVersion) -> Vec<(String, String)> {
         FmiVersion::Three => [&FMI3, &[]],
     };
     texts(SHARED.iter().chain(own.into_iter().flatten()))
+}
+
+/// All of a version that are linked with the simulator's engine, the standard's headers among them.
+pub(super) fn of_engine(version: FmiVersion) -> Vec<(String, String)> {
+    let (own, headers): (&[File], &[File]) = match version {
+        FmiVersion::Two => (&FMI2, &HEADERS2),
+        FmiVersion::Three => (&FMI3, &HEADERS3),
+    };
+    let shared = SHARED.iter().filter(|(name, _)| !name.starts_with("precess_fmu"));
+    texts(shared.chain(&ENGINE).chain(own).chain(headers))
 }
 
 /// The headers that a compiler needs beside a unit of a version, by their names: those of the standard, of FMI 3.0.

@@ -20,7 +20,7 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const TURNS: f64 = 30.0 / std::f64::consts::PI;
 
 /// All of them, sorted by use.
-pub(super) const UNITS: [Unit; 18] = [
+pub(super) const UNITS: [Unit; 21] = [
     unit("s", &[("s", 1)]),
     unit("m", &[("m", 1)]),
     unit("m/s", &[("m", 1), ("s", -1)]),
@@ -38,6 +38,9 @@ pub(super) const UNITS: [Unit; 18] = [
     unit("kg.m2", &[("kg", 1), ("m", 2)]),
     unit("N", &[("kg", 1), ("m", 1), ("s", -2)]),
     unit("N.m", &[("kg", 1), ("m", 2), ("s", -2)]),
+    unit("J", &[("kg", 1), ("m", 2), ("s", -2)]),
+    unit("kg.m/s", &[("kg", 1), ("m", 1), ("s", -1)]),
+    unit("kg.m2/s", &[("kg", 1), ("m", 2), ("s", -1)]),
     unit("N/m", &[("kg", 1), ("s", -2)]),
     unit("N.s/m", &[("kg", 1), ("s", -1)]),
     unit("N.m/rad", &[("kg", 1), ("m", 2), ("s", -2), ("rad", -1)]),

@@ -16,6 +16,8 @@ pub(super) enum Role {
     Independent,
     /// A state, which is an output.
     State,
+    /// An output of a run.
+    Output,
     /// The derivative of the state of a number, and the places of the states and inputs on which it depends.
     Derivative {
         /// The state, from 0.
@@ -152,7 +154,7 @@ fn derivative_unit(unit: &str) -> &'static str {
 }
 
 /// What acts on the hub; nothing of one that is fixed.
-fn hub_inputs(scenario: &Scenario, layout: &Layout, names: &mut Names) -> Vec<Variable> {
+pub(super) fn hub_inputs(scenario: &Scenario, layout: &Layout, names: &mut Names) -> Vec<Variable> {
     type Vectors = [(&'static str, &'static str, &'static str, [f64; 3]); 2];
     let vectors: Vectors = match scenario.hub_mode {
         HubMode::Free => [
@@ -186,25 +188,35 @@ fn motors(scenario: &Scenario, layout: &Layout, names: &mut Names) -> Vec<Variab
     let joints = scenario.joints().zip(&scenario.drives).zip(&layout.motors);
     let given = joints.filter_map(|(((_, device, info), drive), input)| {
         let place = layout.input(super::layout::HUB_INPUTS + (*input)?);
-        let start = drive.profile()?.at(0.0, false);
-        let (name, unit, meaning) = match drive {
-            Drive::Torque { .. } if info.slides => (info.motor, "N", "motor force on"),
-            Drive::Torque { .. } => (info.motor, "N.m", "motor torque on"),
-            _ if info.slides => (info.acceleration, "m/s2", "prescribed acceleration of"),
-            _ => (info.acceleration, "rad/s2", "prescribed acceleration of"),
-        };
-        let limits = drive.limits();
-        Some(Variable {
-            name: names.of_device(device, name),
-            place,
-            role: Role::Input(limits.torque.map(f64::abs)),
-            unit,
-            shown: None,
-            start: limits.clipped(start),
-            meaning: format!("{device}: {meaning} the {}", info.body),
-        })
+        motor((device, info), drive, place, names)
     });
     given.collect()
+}
+
+/// What gives a joint of a device; none of a locked one.
+pub(super) fn motor(
+    (device, info): (&str, &JointInfo),
+    drive: &Drive,
+    place: usize,
+    names: &mut Names,
+) -> Option<Variable> {
+    let start = drive.profile()?.at(0.0, false);
+    let (name, unit, meaning) = match drive {
+        Drive::Torque { .. } if info.slides => (info.motor, "N", "motor force on"),
+        Drive::Torque { .. } => (info.motor, "N.m", "motor torque on"),
+        _ if info.slides => (info.acceleration, "m/s2", "prescribed acceleration of"),
+        _ => (info.acceleration, "rad/s2", "prescribed acceleration of"),
+    };
+    let limits = drive.limits();
+    Some(Variable {
+        name: names.of_device(device, name),
+        place,
+        role: Role::Input(limits.torque.map(f64::abs)),
+        unit,
+        shown: None,
+        start: limits.clipped(start),
+        meaning: format!("{device}: {meaning} the {}", info.body),
+    })
 }
 
 fn wrenches(scenario: &Scenario, layout: &Layout, names: &mut Names) -> Vec<Variable> {

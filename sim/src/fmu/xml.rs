@@ -24,6 +24,8 @@ pub(super) struct Contents<'a> {
     /// Names of the files that are compiled.
     pub(super) sources: &'a [&'a str],
     pub(super) variables: &'a [Variable],
+    /// Whether the simulator's engine runs it: for Co-Simulation alone, with outputs of which nothing more is known.
+    pub(super) is_run: bool,
 }
 
 /// What is computed, by the places of the variables; with what it depends on.
@@ -31,6 +33,8 @@ pub(super) struct Contents<'a> {
 pub(super) struct Unknowns {
     /// Outputs, each of which is a state.
     pub(super) outputs: Vec<usize>,
+    /// Outputs of which it is not known on what they depend.
+    pub(super) computed: Vec<usize>,
     /// Derivatives, of states and inputs.
     pub(super) derivatives: Vec<(usize, Vec<usize>)>,
     /// Derivatives in initialisation, of parameters as well.
@@ -103,13 +107,17 @@ impl Header {
     /// The attributes of a variable, and those that it has as a real number, but for what it is the derivative of.
     pub(super) fn attributes(&self, variable: &Variable) -> (String, String) {
         let Variable { name, place, role, unit, shown, start, meaning } = variable;
-        let mut of_number = format!(" unit=\"{unit}\"");
+        let mut of_number = String::new();
+        if !unit.is_empty() {
+            let _ = write!(of_number, " unit=\"{unit}\"");
+        }
         if let Some(shown) = shown {
             let _ = write!(of_number, " displayUnit=\"{shown}\"");
         }
         let (causality, variability, initial) = match role {
             Role::Independent => ("independent", "continuous", None),
             Role::State => ("output", "continuous", Some("exact")),
+            Role::Output => ("output", "continuous", Some("calculated")),
             Role::Derivative { .. } => ("local", "continuous", Some("calculated")),
             Role::Input(_) => ("input", "continuous", None),
             Role::Fixed => ("parameter", "fixed", Some("exact")),
@@ -118,7 +126,7 @@ impl Header {
         if let Role::Input(Some(limit)) = role {
             let _ = write!(of_number, " min=\"{:?}\" max=\"{limit:?}\"", -limit);
         }
-        if !matches!(role, Role::Derivative { .. } | Role::Independent) {
+        if !matches!(role, Role::Derivative { .. } | Role::Independent | Role::Output) {
             let _ = write!(of_number, " start=\"{start:?}\"");
         }
         if *role == Role::State {
@@ -152,6 +160,7 @@ impl Header {
         for variable in variables {
             match &variable.role {
                 Role::State => unknowns.outputs.push(variable.place),
+                Role::Output => unknowns.computed.push(variable.place),
                 Role::Derivative { depends, on_parameters, .. } => {
                     let mut depends: Vec<usize> =
                         depends.iter().copied().filter(|of| places.contains(of)).collect();

@@ -156,6 +156,13 @@ pub enum RunError {
         /// The name.
         name: String,
     },
+    /// A program that is coupled to the run gives another number of inputs, or one that is not finite.
+    Inputs {
+        /// How many the run takes.
+        expected: usize,
+        /// How many are given.
+        found: usize,
+    },
     /// The samples could not be recorded.
     Record(RecordError),
     /// An error of another process, which has passed on only its time and message.
@@ -191,6 +198,7 @@ impl RunError {
             | Self::BeyondStop { .. }
             | Self::Crossing { .. }
             | Self::NoController { .. }
+            | Self::Inputs { .. }
             | Self::Record(_) => None,
         }
     }
@@ -304,6 +312,10 @@ impl fmt::Display for RunError {
                 value = Plain(*value),
                 lower = Plain(*lower),
                 upper = Plain(*upper)
+            ),
+            Self::Inputs { expected, found } => write!(
+                f,
+                "{found} inputs are given, and the run takes {expected} finite ones; give all of them"
             ),
             Self::Crossing { name, column, nearest } => {
                 write!(f, "crossing `{name}`: `{column}` is no column of the state")?;

@@ -10,7 +10,7 @@ use precess::record::Samples;
 
 use super::{UNIT, files, scenario};
 
-const FLAGS: [&str; 8] = [
+pub(super) const FLAGS: [&str; 8] = [
     "-std=c99",
     "-O2",
     "-ffp-contract=off",
@@ -26,7 +26,7 @@ const STOPS: &str = "lower_stop = \"-20 deg\"\nupper_stop = \"20 deg\"\nat_stop 
 const STEPS: usize = 100;
 
 /// The compilers that this machine has; one that is missing is named, or refused.
-fn compilers() -> Vec<&'static str> {
+pub(super) fn compilers() -> Vec<&'static str> {
     let is_there = |name: &&str| {
         let asked = Command::new(name).arg("--version").output();
         let is_there = asked.is_ok_and(|output| output.status.success());

@@ -8,11 +8,11 @@ use precess::fmu::FmiVersion;
 use super::{UNIT, files, scenario};
 
 /// Attributes of an element.
-type Attributes = BTreeMap<String, String>;
+pub(super) type Attributes = BTreeMap<String, String>;
 
 /// The attributes of every element of a kind, and a panic where the text is not well-formed: every element is closed, every
 /// attribute quoted, and no letter is one that has to be escaped. There are no comments and no texts between elements.
-fn elements(document: &str, kind: &str) -> Vec<Attributes> {
+pub(super) fn elements(document: &str, kind: &str) -> Vec<Attributes> {
     let mut open: Vec<&str> = Vec::new();
     let mut found = Vec::new();
     let rest = document.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -52,7 +52,7 @@ fn elements(document: &str, kind: &str) -> Vec<Attributes> {
 }
 
 /// The variables of a description, each by its attributes as a variable and as a number.
-fn variables(version: FmiVersion, document: &str) -> Vec<(Attributes, Attributes)> {
+pub(super) fn variables(version: FmiVersion, document: &str) -> Vec<(Attributes, Attributes)> {
     let (variable, number) = match version {
         FmiVersion::Two => ("ScalarVariable", "Real"),
         FmiVersion::Three => ("Float64", "Float64"),

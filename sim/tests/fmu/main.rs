@@ -6,6 +6,7 @@
 
 mod compiled;
 mod described;
+mod engine;
 mod refused;
 
 use std::path::Path;

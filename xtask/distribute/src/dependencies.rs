@@ -16,10 +16,11 @@ use crate::crates_of::Metadata;
 const RULES: &str = "deny.toml";
 
 /// Every workspace.
-const WORKSPACES: [&str; 5] = [
+const WORKSPACES: [&str; 6] = [
     "Cargo.toml",
     "flight/Cargo.toml",
     "flight/firmware/Cargo.toml",
+    "fmu/Cargo.toml",
     "python/Cargo.toml",
     "sim/fuzz/Cargo.toml",
 ];

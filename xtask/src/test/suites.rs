@@ -324,6 +324,7 @@ pub(crate) const SUITES: &[Suite] = &[
             "Cargo.lock",
             "flight/Cargo.lock",
             "flight/firmware/Cargo.lock",
+            "fmu/Cargo.lock",
             "python/Cargo.lock",
             "sim/fuzz/Cargo.lock",
         ]],

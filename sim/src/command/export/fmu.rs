@@ -1,11 +1,11 @@
 //! `export fmu`: a scenario's spacecraft as a functional mock-up unit. The solver is derived by `precess-bake`; with `--binary`
-//! a C compiler makes the library of this platform.
+//! a C compiler makes the library of this platform, of the simulator's engine where the solver in C is not enough.
+
+mod library;
 
 use std::env;
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use clap::Args;
 
@@ -16,7 +16,9 @@ use crate::command::options::{Set, as_toml};
 use crate::command::outputs::{Outputs, name_of};
 use crate::command::terminal::{note, print};
 use crate::file::from_file;
-use crate::fmu::{FmiVersion, Fmu, archive, compiler_arguments, headers, platform};
+use crate::fmu::{EngineFmu, FmiVersion, Fmu, FmuError, archive, headers};
+use crate::scenario::Scenario;
+use library::{linked, of_engine};
 
 pub(super) const HELP: &str = "Examples:\n  precess export fmu bus.toml --step '1 ms'\n  \
     precess export fmu bus.toml --step '1 ms' --fmi 3 --binary --to bus.fmu";
@@ -34,9 +36,13 @@ pub(in crate::command) struct Unit {
     /// Version of FMI, 2 or 3.
     #[arg(long, value_name = "VERSION", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
     fmi: u8,
-    /// Put the library of this platform beside the sources, compiled by `CC` of the environment, or `cc`.
+    /// Put the library of this platform beside the sources, compiled by `CC` of the environment, or `cc`. Of a scenario that
+    /// cannot be sources it runs the simulator's engine, for Co-Simulation.
     #[arg(long)]
     binary: bool,
+    /// The engine for such a library; `libprecess_fmu.a` beside this program without this option.
+    #[arg(long, value_name = "FILE", requires = "binary")]
+    engine: Option<PathBuf>,
     /// The file to write; the scenario's name and `.fmu` beside it without this option.
     #[arg(long, value_name = "FILE")]
     to: Option<PathBuf>,
@@ -56,37 +62,98 @@ impl Unit {
             );
         }
         let (scenario, _) = from_file(&self.file, &overrides).map_err(CommandError::Scenario)?;
-        let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
-        let unit = Fmu::new(&scenario).map_err(|error| other(&error))?;
-        let description = unit.spacecraft().write().map_err(|error| other(&error))?;
         let to = self
             .to
             .clone()
             .unwrap_or_else(|| self.file.with_file_name(format!("{}.fmu", scenario.name)));
         let mut outputs = Outputs::of_files(&[&to], self.force)?;
         let work = tempfile::tempdir().map_err(failure(&env::temp_dir()))?;
-        let solver = work.path().join("solver");
-        let general = ["--general".into(), "--out".into(), solver.clone().into_os_string()];
-        if !Generator::new().arguments(general).silent().derive(&description)? {
-            return Ok(Exit::Error);
-        }
-        let version = FmiVersion::of_number(self.fmi).unwrap_or_default();
-        let files = unit.files(version, &texts(&solver)?);
-        let mut bytes: Vec<(String, Vec<u8>)> =
-            files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
-        if self.binary {
-            let binary = compiled(&bytes, unit.name(), version, &work.path().join("unit"))?;
-            bytes.insert(1, binary);
-        }
-        let count = bytes.len();
-        let bytes = archive(&bytes).map_err(failure(&to))?;
+        let unit = match Fmu::new(&scenario) {
+            Ok(unit) => self.of_sources(&unit, work.path())?,
+            Err(error) if self.binary && error != FmuError::Tolerance => {
+                Some(self.of_engine(&scenario, &error, work.path())?)
+            }
+            Err(error) => return Err(CommandError::Other(refused(&error))),
+        };
+        let Some(unit) = unit else { return Ok(Exit::Error) };
+        let bytes = archive(&unit.files).map_err(failure(&to))?;
         outputs.write(&[(name_of(&to), &bytes)])?;
-        for text in unit.notes() {
+        for text in &unit.notes {
             note(&format!("note: {text}"));
         }
-        let (variables, size) = (unit.variable_count(), bytes.len());
+        let (count, size) = (unit.files.len(), bytes.len());
+        let variables = unit.variables;
         print(&format!("{}: {size} bytes, {count} files, {variables} variables\n", to.display()))?;
         Ok(Exit::Success)
+    }
+
+    fn version(&self) -> FmiVersion {
+        FmiVersion::of_number(self.fmi).unwrap_or_default()
+    }
+
+    /// The unit of sources; none where its solver is not derived, and the generator has said why.
+    fn of_sources(&self, unit: &Fmu, work: &Path) -> Result<Option<Contents>, CommandError> {
+        let described = unit.spacecraft().write();
+        let description = described.map_err(|error| CommandError::Other(error.to_string()))?;
+        let solver = work.join("solver");
+        let general = ["--general".into(), "--out".into(), solver.clone().into_os_string()];
+        if !Generator::new().arguments(general).silent().derive(&description)? {
+            return Ok(None);
+        }
+        let version = self.version();
+        let files = unit.files(version, &texts(&solver)?);
+        let mut files: Vec<(String, Vec<u8>)> =
+            files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
+        if self.binary {
+            let sources = files.iter().filter_map(|(path, bytes)| {
+                Some((path.strip_prefix("sources/")?.to_owned(), bytes.clone()))
+            });
+            let headers =
+                headers(version).into_iter().map(|(name, text)| (name, text.into_bytes()));
+            let sources: Vec<_> = sources.chain(headers).collect();
+            let binary = linked(&sources, unit.name(), version, &work.join("unit"), None)?;
+            files.insert(1, binary);
+        }
+        let notes = unit.notes().to_vec();
+        Ok(Some(Contents { files, notes, variables: unit.variable_count() }))
+    }
+
+    /// The unit that runs the engine, of what is refused as sources.
+    fn of_engine(
+        &self,
+        scenario: &Scenario,
+        why: &FmuError,
+        work: &Path,
+    ) -> Result<Contents, CommandError> {
+        let other = |error: FmuError| CommandError::Other(error.to_string());
+        let unit = EngineFmu::new(scenario).map_err(other)?;
+        let engine = of_engine(self.engine.as_deref())?;
+        let version = self.version();
+        let sources = unit.sources(version).into_iter();
+        let sources: Vec<_> = sources.map(|(name, text)| (name, text.into_bytes())).collect();
+        let binary = linked(&sources, unit.name(), version, &work.join("unit"), Some(&engine))?;
+        let description = unit.description(version).into_bytes();
+        let files = vec![("modelDescription.xml".to_owned(), description), binary];
+        let mut notes = vec![format!(
+            "{why}; this unit runs the simulator's engine instead, for Co-Simulation alone"
+        )];
+        notes.extend_from_slice(unit.notes());
+        Ok(Contents { files, notes, variables: unit.variable_count() })
+    }
+}
+
+/// What is written.
+struct Contents {
+    files: Vec<(String, Vec<u8>)>,
+    notes: Vec<String>,
+    variables: usize,
+}
+
+/// Why there is no unit of sources, and what else there may be.
+fn refused(error: &FmuError) -> String {
+    match error {
+        FmuError::Tolerance => error.to_string(),
+        _ => format!("{error}; or add `--binary`: such a unit runs the simulator's engine"),
     }
 }
 
@@ -100,61 +167,6 @@ fn texts(folder: &Path) -> Result<Vec<(String, String)>, CommandError> {
     }
     files.sort();
     Ok(files)
-}
-
-/// The library of this platform: its path in the unit, and its bytes.
-fn compiled(
-    files: &[(String, Vec<u8>)],
-    name: &str,
-    version: FmiVersion,
-    folder: &Path,
-) -> Result<(String, Vec<u8>), CommandError> {
-    let Some((platform, ending)) = platform(version) else {
-        let message = format!(
-            "{version} has no name of this platform; leave out `--binary`: the importer compiles the sources"
-        );
-        return Err(CommandError::Other(message));
-    };
-    fs::create_dir_all(folder).map_err(failure(folder))?;
-    for (name, text) in headers(version) {
-        let path = folder.join(name);
-        fs::write(&path, text).map_err(failure(&path))?;
-    }
-    let mut sources = Vec::new();
-    for (path, bytes) in files {
-        let Some(name) = path.strip_prefix("sources/") else { continue };
-        let path = folder.join(name);
-        fs::write(&path, bytes).map_err(failure(&path))?;
-        if path.extension().is_some_and(|ending| ending == "c") {
-            sources.push(name.to_owned());
-        }
-    }
-    let compiler = env::var_os("CC").filter(|text| !text.is_empty());
-    let compiler = compiler.unwrap_or_else(|| OsString::from("cc"));
-    let library = format!("{name}.{ending}");
-    let done = Command::new(&compiler)
-        .current_dir(folder)
-        .args(compiler_arguments())
-        .args(["-o", &library])
-        .args(&sources)
-        .output();
-    let shown = compiler.to_string_lossy();
-    let done = done.map_err(|error| {
-        CommandError::Other(format!(
-            "`{shown}` cannot be started: {error}; name a C compiler in `CC`, or leave out `--binary`: the importer \
-             compiles the sources"
-        ))
-    })?;
-    if !done.status.success() {
-        let said = String::from_utf8_lossy(&done.stderr);
-        let first = said.lines().next().unwrap_or("no message");
-        return Err(CommandError::Other(format!(
-            "`{shown}` does not compile the unit: {first}; name another C compiler in `CC`, or leave out `--binary`"
-        )));
-    }
-    let path = folder.join(&library);
-    let bytes = fs::read(&path).map_err(failure(&path))?;
-    Ok((format!("binaries/{platform}/{library}"), bytes))
 }
 
 fn failure(path: &Path) -> impl FnOnce(std::io::Error) -> CommandError + use<> {

@@ -2,6 +2,7 @@
 //! ([`run_side_by_side`]).
 
 mod actions;
+mod coupled;
 mod friction;
 #[cfg(feature = "cuda")]
 mod gpu;
@@ -14,6 +15,8 @@ mod side_by_side;
 
 use precess_dynamics::{About, JointStates, ModalState, State};
 
+pub use coupled::CoupledRun;
+pub(crate) use coupled::driven_by_program;
 use friction::Changed;
 #[cfg(feature = "cuda")]
 pub use gpu::Gpu;

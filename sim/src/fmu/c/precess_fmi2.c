@@ -65,6 +65,13 @@ fmi2Component fmi2Instantiate(
         }
         return NULL;
     }
+    if (type == fmi2ModelExchange && !FMU_EXCHANGES) {
+        if (callbacks->logger) {
+            callbacks->logger(
+                callbacks->componentEnvironment, name, fmi2Error, "logStatusError", "%s", NO_EXCHANGE);
+        }
+        return NULL;
+    }
     length = strlen(name) + 1;
     of = calloc(1, sizeof *of);
     if (of) {
@@ -86,6 +93,7 @@ void fmi2FreeInstance(fmi2Component c)
     struct precess_fmi2 *const of = c;
 
     if (of) {
+        precess_instance_end(&of->instance);
         free(of->name);
         free(of);
     }

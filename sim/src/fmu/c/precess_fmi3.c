@@ -97,6 +97,9 @@ fmi3Instance fmi3InstantiateModelExchange(
 {
     (void)resources;
     (void)visible;
+    if (!FMU_EXCHANGES) {
+        return none(environment, log, NO_EXCHANGE);
+    }
     return made(name, token, logs, environment, log, 1);
 }
 
@@ -156,7 +159,10 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 void fmi3FreeInstance(fmi3Instance instance)
 {
-    free(instance);
+    if (instance) {
+        precess_instance_end(instance);
+        free(instance);
+    }
 }
 
 fmi3Status fmi3EnterInitializationMode(

@@ -19,6 +19,16 @@ void precess_fmu_reset(struct precess_fmu *fmu)
     fmu->device = FMU_DEVICES;
 }
 
+void precess_fmu_forget(struct precess_fmu *fmu)
+{
+    fmu->is_prepared = 0;
+}
+
+void precess_fmu_release(struct precess_fmu *fmu)
+{
+    (void)fmu;
+}
+
 static const double *copy(const double *from, int count, double *to)
 {
     int k;

@@ -29,6 +29,14 @@
  * twice this. */
 #define FMU_LARGE_ANGLE 8388608.0
 
+/** Most bytes of a message. */
+#define FMU_MESSAGE 512
+/** The importer may integrate, and an instance's state may be copied. */
+#define FMU_EXCHANGES 1
+#define FMU_SAVES 1
+/** Why a step is discarded at the end. */
+#define FMU_END "a joint is beyond an end stop; the scenario ends there"
+
 /** What is fixed of a joint. */
 struct precess_fmu_joint {
     /** What is given of it. */
@@ -75,6 +83,12 @@ struct precess_fmu {
 /** Sets every value to that of the scenario. */
 void precess_fmu_reset(struct precess_fmu *fmu);
 
+/** A parameter has another value: what was computed from parameters is computed again. */
+void precess_fmu_forget(struct precess_fmu *fmu);
+
+/** Gives back what an instance holds but itself: nothing. */
+void precess_fmu_release(struct precess_fmu *fmu);
+
 /** Whether the solver takes parameters, states and inputs: a locked joint, and a hub that is fixed, have to be at rest. */
 enum precess_status precess_fmu_check(struct precess_fmu *fmu);
 
@@ -97,7 +111,8 @@ int precess_fmu_is_to_wrap(struct precess_fmu *fmu);
 /** Brings joint angles beyond FMU_LARGE_ANGLE into [-pi, pi], where neither a spring nor an end stop counts the turns. */
 enum precess_status precess_fmu_wrap(struct precess_fmu *fmu);
 
-/** What a status means, and what to do. */
-const char *precess_fmu_message(enum precess_status status);
+/** What a status of the last function means, and what to do; written to `said` where it has a name in it. */
+const char *precess_fmu_message(
+    const struct precess_fmu *fmu, enum precess_status status, char said[FMU_MESSAGE]);
 
 #endif

@@ -2,7 +2,10 @@
 
 #include "precess_fmu.h"
 
-const char *precess_fmu_message(enum precess_status status)
+/* Most bytes of the name of a device in a message. */
+#define FMU_NAME 256
+
+static const char *text_of(enum precess_status status)
 {
     switch (status) {
     case PRECESS_OK: return "well";
@@ -28,4 +31,31 @@ const char *precess_fmu_message(enum precess_status status)
         return "the step is too long for a spring, a damper or friction; make the parameter step smaller";
     }
     return "unknown status";
+}
+
+/* Copies at most `room` characters of a text and a zero; where the zero is. */
+static char *append(char *to, const char *text, int room)
+{
+    int k;
+
+    for (k = 0; k < room && text[k]; k++) {
+        to[k] = text[k];
+    }
+    to[k] = '\0';
+    return to + k;
+}
+
+const char *precess_fmu_message(
+    const struct precess_fmu *fmu, enum precess_status status, char said[FMU_MESSAGE])
+{
+    const char *const text = text_of(status);
+    char *to;
+
+    if (status != PRECESS_BAD_PARAMETER) {
+        return text;
+    }
+    to = append(said, precess_fmu_names[fmu->device], FMU_NAME);
+    to = append(to, ": ", 2);
+    (void)append(to, text, FMU_MESSAGE - FMU_NAME - 3);
+    return said;
 }

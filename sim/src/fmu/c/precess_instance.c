@@ -18,6 +18,11 @@ void precess_instance_begin(struct precess_instance *of, int is_exchange, int se
     precess_fmu_reset(&of->state.fmu);
 }
 
+void precess_instance_end(struct precess_instance *of)
+{
+    precess_fmu_release(&of->state.fmu);
+}
+
 const char *precess_instance_reset(struct precess_instance *of)
 {
     if (!of) {
@@ -41,33 +46,9 @@ const char *precess_instance_enter(struct precess_instance *of, unsigned from, e
     return NULL;
 }
 
-/* Copies at most `room` characters of a text and a zero; where the zero is. */
-static char *append(char *to, const char *text, size_t room)
-{
-    size_t k;
-
-    for (k = 0; k < room && text[k]; k++) {
-        to[k] = text[k];
-    }
-    to[k] = '\0';
-    return to + k;
-}
-
 const char *precess_instance_why(struct precess_instance *of, enum precess_status status)
 {
-    const char *const text = precess_fmu_message(status);
-    char *to;
-
-    if (status == PRECESS_OK) {
-        return NULL;
-    }
-    if (status != PRECESS_BAD_PARAMETER) {
-        return text;
-    }
-    to = append(of->said, precess_fmu_names[of->state.fmu.device], FMU_NAME);
-    to = append(to, ": ", 2);
-    (void)append(to, text, FMU_MESSAGE - FMU_NAME - 3);
-    return of->said;
+    return status == PRECESS_OK ? NULL : precess_fmu_message(&of->state.fmu, status, of->said);
 }
 
 const char *precess_instance_set_start(
@@ -173,7 +154,7 @@ const char *precess_instance_set(
     for (k = 0; k < count; k++) {
         of->state.fmu.values[vr[k]] = value[k];
         if (vr[k] >= FMU_PARAMETER) {
-            of->state.fmu.is_prepared = 0;
+            precess_fmu_forget(&of->state.fmu);
         }
     }
     return NULL;

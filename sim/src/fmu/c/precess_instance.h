@@ -26,10 +26,6 @@ struct precess_saved {
     enum precess_phase phase;
 };
 
-/* Most bytes of a message, and of the name of a device in it. */
-#define FMU_MESSAGE 512
-#define FMU_NAME 256
-
 struct precess_instance {
     struct precess_saved state;
     /* Whether the last step was discarded because a joint passed an end stop. */
@@ -53,16 +49,23 @@ typedef unsigned int precess_reference;
 /* Messages of more than one place. */
 #define OUT_OF_ORDER "the function may not be called now; see the state machine of FMI"
 #define IS_NULL "an argument is null"
-#define IS_STOPPED "a joint is beyond an end stop; the scenario ends there"
+#define IS_STOPPED FMU_END
 #define NO_DIRECTIONAL "this unit has no directional derivatives"
 #define NO_OUTPUT_DERIVATIVES "the derivatives of outputs are variables of their own"
 #define NO_INDICATORS "there are no event indicators"
+
+/* Messages of what a unit may not have. */
+#define NO_EXCHANGE "this unit is for Co-Simulation alone"
+#define NO_STATES "the state of this unit is not copied"
 
 /* Whether a text identifies these sources. */
 int precess_instance_is_token(const char *token);
 
 /* Fills what is all zero: values of the scenario, nothing initialised. */
 void precess_instance_begin(struct precess_instance *of, int is_exchange, int sets_each_state);
+
+/* Gives back what an instance holds but itself. */
+void precess_instance_end(struct precess_instance *of);
 
 /* As precess_instance_begin, of the same type of simulation. */
 const char *precess_instance_reset(struct precess_instance *of);

@@ -20,6 +20,9 @@ static int is_of_type(const struct precess_instance *of, enum precess_phase phas
 
 const char *precess_instance_save(const struct precess_instance *of, void **state)
 {
+    if (!FMU_SAVES) {
+        return NO_STATES;
+    }
     if (!of || !state) {
         return IS_NULL;
     }
@@ -37,6 +40,9 @@ const char *precess_instance_restore(struct precess_instance *of, const void *st
 {
     const struct precess_saved *const from = state;
 
+    if (!FMU_SAVES) {
+        return NO_STATES;
+    }
     if (!of || !from) {
         return IS_NULL;
     }
@@ -92,6 +98,9 @@ const char *precess_instance_read(
     struct precess_saved *to;
     int phase;
 
+    if (!FMU_SAVES) {
+        return NO_STATES;
+    }
     if (!of || !from || !state) {
         return IS_NULL;
     }

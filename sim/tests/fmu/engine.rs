@@ -1,0 +1,194 @@
+//! Units that run the engine: outputs have the bits of a run, inputs act, descriptions are of Co-Simulation alone, and their C
+//! has no warning.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use precess::engine::{self, CoupledRun};
+use precess::fmu::{EngineFmu, FmiVersion, Fmu, FmuError};
+use precess::record::{RunError, Samples};
+use precess::scenario::Scenario;
+
+use super::compiled::{FLAGS, compilers};
+use super::described::{elements, variables};
+use super::{UNIT, scenario};
+
+/// A scenario of the folder with another end of its text, by fixed steps.
+fn of_file(name: &str, changes: &[(&str, &str)]) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios").join(name);
+    let mut text = fs::read_to_string(path).expect("a scenario");
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    scenario(&text)
+}
+
+/// Four gyros under a controller, into the slew.
+fn pyramid() -> Scenario {
+    let run = "duration = \"2.5 s\"\nintegrator = \"rk4\"\nstep = \"2 ms\"";
+    of_file("gyro-pyramid-slew.toml", &[("duration = \"40 s\"", run), ("\"30 s\"", "\"1 s\"")])
+}
+
+/// Four wheels on an isolated platform.
+fn isolator() -> Scenario {
+    let run = "duration = \"0.2 s\"\nintegrator = \"rk4\"\nstep = \"0.5 ms\"";
+    of_file("wheels-on-isolator.toml", &[("duration = \"18 s\"", run), ("tolerance = 1e-10", "")])
+}
+
+/// The inputs that the unit's description starts with.
+fn starts(scenario: &Scenario, run: &CoupledRun<'_>) -> Vec<f64> {
+    let motors = run.motors().iter().map(|joint| {
+        let drive = &scenario.drives[*joint];
+        drive.limits().clipped(drive.profile().expect("a torque").at(0.0, false))
+    });
+    [0.0; 6].into_iter().chain(motors).collect()
+}
+
+#[test]
+fn outputs_of_a_coupled_run_have_the_bits_of_a_run() {
+    for (scenario, motors) in [(pyramid(), 0), (isolator(), 4)] {
+        let mut samples = Samples::default();
+        let goes_on = &mut |_| ControlFlow::Continue(());
+        engine::run(&scenario, &mut samples, goes_on).expect("a run");
+        let mut run = CoupledRun::new(&scenario).expect("a run");
+        let inputs = starts(&scenario, &run);
+        assert_eq!((run.motors().len(), inputs.len()), (motors, 6 + motors));
+        assert_eq!(run.input_count(), inputs.len());
+        assert!(samples.rows.len() > 100);
+        for (index, row) in samples.rows.iter().enumerate() {
+            let time = f64::from(u32::try_from(index).expect("few")) / scenario.output.rate;
+            assert!(run.advance(&inputs, time).expect("a step"), "{time}");
+            let outputs = run.outputs(&inputs).expect("outputs");
+            for ((found, expected), of) in
+                outputs.iter().zip(row).zip(&samples.header.as_ref().expect("a header").columns)
+            {
+                assert_eq!(
+                    found.to_bits(),
+                    expected.to_bits(),
+                    "{} at {time} s: {found:e} and {expected:e}",
+                    of.name
+                );
+            }
+            assert_eq!(outputs.len(), row.len());
+        }
+        let end = scenario.settings.duration;
+        assert!(
+            !run.advance(&inputs, end + 0.1).expect("the end"),
+            "there is nothing after the end"
+        );
+    }
+}
+
+#[test]
+fn inputs_of_a_coupled_run_act_as_those_of_a_scenario() {
+    let free = UNIT.replace(
+        "torque = \"0.3 N m\"\ntorque_limit = \"0.2 N m\"\n",
+        "torque_limit = \"0.2 N m\"\n",
+    );
+    let pushed = UNIT.to_owned()
+        + "[[wrench]]\non = \"hub\"\nforce = \"3, -2, 1 N\"\nmoment = \"0.1, 0.2, -0.3 N m\"\n";
+    let (free, pushed) = (scenario(&free), scenario(&pushed));
+    let mut given = CoupledRun::new(&free).expect("a run");
+    let mut stated = CoupledRun::new(&pushed).expect("a run");
+    // Beyond the limit of the motor.
+    let inputs = [3.0, -2.0, 1.0, 0.1, 0.2, -0.3, 0.3, 0.0];
+    let nothing = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 0.0];
+    assert!(given.advance(&inputs, 0.05).expect("a step"));
+    assert!(stated.advance(&nothing, 0.05).expect("a step"));
+    let names: Vec<_> = given.columns().iter().map(|of| of.name.clone()).collect();
+    let (given, stated) =
+        (given.outputs(&inputs).expect("outputs"), stated.outputs(&nothing).expect("outputs"));
+    for ((name, a), b) in names.iter().zip(given).zip(stated) {
+        let is_close = (a - b).abs() <= 1e-13 * (1.0 + b.abs());
+        assert!(is_close, "{name}: {a} and {b}");
+    }
+    let moved = names.iter().position(|name| name == "velocity_x").expect("a column");
+    assert!(given[moved].abs() > 1e-4, "{}", given[moved]);
+}
+
+#[test]
+fn other_inputs_than_a_coupled_run_takes_are_refused() {
+    let scenario = scenario(UNIT);
+    let mut run = CoupledRun::new(&scenario).expect("a run");
+    for inputs in [&[0.0; 7][..], &[f64::NAN; 8]] {
+        let error = run.advance(inputs, 0.01).expect_err("it is refused");
+        assert!(matches!(error, RunError::Inputs { expected: 8, .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_unit_that_runs_the_engine_is_for_co_simulation_alone() {
+    for scenario in [pyramid(), isolator()] {
+        let why = Fmu::new(&scenario).expect_err("it cannot be sources");
+        assert!(!matches!(why, FmuError::Tolerance), "{why}");
+        let unit = EngineFmu::new(&scenario).expect("a unit");
+        for version in FmiVersion::ALL {
+            let document = unit.description(version);
+            let found = variables(version, &document);
+            assert_eq!(found.len(), unit.variable_count());
+            let of = |causality: &str| {
+                found.iter().filter(|(of, _)| of["causality"] == causality).count()
+            };
+            let outputs = of("output");
+            assert_eq!((of("independent"), of("parameter")), (1, 0));
+            assert_eq!(of("input"), found.len() - 1 - outputs);
+            assert!(!document.contains("<ModelExchange") && document.contains("<CoSimulation"));
+            let (saves, unknown) = match version {
+                FmiVersion::Two => ("canGetAndSetFMUstate", "Unknown"),
+                FmiVersion::Three => ("canGetAndSetFMUState", "InitialUnknown"),
+            };
+            assert_eq!(elements(&document, "CoSimulation")[0][saves], "false");
+            let times = if version == FmiVersion::Two { 2 } else { 1 };
+            assert_eq!(elements(&document, unknown).len(), times * outputs);
+            let spoken = elements(&document, "fmiModelDescription").remove(0);
+            let token = spoken.get("guid").or(spoken.get("instantiationToken")).expect("a token");
+            let sources = unit.sources(version);
+            let (_, header) = sources.iter().find(|(name, _)| name == "model.h").expect("a header");
+            assert!(header.contains(token.as_str()));
+            assert!(header.contains(&format!("#define FMU_OUTPUTS {outputs}\n")));
+        }
+    }
+}
+
+#[test]
+fn what_an_engine_would_need_beside_the_scenario_is_refused() {
+    let tolerance = scenario(&UNIT.replace("integrator = \"rk4\"\nstep = \"1 ms\"\n", ""));
+    assert_eq!(EngineFmu::new(&tolerance).err(), Some(FmuError::Tolerance));
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/imaging-satellite-flexible.toml");
+    let overrides = ["run.integrator='rk4'", "run.step='0.1 ms'"].map(str::to_owned);
+    let (flexible, _) =
+        precess::file::from_file(&path, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(EngineFmu::new(&flexible).err(), Some(FmuError::File));
+}
+
+#[test]
+fn the_c_over_the_engine_has_no_warning() {
+    let unit = EngineFmu::new(&pyramid()).expect("a unit");
+    for version in FmiVersion::ALL {
+        for compiler in compilers() {
+            let name = format!("engine_{compiler}_{}", version.text());
+            let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
+            let _ = fs::remove_dir_all(&folder);
+            fs::create_dir_all(&folder).expect("a folder");
+            let mut compiled = Vec::new();
+            for (name, text) in unit.sources(version) {
+                fs::write(folder.join(&name), text).expect("a source");
+                if Path::new(&name).extension() == Some("c".as_ref()) {
+                    compiled.push(name);
+                }
+            }
+            let done = Command::new(compiler)
+                .current_dir(&folder)
+                .args(FLAGS)
+                .arg("-c")
+                .args(compiled)
+                .output()
+                .expect("the compiler starts");
+            assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+        }
+    }
+}

@@ -1,0 +1,69 @@
+"""Units that run the simulator's engine in FMPy, against `precess run`."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+from fmpy.validation import validate_fmu
+from importers import instance
+from recordings import ROOT, SCENARIOS, ran, recorded
+
+# Name, step in s, samples per second, duration in s: of what the engine runs.
+OF_ENGINE = (
+    ("wheels-on-isolator", "5e-4", 1000.0, 2.0),
+    ("gyro-pyramid-slew", "2e-3", 50.0, 10.0),
+)
+
+
+def engine():
+    """The static library of the engine, which is built."""
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    build = [os.environ.get("CARGO", "cargo"), "build", "--quiet", "--release", "--locked"]
+    subprocess.run([*build, "--manifest-path", "fmu/Cargo.toml", "--target-dir", target], cwd=ROOT, check=True)
+    return target / "release" / "libprecess_fmu.a"
+
+
+def of_engine(folder, programs, library, case, version):
+    """A unit that runs the engine: bits of every column at every sample; its size, and how many numbers."""
+    name, step, rate, duration = case
+    file = SCENARIOS / f"{name}.toml"
+    archive = folder / f"{name}-{version}.fmu"
+    requirements = ("--set", 'requirement."pointing in the dwell".from=1 s') if "pyramid" in name else ()
+    settings = ("--set", f"run.duration={duration!r} s", *requirements)
+    options = ("--step", f"{step} s", "--fmi", version, "--binary", "--engine", library, "--to", archive, "--force")
+    ran(programs / "precess", "export", "fmu", file, *options, *settings)
+    if findings := validate_fmu(str(archive)):
+        sys.exit(f"{name}, FMI {version}.0: {findings}")
+    fmpy.extract(str(archive), unzipdir=str(archive.with_suffix("")))
+    description = fmpy.read_model_description(str(archive.with_suffix("")))
+    outputs = [v for v in description.modelVariables if v.causality == "output"]
+    columns, samples = recorded(folder, programs, file, step, duration, rate, requirements)
+    if len(columns) != len(outputs) + 1:
+        sys.exit(f"{name}: {len(outputs)} outputs of {len(columns)} columns")
+    both = [instance(description, archive.with_suffix(""), name=name) for name in ("one", "other")]
+    for index, sample in enumerate(samples):
+        for one in both:
+            if index:
+                one.step((index - 1) / rate, index / rate - (index - 1) / rate)
+            mine = one.get([v.valueReference for v in outputs])
+            for output, value, stored in zip(outputs, mine, sample[1:], strict=True):
+                if value != float(stored) and not (value != value and stored == "nan"):
+                    sys.exit(f"{name}, FMI {version}.0, sample {index}, {output.name}: {value!r} against {stored}")
+    for one in both:
+        one.close()
+    return archive.stat().st_size, len(samples) * len(outputs)
+
+
+def check(folder, programs):
+    """Each, in both versions of FMI."""
+    library = Path(os.environ["PRECESS_ENGINE"]) if "PRECESS_ENGINE" in os.environ else engine()
+    for case in OF_ENGINE:
+        for version in (2, 3):
+            size, count = of_engine(folder, programs, library, case, version)
+            print(
+                f"fmpy {fmpy.__version__}, {case[0]} by the engine, FMI {version}.0: {size / 1e6:.1f} MB, valid; {count} numbers of"
+                " Co-Simulation have the bits of the run",
+                flush=True,
+            )
