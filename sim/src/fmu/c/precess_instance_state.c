@@ -69,6 +69,9 @@ const char *precess_instance_free_state(const struct precess_instance *of, void 
 
 const char *precess_instance_size(const struct precess_instance *of, const void *state, size_t *size)
 {
+    if (!FMU_SAVES) {
+        return NO_STATES;
+    }
     if (!of || !state || !size) {
         return IS_NULL;
     }
@@ -82,6 +85,9 @@ const char *precess_instance_write(
     const struct precess_saved *const from = state;
     unsigned char *const to = bytes;
 
+    if (!FMU_SAVES) {
+        return NO_STATES;
+    }
     if (!of || !from || !to || size < SERIALISED) {
         return "an argument is null, or the bytes are too few";
     }
