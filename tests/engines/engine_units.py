@@ -20,8 +20,8 @@ OF_ENGINE = (
 def engine():
     """The static library of the engine, which is built."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    build = [os.environ.get("CARGO", "cargo"), "build", "--quiet", "--release", "--locked"]
-    subprocess.run([*build, "--manifest-path", "fmu/Cargo.toml", "--target-dir", target], cwd=ROOT, check=True)
+    build = [os.environ.get("CARGO", "cargo"), "build", "--quiet", "--release", "--locked", "-p", "precess-fmu"]
+    subprocess.run(build, cwd=ROOT, check=True)
     return target / "release" / "libprecess_fmu.a"
 
 

@@ -16,11 +16,10 @@ use crate::crates_of::Metadata;
 const RULES: &str = "deny.toml";
 
 /// Every workspace.
-const WORKSPACES: [&str; 6] = [
+const WORKSPACES: [&str; 5] = [
     "Cargo.toml",
     "flight/Cargo.toml",
     "flight/firmware/Cargo.toml",
-    "fmu/Cargo.toml",
     "python/Cargo.toml",
     "sim/fuzz/Cargo.toml",
 ];

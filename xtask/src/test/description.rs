@@ -24,6 +24,7 @@ const FOLDERS: [(&str, &str); 22] = [
     ("imaging-satellite", "tests/baked/imaging_satellite"),
     ("precess-attack", "tests/attack"),
     ("precess-control", "sim/control"),
+    ("precess-fmu", "sim/fmu"),
     ("precess-gpu", "sim/gpu"),
     ("precess", "sim"),
     ("xtask", "xtask"),

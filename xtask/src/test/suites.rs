@@ -254,6 +254,8 @@ pub(crate) const SUITES: &[Suite] = &[
         "batches",
         &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "sim/gpu"]],
     ),
+    // The engine for functional mock-up units.
+    always("precess-fmu", "lib", &[SOLVER, DESKTOP, &["sim/fmu"]]),
     // The desktop tool.
     always("precess", "lib", &[SOLVER, DESKTOP, &["sim/report"]]),
     always("precess", "bending", &[SOLVER, DESKTOP, &["sim/tests/bending", "sim/examples"]]),
@@ -324,7 +326,6 @@ pub(crate) const SUITES: &[Suite] = &[
             "Cargo.lock",
             "flight/Cargo.lock",
             "flight/firmware/Cargo.lock",
-            "fmu/Cargo.lock",
             "python/Cargo.lock",
             "sim/fuzz/Cargo.lock",
         ]],

@@ -17,6 +17,8 @@ use xtask::skip::skip;
 const README: &str = "README.md";
 /// What the archive of sources runs.
 const SCENARIO: &str = "scenarios/table1-catalogue-free.toml";
+/// What the desktop tool links with its engine.
+const CONTROLLED: &str = "scenarios/gyro-pyramid-slew.toml";
 /// Below this heading, the guide of the C library says how an installed one is used.
 const INSTALLED: &str = "## Install";
 
@@ -59,7 +61,7 @@ fn sources(package: &Package, place: &Path, target: &Path) -> Result<bool, Strin
     Ok(true)
 }
 
-/// The desktop tool writes an example, and runs it.
+/// The desktop tool writes an example, and runs it; of a controlled spacecraft it links a unit with the engine.
 fn tool(package: &Package, place: &Path) -> Result<bool, String> {
     lay_out(&unpack(&package.bytes)?, &place.join("precess"), &[])?;
     let program = place.join("precess/bin").join(format!(
@@ -75,6 +77,12 @@ fn tool(package: &Package, place: &Path) -> Result<bool, String> {
         &["export", "fmu", "bus.toml", "--step", "1 ms", "--to", "bus.fmu"],
     ] {
         run_there(Command::new(&program).args(arguments).current_dir(place.join("first")))?;
+    }
+    if std::env::consts::OS == "linux" && is_there("cc") {
+        let mut export = Command::new(&program);
+        export.args(["export", "fmu"]).arg(root().join(CONTROLLED));
+        export.args(["--step", "2 ms", "--binary", "--to", "controlled.fmu"]);
+        run_there(export.current_dir(place.join("first")))?;
     }
     Ok(true)
 }

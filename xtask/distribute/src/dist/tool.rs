@@ -14,6 +14,9 @@ use xtask::run::{output, run_there};
 pub(super) const PACKAGE: &str = "precess";
 /// What derives for its commands `bake` and `export fmu`, which look for it beside them.
 pub(super) const GENERATOR: &str = "precess-bake";
+/// The engine for units of `export fmu --binary`, a static library, which it looks for in `../lib`.
+const ENGINE: &str = "precess-fmu";
+const ENGINE_FILE: &str = "libprecess_fmu.a";
 /// The workspace that they are of.
 pub(super) const MANIFEST: &str = "Cargo.toml";
 
@@ -30,7 +33,8 @@ pub(super) fn package(stage: &Stage, version: &str) -> Result<Package, String> {
     let mut cargo = stage.cargo()?;
     cargo.args(["build", "--release", "--quiet", "--locked"]);
     let programs = [PACKAGE, GENERATOR];
-    run_there(cargo.args(programs.iter().flat_map(|name| ["--package", name, "--bin", name])))?;
+    cargo.args(programs.iter().flat_map(|name| ["--package", name, "--bin", name]));
+    run_there(&mut cargo)?;
     let release = stage.target.join("release");
     let file = |name: &str| format!("{name}{}", std::env::consts::EXE_SUFFIX);
     let program = release.join(file(PACKAGE));
@@ -39,6 +43,13 @@ pub(super) fn package(stage: &Stage, version: &str) -> Result<Package, String> {
         let content = Content::File { bytes: read(&release.join(file(name)))?, executable: true };
         entries.push(Entry { path: format!("bin/{}", file(name)), content });
         others.push_str(&licences::of_others(stage, MANIFEST, name)?);
+    }
+    if std::env::consts::OS == "linux" {
+        let mut cargo = stage.cargo()?;
+        cargo.args(["build", "--release", "--quiet", "--locked", "--package", ENGINE]);
+        run_there(&mut cargo)?;
+        let content = Content::File { bytes: read(&release.join(ENGINE_FILE))?, executable: false };
+        entries.push(Entry { path: format!("lib/{ENGINE_FILE}"), content });
     }
     entries.push(Entry::file("share/doc/precess/LICENSES-OF-OTHERS", others));
     for name in ["LICENSE-APACHE", "LICENSE-MIT", "README.md"] {

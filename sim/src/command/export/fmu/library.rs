@@ -10,7 +10,7 @@ use super::failure;
 use crate::command::error::CommandError;
 use crate::fmu::{FmiVersion, compiler_arguments, platform};
 
-/// The engine as a static library, beside this program.
+/// The engine as a static library: beside this program, or in the folder `lib` beside that of this program.
 const ENGINE: &str = "libprecess_fmu.a";
 /// How it is linked, so that none of its symbols is visible and nothing is in the library that is not called; and what of the
 /// system it needs.
@@ -31,13 +31,19 @@ pub(super) fn of_engine(named: Option<&Path>) -> Result<PathBuf, CommandError> {
         let message = "units that run the simulator's engine are made on Linux alone";
         return Err(CommandError::Other(message.to_owned()));
     }
-    let beside = || env::current_exe().ok().map(|own| own.with_file_name(ENGINE));
-    let found = named.map(Path::to_owned).or_else(beside).filter(|path| path.is_file());
-    let found = found.and_then(|path| fs::canonicalize(path).ok());
+    let own = env::current_exe().ok();
+    let places = own.iter().flat_map(|own| {
+        let prefix = own.parent().and_then(Path::parent);
+        let installed = prefix.map(|prefix| prefix.join("lib").join(ENGINE));
+        std::iter::once(own.with_file_name(ENGINE)).chain(installed)
+    });
+    let mut places =
+        named.map_or_else(|| places.collect(), |path| vec![path.to_owned()]).into_iter();
+    let found = places.find_map(|path| fs::canonicalize(path).ok().filter(|path| path.is_file()));
     found.ok_or_else(|| {
         CommandError::Other(format!(
             "the simulator's engine for units, `{ENGINE}`, is not there; build it with `cargo build --release \
-             --manifest-path fmu/Cargo.toml --target-dir target` and name it by `--engine`, or put it beside this program"
+             -p precess-fmu` in the sources of Precess and name it by `--engine`, or put it beside this program or into `../lib`"
         ))
     })
 }
