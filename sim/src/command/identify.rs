@@ -147,7 +147,7 @@ fn design_table(of: &Design) -> String {
     let mut text = "\nmanoeuvres\n".to_owned();
     let lengths = of.manoeuvres.iter().zip(&of.durations);
     text.extend(lengths.map(|(name, length)| format!("- {name}: {} s\n", Plain(*length))));
-    text.push_str(&format!("\n{}", aligned(&rows)));
+    let _ = write!(text, "\n{}", aligned(&rows));
     if !of.directions.is_empty() {
         let mut list = String::new();
         head[0].replace_range(.., "in steps of it");

@@ -210,11 +210,11 @@ fn pairs(telemetry: &Telemetry) -> Vec<[usize; 2]> {
     all.flat_map(|(place, a)| later(place).map(move |b| [*a, *b])).collect()
 }
 
+/// A gyro's reading in other axes and another unit.
+type Turn<'a> = dyn Fn(&Vector3<f64>) -> Vector3<f64> + 'a;
+
 /// The axes, signs and unit of the gyro that explain the most, with their share; none where these are as they are.
-fn axes(
-    as_it_is: f64,
-    share: &dyn Fn(&dyn Fn(&Vector3<f64>) -> Vector3<f64>) -> f64,
-) -> Option<(f64, String)> {
+fn axes(as_it_is: f64, share: &dyn Fn(&Turn<'_>) -> f64) -> Option<(f64, String)> {
     let mut best = (as_it_is, String::new());
     for (size, unit) in RATES {
         for order in ORDERS {

@@ -200,7 +200,11 @@ fn information(
     let flown = manoeuvre.scenario;
     model::check(flown)?;
     let kinds = |of: &Scenario| -> Vec<_> {
-        of.devices_on_hub().unwrap_or_default().iter().map(|of| of.kind()).collect()
+        of.devices_on_hub()
+            .unwrap_or_default()
+            .iter()
+            .map(precess_dynamics::BuiltIn::kind)
+            .collect()
     };
     if flown.names != scenario.names || kinds(flown) != kinds(scenario) {
         return Err(failed("its devices are others than those of the scenario".to_owned()));

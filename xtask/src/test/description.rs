@@ -8,7 +8,7 @@ use xtask::run::root;
 use super::suites::{How, Suite, When};
 
 /// The packages of the suites and their folders.
-const FOLDERS: [(&str, &str); 22] = [
+const FOLDERS: [(&str, &str); 23] = [
     ("precess-codegen", "codegen"),
     ("precess-bake", "codegen/bake"),
     ("precess-description", "codegen/description"),
