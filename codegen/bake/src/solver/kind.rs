@@ -104,6 +104,7 @@ pub(super) fn context(kind: &'static Kind) -> Result<Context, BakeError> {
         ("back_arguments", "back_substitute"),
         ("external_arguments", "external"),
         ("gravity_arguments", "gravity"),
+        ("load_derivatives_arguments", "load_derivatives"),
     ] {
         context.insert(key, &arguments(&signatures, kernel));
     }

@@ -16,10 +16,12 @@ use crate::shape::check_name;
 use crate::templates::templates;
 
 /// The templates; one that another includes is before it.
-const TEMPLATES: [(&str, &str); 10] = [
+const TEMPLATES: [(&str, &str); 12] = [
     ("kind.h", include_str!("../templates/solver/kind.h.tera")),
+    ("kind_jvp.c", include_str!("../templates/solver/kind_jvp.c.tera")),
     ("kind.c", include_str!("../templates/solver/kind.c.tera")),
     ("set.h", include_str!("../templates/solver/set.h.tera")),
+    ("set_jvp.c", include_str!("../templates/solver/set_jvp.c.tera")),
     ("stability.c", include_str!("../templates/solver/stability.c.tera")),
     ("step.c", include_str!("../templates/solver/step.c.tera")),
     ("set.c", include_str!("../templates/solver/set.c.tera")),

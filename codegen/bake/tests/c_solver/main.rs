@@ -8,6 +8,7 @@ mod batch;
 mod build;
 mod case;
 mod example;
+mod jvp;
 mod mutants;
 #[allow(dead_code, reason = "shared with the suite of the kernels")]
 #[path = "../../../tests/c_kernels/random.rs"]

@@ -8,7 +8,7 @@ use precess_dynamics::{
 
 use crate::case::Case;
 
-type Set = Vec<BuiltIn>;
+pub(crate) type Set = Vec<BuiltIn>;
 
 /// An attitude as four numbers.
 pub(crate) trait Numbers: Attitude<f64> {
@@ -57,14 +57,24 @@ pub(crate) fn reference(case: &Case) -> Vec<f64> {
     if case.settings.mrp { by::<Mrp>(case) } else { by::<Quaternion>(case) }
 }
 
-fn by<A: Numbers>(case: &Case) -> Vec<f64> {
+/// The spacecraft of a case that has one, its state, and what acts on it.
+pub(crate) fn of_case<A: Numbers>(case: &Case) -> (Spacecraft<Set>, State<Set, A>, Inputs<Set>) {
+    let craft = Spacecraft::<Set>::new(&hub(case), &case.devices).expect("a spacecraft");
+    let (state, inputs) = (state::<A>(case, &craft), inputs(case, &craft));
+    (craft, state, inputs)
+}
+
+fn hub(case: &Case) -> Hub {
     let [xx, xy, xz, yy, yz, zz] = case.inertia;
-    let hub = Hub {
+    Hub {
         m_b: case.mass,
         r_bc_b: Vector3::from(case.centre_of_mass),
         i_b_bc: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
-    };
-    let made = Spacecraft::<Set>::new(&hub, &case.devices);
+    }
+}
+
+fn by<A: Numbers>(case: &Case) -> Vec<f64> {
+    let made = Spacecraft::<Set>::new(&hub(case), &case.devices);
     let (mut statuses, mut found) = ([0.0; 4], vec![0.0; 6 + case.joints.len()]);
     let Ok(craft) = made else {
         statuses[0] = 1.0;

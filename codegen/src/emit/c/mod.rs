@@ -32,7 +32,7 @@ const BY_HAND: [(&str, &str); 5] = [
 ];
 
 /// Hand-written C of the rest of the solver: joints, gravity, attitude, what devices share.
-const SOLVER: [(&str, &str); 15] = [
+const SOLVER: [(&str, &str); 17] = [
     ("precess_status.h", include_str!("by_hand/precess_status.h")),
     ("precess_arithmetic.h", include_str!("by_hand/precess_arithmetic.h")),
     ("precess_arithmetic.c", include_str!("by_hand/precess_arithmetic.c")),
@@ -46,6 +46,8 @@ const SOLVER: [(&str, &str); 15] = [
     ("precess_evaluation.c", include_str!("by_hand/precess_evaluation.c")),
     ("precess_device.h", include_str!("by_hand/precess_device.h")),
     ("precess_device.c", include_str!("by_hand/precess_device.c")),
+    ("precess_jvp.h", include_str!("by_hand/precess_jvp.h")),
+    ("precess_jvp.c", include_str!("by_hand/precess_jvp.c")),
     ("precess_wrap.h", include_str!("by_hand/precess_wrap.h")),
     ("precess_wrap.c", include_str!("by_hand/precess_wrap.c")),
 ];
