@@ -58,6 +58,12 @@ class OfTwo(Instance):
     def set(self, places, values):
         self.one.setReal(places, values)
 
+    def along(self, unknowns, knowns, seed):
+        return self.one.getDirectionalDerivative(unknowns, knowns, seed)
+
+    def gradient(self, unknowns, knowns, seed):
+        """FMI 2.0 has none."""
+
     def enter_continuous_time(self):
         self.one.newDiscreteStates()
         self.one.enterContinuousTimeMode()
@@ -92,6 +98,12 @@ class OfThree(Instance):
 
     def set(self, places, values):
         self.one.setFloat64(places, values)
+
+    def along(self, unknowns, knowns, seed):
+        return self.one.getDirectionalDerivative(unknowns, knowns, seed, len(unknowns))
+
+    def gradient(self, unknowns, knowns, seed):
+        return self.one.getAdjointDerivative(unknowns, knowns, seed, len(knowns))
 
     def enter_continuous_time(self):
         self.one.updateDiscreteStates()

@@ -5,8 +5,9 @@
 Of each scenario, with fixed steps, and of FMI 2.0 and FMI 3.0: FMPy validates the unit without a finding and compiles it without
 a warning; outputs of Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them;
 Model Exchange by CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and
-on nothing else; a restored state, and one of bytes, repeats what followed it. Units that run the simulator's engine, of an
-isolated platform and of a controller, are validated, and their outputs have the bits of every column that the run records.
+on nothing else; derivatives along each state and input, and of weighed sums, agree with differences; a restored
+state, and one of bytes, repeats what followed it. Units that run the simulator's engine, of an isolated platform and of a
+controller, are validated, and their outputs have the bits of every column that the run records.
 
 Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
 requirements.txt.
@@ -33,6 +34,7 @@ try:
     from engine_units import check as check_engine
     from importers import instance
     from recordings import SCENARIOS, programs, ran, recorded
+    from unit_derivatives import check as derivatives
 except ModuleNotFoundError as error:
     if error.name not in ("fmpy", "numpy"):
         raise
@@ -309,10 +311,12 @@ def main():
                 count = co_simulation(unit, run, case)
                 worst = model_exchange(unit, case)
                 pairs = dependencies(unit, chance)
+                slopes, off = derivatives(unit, chance)
                 restored(unit, case)
                 print(
                     f"fmpy {fmpy.__version__}, {unit.name}: {size // 1000} kB, valid; {count} numbers of Co-Simulation have the"
-                    f" bits of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed",
+                    f" bits of the run; Model Exchange differs by {worst:.1e}; {pairs} pairs depend as listed;"
+                    f" {slopes} derivatives differ from differences by {off:.1e}",
                     flush=True,
                 )
         check_engine(folder, built)

@@ -20,10 +20,10 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let saves = !of.is_run;
+    let has = !of.is_run;
     let both = format!(
-        "canGetAndSetFMUstate=\"{saves}\" canSerializeFMUstate=\"{saves}\" \
-         canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"false\""
+        "canGetAndSetFMUstate=\"{has}\" canSerializeFMUstate=\"{has}\" \
+         canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"{has}\""
     );
     let own = [
         (

@@ -19,10 +19,10 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let saves = !of.is_run;
+    let has = !of.is_run;
     let both = format!(
-        "needsExecutionTool=\"false\" canGetAndSetFMUState=\"{saves}\" canSerializeFMUState=\"{saves}\" \
-         providesDirectionalDerivatives=\"false\" providesAdjointDerivatives=\"false\""
+        "needsExecutionTool=\"false\" canGetAndSetFMUState=\"{has}\" canSerializeFMUState=\"{has}\" \
+         providesDirectionalDerivatives=\"{has}\" providesAdjointDerivatives=\"{has}\""
     );
     let own = [
         ("ModelExchange", "needsCompletedIntegratorStep=\"true\""),

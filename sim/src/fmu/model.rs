@@ -108,6 +108,8 @@ pub(super) fn header(layout: &Layout, constants: &Constants, token: &str) -> Str
          #define FMU_SOLVER_ACCELERATIONS {SOLVER}_accelerations\n\
          #define FMU_SOLVER_INIT {SOLVER}_init\n\
          #define FMU_SOLVER_EVALUATE {SOLVER}_accelerations\n\
+         #define FMU_SOLVER_DIRECTION {SOLVER}_direction\n\
+         #define FMU_SOLVER_JVP {SOLVER}_jvp\n\
          #define FMU_SOLVER_STEP {SOLVER}_step\n\
          #define FMU_SOLVER_WRAP {SOLVER}_wrap\n\
          #define FMU_DEVICES {upper}_DEVICES\n\

@@ -6,12 +6,16 @@ use super::FmiVersion;
 type File = (&'static str, &'static str);
 
 /// Names and texts of what both versions have.
-const SHARED: [File; 7] = [
+const SHARED: [File; 11] = [
     ("precess_fmu.c", include_str!("c/precess_fmu.c")),
     ("precess_fmu.h", include_str!("c/precess_fmu.h")),
+    ("precess_fmu_jvp.c", include_str!("c/precess_fmu_jvp.c")),
     ("precess_fmu_message.c", include_str!("c/precess_fmu_message.c")),
+    ("precess_fmu_solver.c", include_str!("c/precess_fmu_solver.c")),
+    ("precess_fmu_solver.h", include_str!("c/precess_fmu_solver.h")),
     ("precess_instance.c", include_str!("c/precess_instance.c")),
     ("precess_instance.h", include_str!("c/precess_instance.h")),
+    ("precess_instance_jvp.c", include_str!("c/precess_instance_jvp.c")),
     ("precess_instance_motion.c", include_str!("c/precess_instance_motion.c")),
     ("precess_instance_state.c", include_str!("c/precess_instance_state.c")),
 ];

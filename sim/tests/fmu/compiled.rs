@@ -56,7 +56,7 @@ fn driver(version: FmiVersion) -> &'static [(&'static str, &'static str)] {
 }
 
 /// A folder with the sources of the unit and the standard's headers, and the names of what is compiled.
-fn sources(version: FmiVersion, name: &str, unit: &str) -> (PathBuf, Vec<String>) {
+pub(super) fn sources(version: FmiVersion, name: &str, unit: &str) -> (PathBuf, Vec<String>) {
     let name = format!("{name}_{}", version.text());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
     let _ = fs::remove_dir_all(&folder);
@@ -76,7 +76,12 @@ fn sources(version: FmiVersion, name: &str, unit: &str) -> (PathBuf, Vec<String>
     (folder, compiled)
 }
 
-fn compile(compiler: &str, folder: &Path, arguments: &[&str], sources: &[String]) -> Output {
+pub(super) fn compile(
+    compiler: &str,
+    folder: &Path,
+    arguments: &[&str],
+    sources: &[String],
+) -> Output {
     let mut command = Command::new(compiler);
     command.current_dir(folder).args(arguments).args(sources);
     command.args(["-lm"]).output().expect("the compiler starts")
@@ -122,7 +127,7 @@ fn importer(version: FmiVersion, name: &str, unit: &str, compiler: &str, more: &
 }
 
 /// What an importer writes: numbers.
-fn numbers(folder: &Path, arguments: &[&str]) -> Vec<f64> {
+pub(super) fn numbers(folder: &Path, arguments: &[&str]) -> Vec<f64> {
     let done = Command::new(folder.join("driver")).args(arguments).output();
     let done = done.expect("the driver starts");
     let errors = String::from_utf8_lossy(&done.stderr);

@@ -143,11 +143,13 @@ static void before_initialisation(void)
 /* Of an instance that steps. */
 static void stepping(void)
 {
+    const fmi2ValueReference known = FMU_STATE + 3, unknown = FMU_DERIVATIVE;
+    const double seed = 2.0;
     fmi2Component c = made(fmi2CoSimulation);
     fmi2Boolean flag = fmi2False;
     fmi2Status status;
     double x[FMU_STATES];
-    double time;
+    double time, slope = 0.0;
     int k;
 
     initialise(c);
@@ -172,7 +174,9 @@ static void stepping(void)
     IS_ERROR(fmi2GetRealStatus(c, fmi2LastSuccessfulTime, NULL));
     IS_ERROR(fmi2SetRealInputDerivatives(c, NULL, 0, NULL, NULL));
     IS_ERROR(fmi2GetRealOutputDerivatives(c, NULL, 0, NULL, NULL));
-    IS_ERROR(fmi2GetDirectionalDerivative(c, NULL, 0, NULL, 0, NULL, NULL));
+    IS_OK(fmi2GetDirectionalDerivative(c, &unknown, 1, &known, 1, &seed, &slope));
+    CHECK(slope == seed);
+    IS_ERROR(fmi2GetDirectionalDerivative(c, &known, 1, &known, 1, &seed, NULL));
     /* A parameter that no device has is an error until it is another one; nothing has moved. */
     states(c, x);
     IS_OK(set(c, FMU_PARAMETER + 5, -1.0));
@@ -361,7 +365,6 @@ int main(int count, char **arguments)
         wrapped(atof(arguments[2]));
         return unexpected;
     }
-
     CHECK(strcmp(fmi2GetVersion(), "2.0") == 0 && strcmp(fmi2GetTypesPlatform(), "default") == 0);
     before_initialisation();
     stepping();

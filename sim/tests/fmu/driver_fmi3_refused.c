@@ -101,9 +101,11 @@ void absent(void)
     IS_ERROR(fmi3GetVariableDependencies(c, one, NULL, NULL, NULL, NULL, 0));
     IS_ERROR(fmi3GetDirectionalDerivative(c, &one, 1, &one, 1, NULL, 0, NULL, 0));
     IS_ERROR(fmi3GetAdjointDerivative(c, &one, 1, &one, 1, NULL, 0, NULL, 0));
+    IS_ERROR(fmi3GetDirectionalDerivative(c, &one, 1, &one, 1, NULL, 1, NULL, 1));
+    IS_ERROR(fmi3GetAdjointDerivative(c, &one, 1, &one, 1, NULL, 1, NULL, 1));
     IS_ERROR(fmi3GetOutputDerivatives(c, &one, 1, NULL, NULL, 0));
     IS_ERROR(fmi3ActivateModelPartition(c, one, 0.0));
     IS_ERROR(fmi3EnterStepMode(c));
-    CHECK(messages == said + 27 && counter == 0 && size == 7);
+    CHECK(messages == said + 29 && counter == 0 && size == 7);
     fmi3FreeInstance(c);
 }

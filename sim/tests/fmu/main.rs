@@ -5,6 +5,7 @@
 //! `tests/engines/units.py`.
 
 mod compiled;
+mod derivatives;
 mod described;
 mod engine;
 mod refused;

@@ -1,4 +1,4 @@
-/* FMI 2.0 of precess_instance.h: life of an instance, its variables and its state. Every function of the standard is in one
+/* FMI 2.0 of precess_instance.h: life of an instance, its variables, state and derivatives. Every function of the standard is in one
  * of the files precess_fmi2*.c, also those that this unit does not offer, which return an error. Compile with -std=c99
  * -ffp-contract=off. */
 
@@ -199,4 +199,17 @@ fmi2Status fmi2DeSerializeFMUstate(
     fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
 {
     return precess_fmi2_answer(c, precess_instance_read(c, bytes, size, state));
+}
+
+fmi2Status fmi2GetDirectionalDerivative(
+    fmi2Component c,
+    const fmi2ValueReference unknowns[],
+    size_t unknown_count,
+    const fmi2ValueReference knowns[],
+    size_t known_count,
+    const fmi2Real seed[],
+    fmi2Real sensitivity[])
+{
+    return precess_fmi2_answer(
+        c, precess_instance_along(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity));
 }

@@ -78,21 +78,3 @@ fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominal[]
 {
     return precess_fmi2_answer(c, precess_instance_nominals(c, nominal, count));
 }
-
-fmi2Status fmi2GetDirectionalDerivative(
-    fmi2Component c,
-    const fmi2ValueReference unknowns[],
-    size_t unknown_count,
-    const fmi2ValueReference knowns[],
-    size_t known_count,
-    const fmi2Real seed[],
-    fmi2Real sensitivity[])
-{
-    (void)unknowns;
-    (void)unknown_count;
-    (void)knowns;
-    (void)known_count;
-    (void)seed;
-    (void)sensitivity;
-    return precess_fmi2_answer(c, NO_DIRECTIONAL);
-}

@@ -1,4 +1,4 @@
-/* FMI 3.0 of precess_instance.h: life of an instance, its variables and its state. Every function of the standard is in one
+/* FMI 3.0 of precess_instance.h: life of an instance, its variables, state and derivatives. Every function of the standard is in one
  * of the files precess_fmi3*.c, also those that this unit does not offer, which return an error. Compile with -std=c99
  * -ffp-contract=off. */
 
@@ -248,4 +248,42 @@ fmi3Status fmi3DeserializeFMUState(
     fmi3Instance instance, const fmi3Byte bytes[], size_t size, fmi3FMUState *state)
 {
     return precess_fmi3_answer(instance, precess_instance_read(instance, bytes, size, state));
+}
+
+fmi3Status fmi3GetDirectionalDerivative(
+    fmi3Instance instance,
+    const fmi3ValueReference unknowns[],
+    size_t unknown_count,
+    const fmi3ValueReference knowns[],
+    size_t known_count,
+    const fmi3Float64 seed[],
+    size_t seed_count,
+    fmi3Float64 sensitivity[],
+    size_t sensitivity_count)
+{
+    return precess_fmi3_answer(
+        instance,
+        seed_count == known_count && sensitivity_count == unknown_count
+            ? precess_instance_along(
+                instance, unknowns, unknown_count, knowns, known_count, seed, sensitivity)
+            : NOT_AS_MANY);
+}
+
+fmi3Status fmi3GetAdjointDerivative(
+    fmi3Instance instance,
+    const fmi3ValueReference unknowns[],
+    size_t unknown_count,
+    const fmi3ValueReference knowns[],
+    size_t known_count,
+    const fmi3Float64 seed[],
+    size_t seed_count,
+    fmi3Float64 sensitivity[],
+    size_t sensitivity_count)
+{
+    return precess_fmi3_answer(
+        instance,
+        seed_count == unknown_count && sensitivity_count == known_count
+            ? precess_instance_gradient(
+                instance, unknowns, unknown_count, knowns, known_count, seed, sensitivity)
+            : NOT_AS_MANY);
 }

@@ -1,5 +1,5 @@
-/* FMI 3.0: what this unit does not have, which is variables of other types than Float64, clocks, structural parameters and
- * partial derivatives. Each function returns an error, with a message; of no variables reads and writes are well. */
+/* FMI 3.0: what this unit does not have, which is variables of other types than Float64, clocks and structural parameters.
+ * Each function returns an error, with a message; of no variables reads and writes are well. */
 
 #include "precess_fmi3.h"
 
@@ -244,48 +244,4 @@ fmi3Status fmi3GetVariableDependencies(
     (void)kinds;
     (void)count;
     return precess_fmi3_answer(instance, NO_ARRAYS);
-}
-
-fmi3Status fmi3GetDirectionalDerivative(
-    fmi3Instance instance,
-    const fmi3ValueReference unknowns[],
-    size_t unknown_count,
-    const fmi3ValueReference knowns[],
-    size_t known_count,
-    const fmi3Float64 seed[],
-    size_t seed_count,
-    fmi3Float64 sensitivity[],
-    size_t sensitivity_count)
-{
-    (void)unknowns;
-    (void)unknown_count;
-    (void)knowns;
-    (void)known_count;
-    (void)seed;
-    (void)seed_count;
-    (void)sensitivity;
-    (void)sensitivity_count;
-    return precess_fmi3_answer(instance, NO_DIRECTIONAL);
-}
-
-fmi3Status fmi3GetAdjointDerivative(
-    fmi3Instance instance,
-    const fmi3ValueReference unknowns[],
-    size_t unknown_count,
-    const fmi3ValueReference knowns[],
-    size_t known_count,
-    const fmi3Float64 seed[],
-    size_t seed_count,
-    fmi3Float64 sensitivity[],
-    size_t sensitivity_count)
-{
-    (void)unknowns;
-    (void)unknown_count;
-    (void)knowns;
-    (void)known_count;
-    (void)seed;
-    (void)seed_count;
-    (void)sensitivity;
-    (void)sensitivity_count;
-    return precess_fmi3_answer(instance, NO_DIRECTIONAL);
 }

@@ -34,6 +34,8 @@
 /** The importer may integrate, and an instance's state may be copied. */
 #define FMU_EXCHANGES 1
 #define FMU_SAVES 1
+/** It has derivatives along directions. */
+#define FMU_DERIVES 1
 /** Why a step is discarded at the end. */
 #define FMU_END "a joint is beyond an end stop; the scenario ends there"
 
@@ -94,6 +96,10 @@ enum precess_status precess_fmu_check(struct precess_fmu *fmu);
 
 /** Derivatives of the states. What is locked or fixed is at rest, whatever its rates are. */
 enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu);
+
+/** What the derivatives of the states change by along a direction, a number of each variable, of which those of states and
+ * inputs count: exact to rounding. */
+enum precess_status precess_fmu_jvp(struct precess_fmu *fmu, const double *direction, double *along);
 
 /** Steps over `duration` seconds from `start`: each as long as the parameter `step` where that divides the duration but for
  * the rounding of both times, else each as long as the others and shorter than `step`. Angles beyond FMU_LARGE_ANGLE are

@@ -105,6 +105,25 @@ const char *precess_instance_states(struct precess_instance *of, double x[], siz
 const char *precess_instance_derivatives(struct precess_instance *of, double rates[], size_t count);
 const char *precess_instance_nominals(struct precess_instance *of, double nominal[], size_t count);
 
+/* Derivatives of outputs and of the derivatives of states by states and inputs: along the direction `seed` of the knowns;
+ * and of the sum of the unknowns that `seed` weighs. */
+const char *precess_instance_along(
+    struct precess_instance *of,
+    const precess_reference unknowns[],
+    size_t unknown_count,
+    const precess_reference knowns[],
+    size_t known_count,
+    const double seed[],
+    double sensitivity[]);
+const char *precess_instance_gradient(
+    struct precess_instance *of,
+    const precess_reference unknowns[],
+    size_t unknown_count,
+    const precess_reference knowns[],
+    size_t known_count,
+    const double seed[],
+    double sensitivity[]);
+
 /* The state of an instance: copied to one that is there or is made, restored, freed, and as bytes of this processor. */
 const char *precess_instance_save(const struct precess_instance *of, void **state);
 const char *precess_instance_restore(struct precess_instance *of, const void *state);

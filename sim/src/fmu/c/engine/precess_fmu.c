@@ -54,6 +54,16 @@ enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu)
         : PRECESS_REFUSED;
 }
 
+enum precess_status precess_fmu_jvp(struct precess_fmu *fmu, const double *direction, double *along)
+{
+    static const char NONE[] = "a run has no derivatives";
+
+    (void)direction;
+    (void)along;
+    memcpy(fmu->why, NONE, sizeof NONE);
+    return PRECESS_REFUSED;
+}
+
 enum precess_status precess_fmu_advance(
     struct precess_fmu *fmu, double start, double duration, int *is_stopped)
 {

@@ -29,6 +29,7 @@
 /** The engine takes the steps, and its state is not copied. */
 #define FMU_EXCHANGES 0
 #define FMU_SAVES 0
+#define FMU_DERIVES 0
 /** Why a step is discarded at the end. */
 #define FMU_END "the run has ended: the scenario's duration, an end stop or a crossing"
 
@@ -71,6 +72,9 @@ enum precess_status precess_fmu_check(struct precess_fmu *fmu);
 
 /** The outputs at the present time. */
 enum precess_status precess_fmu_evaluate(struct precess_fmu *fmu);
+
+/** There are no derivatives: refused. */
+enum precess_status precess_fmu_jvp(struct precess_fmu *fmu, const double *direction, double *along);
 
 /** Runs to `start + duration` with inputs that are held. `is_stopped` is one where the run ends before that. */
 enum precess_status precess_fmu_advance(
