@@ -90,7 +90,7 @@ pub struct Design {
 ///
 /// # Errors
 ///
-/// As [`identify`](super::identify), of a manoeuvre; [`IdentifyError::Manoeuvre`] of one whose run fails or that is of another spacecraft.
+/// As [`identify`](super::identify), of a manoeuvre; [`IdentifyError::NothingOfSpacecraft`]; [`IdentifyError::Manoeuvre`] of one whose run fails or that is of another spacecraft.
 pub fn design(
     scenario: &Scenario,
     of: &Unknowns,
@@ -99,6 +99,9 @@ pub fn design(
 ) -> Result<Design, IdentifyError> {
     let own: Vec<Component> =
         found.components.iter().filter(|of| of.is_of_spacecraft()).cloned().collect();
+    if own.is_empty() {
+        return Err(IdentifyError::NothingOfSpacecraft);
+    }
     let record = of_spacecraft(&found.information, &found.components);
     let mut informations = Vec::new();
     let mut durations = Vec::new();

@@ -98,6 +98,8 @@ pub enum IdentifyError {
         /// The largest step by its standard deviation.
         step: f64,
     },
+    /// Manoeuvres are compared, and only the bias of the gyro is unknown.
+    NothingOfSpacecraft,
     /// A manoeuvre whose information is not computed.
     Manoeuvre {
         /// Its name.
@@ -175,6 +177,9 @@ impl fmt::Display for IdentifyError {
                 "the estimation has not converged, and its last step was {} standard deviations; state priors, or better first values \
                  in the scenario",
                 Plain(*step)
+            ),
+            Self::NothingOfSpacecraft => f.write_str(
+                "manoeuvres tell numbers of the spacecraft, and of those none is unknown; state one in `[unknown]`",
             ),
             Self::Manoeuvre { name, reason } => write!(f, "of the manoeuvre `{name}`: {reason}"),
             Self::Singular => f.write_str("the normal equations have no solution; state priors"),

@@ -63,6 +63,8 @@ fn the_manoeuvre_that_tells_the_moments_of_the_hub_is_named() {
 
 #[test]
 fn a_manoeuvre_of_another_spacecraft_is_an_error() {
+    let error = designed(&[Unknown::GyroBias], &manoeuvres()).expect_err("nothing of it");
+    assert_eq!(error, IdentifyError::NothingOfSpacecraft);
     let mut flown = manoeuvres();
     flown[0].names[0] = "other".to_owned();
     let error = designed(&[Unknown::HubMoments], &flown).expect_err("another spacecraft");
