@@ -41,7 +41,19 @@ from .spacecraft import (
 from .state import State
 
 if TYPE_CHECKING:
-    from . import campaign, casadi, fit, jax, jitter, montecarlo, pointing, spectra, sweep
+    from . import (
+        campaign,
+        casadi,
+        fit,
+        identification,
+        jax,
+        jitter,
+        montecarlo,
+        pointing,
+        spectra,
+        sweep,
+    )
+    from .identification import identify
 
 __version__ = _version()
 __all__ = [
@@ -80,6 +92,8 @@ __all__ = [
     "campaign",
     "errors",
     "fit",
+    "identification",
+    "identify",
     "jitter",
     "montecarlo",
     "pointing",
@@ -89,7 +103,18 @@ __all__ = [
 
 #: What is imported where it is first used: none of it is needed to run a scenario, and some needs other packages.
 _LATER = frozenset(
-    ("campaign", "casadi", "fit", "jax", "jitter", "montecarlo", "pointing", "spectra", "sweep")
+    (
+        "campaign",
+        "casadi",
+        "fit",
+        "identification",
+        "jax",
+        "jitter",
+        "montecarlo",
+        "pointing",
+        "spectra",
+        "sweep",
+    )
 )
 
 
@@ -98,8 +123,12 @@ def __getattr__(name: str) -> Any:
         import importlib
 
         return importlib.import_module(f".{name}", __name__)
+    if name == "identify":
+        from .identification import identify
+
+        return identify
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_LATER])
+    return sorted([*globals(), *_LATER, "identify"])

@@ -11,6 +11,7 @@ mod controller;
 mod errors;
 mod evaluator;
 mod fit;
+mod identify;
 mod inputs;
 mod jitter;
 mod outcome;
@@ -37,6 +38,8 @@ mod _native {
     use super::evaluator::NativeEvaluator;
     #[pymodule_export]
     use super::fit::{NativeFit, fit_file, fit_records};
+    #[pymodule_export]
+    use super::identify::{NativeIdentified, identify};
     #[pymodule_export]
     use super::inputs::NativeInputs;
     #[pymodule_export]

@@ -16,9 +16,30 @@ import numpy as np
 import pytest
 
 import precess
-from precess import campaign, errors, fit, jitter, montecarlo, pointing, spectra, sweep
+from precess import (
+    campaign,
+    errors,
+    fit,
+    identification,
+    jitter,
+    montecarlo,
+    pointing,
+    spectra,
+    sweep,
+)
 
-MODULES = (precess, campaign, errors, fit, jitter, montecarlo, pointing, spectra, sweep)
+MODULES = (
+    precess,
+    campaign,
+    errors,
+    fit,
+    identification,
+    jitter,
+    montecarlo,
+    pointing,
+    spectra,
+    sweep,
+)
 #: What is made by the package only, and records of facts, whose fields are what they are given.
 NOT_CALLED = {
     "Accelerations.__init__",
@@ -26,6 +47,7 @@ NOT_CALLED = {
     "Budget.__init__",
     "Fit.__init__",
     "Fit.to_toml",
+    "Identification.__init__",
     "Psd.__init__",
     "Result.__init__",
     "Samples.__init__",
@@ -35,6 +57,8 @@ NOT_CALLED = {
 OTHERS = {
     "Campaign.table",
     "Campaign.to_pandas",
+    "Design.to_pandas",
+    "Identification.to_pandas",
     "Result.plot",
     "Result.to_pandas",
     "Result.to_parquet",
@@ -94,6 +118,15 @@ def calls(text: str) -> Calls:
         "run": {"duration": 0.1},
         "output": {"rate": 10.0},
     }
+    flown = precess.Scenario.from_text(FLOWN)
+    telemetry = flown.run()
+    identify = {
+        "scenario": flown,
+        "data": {name: telemetry[name] for name in telemetry.keys()},
+        "unknown": {"unknown": {"hub_moments": "3 kg m^2"}, "noise": {"tachometer": "0.05 rad/s"}},
+        "near": True,
+    }
+    identified = precess.identify(**identify)
     slopes = montecarlo.Sensitivities(("k",), np.ones(1), {"n": np.ones(1)}, 0.0)
     return {
         "Accelerations.to_array": (found.to_array, {}),
@@ -121,6 +154,8 @@ def calls(text: str) -> Calls:
             batch.vjp,
             {"states": several, "weights": weights, "inputs": inputs, "threads": 1},
         ),
+        "Identification.design": (identified.design, {"manoeuvres": {"again": flown}}),
+        "Identification.to_toml": (identified.to_toml, {}),
         "Inputs.__init__": (precess.Inputs, {"spacecraft": craft}),
         "Inputs.copy": (inputs.copy, {}),
         "Inputs.to_array": (inputs.to_array, {}),
@@ -230,6 +265,8 @@ def calls(text: str) -> Calls:
                 "name": "wheel",
             },
         ),
+        "identification.identify": (identification.identify, identify),
+        "precess.identify": (precess.identify, identify),
         "jitter.budget": (jitter.budget, {"path": "missing.toml", "set": {}, "threads": 1}),
         "montecarlo.run": (
             montecarlo.run,
@@ -279,6 +316,35 @@ def calls(text: str) -> Calls:
     }
 
 
+#: A spacecraft with three wheels, a controller that holds it and a gyro.
+FLOWN = """
+format = 1
+[hub]
+mass = "96 kg"
+inertia = "20, 20, 20 kg m^2"
+[[device]]
+name = "rw"
+kind = "reaction_wheel"
+layout.pyramid = { count = 3, half_angle = "50 deg", radius = "20 cm" }
+[device.wheel]
+mass = "4 kg"
+inertia = "288, 150, 150 kg cm^2"
+rate = "300 rpm"
+[[controller]]
+name = "aocs"
+rate = "100 Hz"
+[controller.law]
+kind = "eigen_axis"
+frequency = "0.03 Hz"
+damping_ratio = 0.8
+[controller.sensors]
+seed = 1
+gyro = { angle_random_walk = "0.001 deg/sqrt(h)" }
+[run]
+duration = "0.5 s"
+[output]
+rate = "100 Hz"
+"""
 LIMIT = {
     "requirement": [
         {"name": "slow", "quantity": "omega", "statistic": "peak", "limit": "0.04 rad/s"}

@@ -15,7 +15,7 @@ pytest.importorskip("ipykernel")
 
 FOLDER = Path(__file__).parents[1] / "notebooks"
 #: What each needs beside the package and matplotlib.
-NEEDS = {"campaign": ["pyarrow", "pandas"]}
+NEEDS = {"campaign": ["pyarrow", "pandas"], "identification": ["pandas"]}
 #: Programs that one starts.
 STARTS = {"own-device": "cargo"}
 #: Seconds of a cell: one compiles the derivation, two minutes of a core.
@@ -25,7 +25,8 @@ NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
 
 
 def test_there_are_notebooks() -> None:
-    assert {"campaign", "jitter-budget", "own-device", "sensitivities", "table-1"} <= set(NOTEBOOKS)
+    known = {"campaign", "identification", "jitter-budget", "own-device", "sensitivities", "table-1"}
+    assert known <= set(NOTEBOOKS)
 
 
 @pytest.mark.parametrize("name", NOTEBOOKS)
