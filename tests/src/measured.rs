@@ -6,9 +6,10 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates, Kind};
 use precess_dynamics::{
-    Accelerations, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
+    Accelerations, Axis, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
     BalancedVscmg, Devices, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Hub,
-    Inputs, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
+    Inputs, ParameterVariable, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft,
+    State, Vscmg,
 };
 
 use crate::random::{Random, SEED};
@@ -140,4 +141,17 @@ impl<V: EachSet> EachKind<f64> for OfFour<'_, V> {
     fn visit<K: Kind<Scalar = f64>>(&mut self, name: &'static str, device: K) {
         self.0.visit(name, &[device; 4]);
     }
+}
+
+/// What campaigns vary of a device: six parameters.
+#[must_use]
+pub const fn imbalance_of(device: usize) -> [ParameterVariable<'static>; 6] {
+    [
+        ParameterVariable::StaticImbalance { device },
+        ParameterVariable::DynamicImbalance { device },
+        ParameterVariable::Phase { device },
+        ParameterVariable::MountRotation { device, about: Axis::X },
+        ParameterVariable::MountRotation { device, about: Axis::Y },
+        ParameterVariable::MountRotation { device, about: Axis::Z },
+    ]
 }

@@ -56,6 +56,10 @@ macro_rules! row {
                 devices
             }
 
+            fn prepare_alone(&self) -> Self::Prepared {
+                $map!(self, D::prepare_alone)
+            }
+
             fn new_data<F: PerDevice<D::Scalar>>(
                 devices: &Self::Prepared,
                 family: &F,

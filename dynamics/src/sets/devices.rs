@@ -47,6 +47,10 @@ pub trait DeviceSet: Clone + Debug + PartialEq + 'static {
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>>;
     /// The devices, precomputed: what depends only on parameters, computed.
     fn prepare(&self) -> Self::Prepared;
+    /// The same for a single evaluation, in which groups of members in a row cost more than they save.
+    fn prepare_alone(&self) -> Self::Prepared {
+        self.prepare()
+    }
     /// New data of a family for these devices.
     fn new_data<F: PerDevice<Self::Scalar>>(devices: &Self::Prepared, family: &F) -> Self::Per<F>;
     /// What each device lists, in order.

@@ -37,9 +37,25 @@ impl<D: Devices> Spacecraft<D> {
     /// moment that is not finite. Deviations up to 4096 epsilons of the largest element
     /// count as rounding.
     pub fn new(hub: &Hub<D::Scalar>, devices: &D) -> Result<Self, ParameterError<D::Scalar>> {
+        Self::checked_and_prepared(hub, devices, D::prepare)
+    }
+
+    /// [`Self::new`] for a single evaluation.
+    pub(crate) fn alone(
+        hub: &Hub<D::Scalar>,
+        devices: &D,
+    ) -> Result<Self, ParameterError<D::Scalar>> {
+        Self::checked_and_prepared(hub, devices, D::prepare_alone)
+    }
+
+    fn checked_and_prepared(
+        hub: &Hub<D::Scalar>,
+        devices: &D,
+        prepare: impl FnOnce(&D) -> D::Prepared,
+    ) -> Result<Self, ParameterError<D::Scalar>> {
         let hub_excess = check_hub(hub)?;
         devices.check(&mut 0)?;
-        let prepared = Self::prepared(hub, devices, hub_excess);
+        let prepared = Self::of_prepared(hub, prepare(devices), hub_excess);
         if !prepared.mass().is_finite() {
             return Err(ParameterError::TotalMass { value: prepared.mass() });
         }
@@ -48,7 +64,10 @@ impl<D: Devices> Spacecraft<D> {
 
     /// What depends only on parameters, computed; they have been checked.
     pub(crate) fn prepared(hub: &Hub<D::Scalar>, devices: &D, hub_excess: D::Scalar) -> Self {
-        let devices = devices.prepare();
+        Self::of_prepared(hub, devices.prepare(), hub_excess)
+    }
+
+    fn of_prepared(hub: &Hub<D::Scalar>, devices: D::Prepared, hub_excess: D::Scalar) -> Self {
         let hub = HubConstants::new(hub);
         let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
         let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());

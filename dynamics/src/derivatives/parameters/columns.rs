@@ -116,7 +116,7 @@ impl<D: WithNumbers> Spacecraft<D> {
         variables: impl IntoIterator<Item = ParameterVariable<'a>>,
         column: impl FnMut(ParameterVariable<'a>, &Column<D>),
     ) -> Result<Accelerations<D>, DerivativeError<D::Scalar>> {
-        let plain = Self::new(hub, devices)?;
+        let plain = Self::alone(hub, devices)?;
         let found = plain.checked(state, inputs, outputs)?;
         plain.parameter_columns(
             (hub, devices),

@@ -13,9 +13,9 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::Kind;
 use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
-    Angle, BuiltIn, Dgvscmg, Outputs, Servo, Steered, SteeringLaw, SteeringTerms,
+    Angle, BuiltIn, Dgvscmg, Outputs, Servo, Spacecraft, Steered, SteeringLaw, SteeringTerms,
 };
-use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
+use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind, hub, imbalance_of};
 use precess_tracker::{DragSample, DragTracker, LineTracker};
 
 /// What is commanded of four DGVSCMGs.
@@ -173,6 +173,26 @@ impl Cases {
             move || {
                 let (state, inputs) = (black_box(&state), black_box(&inputs));
                 let _ = black_box(craft.linearize(state, inputs, &Outputs::accelerations()));
+            }
+        });
+        self.case(&format!("parameter_derivatives/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let count = craft.joints().last().map_or(0, |(device, _)| device + 1);
+            move || {
+                let by = (0..count).flat_map(imbalance_of);
+                let (at, none) =
+                    ((black_box(&state), black_box(&inputs)), Outputs::accelerations());
+                let column = |_, column: &_| {
+                    black_box(column);
+                };
+                let _ = black_box(Spacecraft::parameter_derivatives(
+                    &hub(),
+                    devices,
+                    at,
+                    &none,
+                    by,
+                    column,
+                ));
             }
         });
         self.case(&format!("linearize_step/{name}"), || {

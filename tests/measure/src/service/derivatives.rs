@@ -7,9 +7,10 @@ use std::hint::black_box;
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each as _, JointStates as _};
 use precess_dynamics::{
-    Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs, ParameterVariable, Quaternion,
-    Spacecraft, State, StepLinearization, Variable,
+    Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs, Quaternion, Spacecraft, State,
+    StepLinearization, Variable,
 };
+use precess_tests::measured::imbalance_of;
 use precess_tests::stored::Stored;
 use serde_json::{Value, json};
 
@@ -176,18 +177,6 @@ impl<const N: usize> Derivatives<N> {
         }
         (state, inputs)
     }
-}
-
-/// What campaigns vary of a device.
-fn imbalance_of(device: usize) -> [ParameterVariable<'static>; 6] {
-    [
-        ParameterVariable::StaticImbalance { device },
-        ParameterVariable::DynamicImbalance { device },
-        ParameterVariable::Phase { device },
-        ParameterVariable::MountRotation { device, about: Axis::X },
-        ParameterVariable::MountRotation { device, about: Axis::Y },
-        ParameterVariable::MountRotation { device, about: Axis::Z },
-    ]
 }
 
 impl<const N: usize> Derivatives<N> {
