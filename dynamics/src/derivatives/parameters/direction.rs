@@ -39,9 +39,13 @@ impl<T: Scalar> ParameterDirection<T> {
         Some(RigidBody::of_hub(&self.hub)).filter(|change| !change.vanishes())
     }
 
-    /// What devices change by, with their numbers; only of those that do.
-    pub(crate) fn of_devices(&self) -> impl Iterator<Item = (usize, &DeviceParameters<T>)> {
-        self.devices.iter().enumerate().filter(|(_, change)| changes(change))
+    /// The numbers of the devices that change.
+    pub(crate) fn of_devices(&self) -> impl Iterator<Item = usize> {
+        self.devices
+            .iter()
+            .enumerate()
+            .filter(|(_, change)| changes(change))
+            .map(|(number, _)| number)
     }
 }
 

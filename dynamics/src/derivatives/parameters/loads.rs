@@ -133,17 +133,20 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         Ok(&self.column)
     }
 
-    /// Adds what the accelerations change by with the parameters along a direction, in the order of the rows of `c`.
+    /// Adds what the accelerations change by with the parameters along a direction, that changes these devices, in the order of
+    /// the rows of `c`.
     pub(crate) fn add_along(
         &mut self,
         direction: &ParameterDirection<D::Scalar>,
+        devices: impl Iterator<Item = usize>,
         to: &mut [D::Scalar],
     ) -> Result<(), DerivativeError<D::Scalar>> {
         if let Some(change) = direction.of_hub() {
             let load = LoadChange::of_hub(self.hub.wrench_by_body(&self.motion, &change));
             self.add_accelerated(None, load, to);
         }
-        for (device, change) in direction.of_devices() {
+        for device in devices {
+            let Some(change) = direction.devices.get(device) else { continue };
             let load = self.load_of_device(device, By::Direction(change))?;
             self.add_accelerated(Some(device), load, to);
         }

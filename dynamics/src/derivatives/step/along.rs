@@ -110,6 +110,8 @@ struct Along<'a, D: WithNumbers<Scalar = f64>> {
     /// What they change by, a column for each direction.
     multiples: DMatrix<f64>,
     directions: &'a [ParameterDirection],
+    /// The number of a direction and of a device that it changes, in order.
+    changed: Vec<(usize, usize)>,
 }
 
 impl<'a, D: WithNumbers<Scalar = f64>> Along<'a, D> {
@@ -146,7 +148,11 @@ impl<'a, D: WithNumbers<Scalar = f64>> Along<'a, D> {
                 }
             }
         }
-        Ok(Self { craft, of, inputs, states, by_held, multiples, directions })
+        let of_directions = directions.iter().enumerate();
+        let changed = of_directions
+            .flat_map(|(number, of)| of.of_devices().map(move |device| (number, device)))
+            .collect();
+        Ok(Self { craft, of, inputs, states, by_held, multiples, directions, changed })
     }
 
     /// The derivatives of accelerations by the states, or their product with changes, and along the directions at a state
@@ -169,8 +175,10 @@ impl<'a, D: WithNumbers<Scalar = f64>> Along<'a, D> {
         by_directions.gemm(1.0, &by_held, &self.multiples, 0.0);
         let rows = by_directions.nrows().max(1);
         let columns = by_directions.as_mut_slice().chunks_exact_mut(rows);
-        for (direction, column) in self.directions.iter().zip(columns) {
-            loads.add_along(direction, column)?;
+        let mut changed = self.changed.iter().peekable();
+        for (number, (direction, column)) in self.directions.iter().zip(columns).enumerate() {
+            let own = core::iter::from_fn(|| changed.next_if(|(of, _)| *of == number));
+            loads.add_along(direction, own.map(|(_, device)| *device), column)?;
         }
         Ok(Some(written))
     }
