@@ -1,28 +1,17 @@
 """Units that run the simulator's engine in FMPy, against `precess run`."""
 
-import os
-import subprocess
 import sys
-from pathlib import Path
 
 import fmpy
 from fmpy.validation import validate_fmu
 from importers import instance
-from recordings import ROOT, SCENARIOS, ran, recorded
+from recordings import SCENARIOS, ran, recorded
 
 # Name, step in s, samples per second, duration in s: of what the engine runs.
 OF_ENGINE = (
     ("wheels-on-isolator", "5e-4", 1000.0, 2.0),
     ("gyro-pyramid-slew", "2e-3", 50.0, 10.0),
 )
-
-
-def engine():
-    """The static library of the engine, which is built."""
-    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    build = [os.environ.get("CARGO", "cargo"), "build", "--quiet", "--release", "--locked", "-p", "precess-fmu"]
-    subprocess.run(build, cwd=ROOT, check=True)
-    return target / "release" / "libprecess_fmu.a"
 
 
 def of_engine(folder, programs, library, case, version):
@@ -58,7 +47,7 @@ def of_engine(folder, programs, library, case, version):
 
 def check(folder, programs):
     """Each, in both versions of FMI."""
-    library = Path(os.environ["PRECESS_ENGINE"]) if "PRECESS_ENGINE" in os.environ else engine()
+    library = programs / "libprecess_fmu.a"
     for case in OF_ENGINE:
         for version in (2, 3):
             size, count = of_engine(folder, programs, library, case, version)

@@ -11,9 +11,9 @@ SCENARIOS = ROOT / "scenarios"
 
 
 def programs():
-    """The folder of `precess` and `precess-bake`, which are built."""
+    """The folder of `precess`, `precess-bake` and the engine's library, which are built."""
     cargo = os.environ.get("CARGO", "cargo")
-    build = [cargo, "build", "--quiet", "-p", "precess", "-p", "precess-bake", "--bins"]
+    build = [cargo, "build", "--quiet", "-p", "precess", "-p", "precess-bake", "-p", "precess-fmu", "--bins", "--lib"]
     subprocess.run(build, cwd=ROOT, check=True)
     target = os.environ.get("CARGO_TARGET_DIR", ROOT / "target")
     return Path(target) / "debug"
