@@ -55,6 +55,7 @@ pub mod evaluation;
 pub mod file;
 pub mod fit;
 pub mod fmu;
+pub mod health;
 pub mod identify;
 pub mod jitter;
 pub mod margins;

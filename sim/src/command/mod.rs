@@ -4,6 +4,7 @@
 mod accelerance;
 mod advice;
 mod bake;
+mod benchmark;
 mod campaign;
 mod check;
 mod compare;
@@ -114,6 +115,9 @@ enum Command {
     /// Find imbalance, friction, inertia and bias of a spacecraft in telemetry, with intervals
     #[command(after_help = identify::HELP)]
     Identify(Box<identify::IdentifyCommand>),
+    /// Measure methods by records whose truth is known
+    #[command(subcommand, after_help = benchmark::HELP)]
+    Benchmark(Box<benchmark::Benchmark>),
     /// Run a scenario over values of one key or two, and compare every run with its requirements
     #[command(after_help = sweep::HELP)]
     Sweep(Box<sweep::Sweep>),
@@ -176,6 +180,7 @@ impl Cli {
             Command::Fit(fit) => fit.execute(),
             Command::Watch(watch) => watch.execute(),
             Command::Identify(identify) => identify.execute(),
+            Command::Benchmark(benchmark) => benchmark.execute(),
             Command::Sweep(sweep) => sweep.execute(),
             Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),

@@ -33,6 +33,7 @@ pub use runs::{
     Advance, CoupledRun, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
     run_with_controllers,
 };
+pub(crate) use runs::{HardwareChange, run_with_change};
 
 use crate::record::RunError;
 use crate::scenario::Scenario;

@@ -18,6 +18,7 @@ mod data;
 mod draw;
 mod error;
 pub(crate) mod fit;
+mod health;
 pub(crate) mod identify;
 pub(crate) mod jitter;
 pub(crate) mod margins;
@@ -34,6 +35,7 @@ pub use draw::cells;
 pub(crate) use draw::picture::Picture;
 pub(crate) use draw::{mode_shapes, response, spectrum};
 pub use error::{DrawError, ReportError};
+pub(crate) use health::rate_curves;
 
 use run::chart::{Chart, ScaledChart, drawn};
 use run::extremes::{Extremes, Magnitude};

@@ -2,53 +2,75 @@
 
 use super::regression::Regression;
 
+/// Above this square of their correlation drag and torque constant have one effect: it is called drag.
+const ALIKE: f64 = 0.9;
+
 /// The block of a joint with tachometer and motor.
 #[derive(Clone, Debug)]
 pub(super) struct JointFit {
     pub(super) joint: usize,
-    /// Whether it is a wheel: its drag is watched, of another joint the torque constant.
-    pub(super) wheel: bool,
-    regression: Regression,
-    /// Integrals since the start of the block: the model's acceleration, rad/s, and the motor's torque, N m s.
+    /// With the torque constant, and without it.
+    regressions: [Regression; 2],
+    /// Integrals since the start of the block: the model's acceleration, rad/s, the motor's torque, N m s, and a torque of 1 N m
+    /// against the motion, N m s.
     predicted: f64,
     torque: f64,
+    opposing: f64,
     /// What one N m accelerates the joint by, rad/s².
     by_torque: f64,
-    /// The sign of the rate at the start of the block.
-    sign: f64,
+    /// The rate that was read last, rad/s.
+    rate: f64,
 }
 
+/// Drag torque beyond the model's, N m, and torque constant by the model's less one, each with its variance.
+pub(super) type JointValues = [Option<[f64; 2]>; 2];
+
 impl JointFit {
-    pub(super) fn new(joint: usize, wheel: bool) -> Self {
-        let regression = Regression::new(if wheel { 2 } else { 3 });
-        Self { joint, wheel, regression, predicted: 0.0, torque: 0.0, by_torque: 0.0, sign: 1.0 }
+    pub(super) fn new(joint: usize) -> Self {
+        Self {
+            joint,
+            regressions: [Regression::new(3), Regression::new(2)],
+            predicted: 0.0,
+            torque: 0.0,
+            opposing: 0.0,
+            by_torque: 0.0,
+            rate: 0.0,
+        }
     }
 
     pub(super) fn start(&mut self, by_torque: f64, rate: f64) {
-        self.regression.clear();
-        (self.predicted, self.torque) = (0.0, 0.0);
-        (self.by_torque, self.sign) = (by_torque, rate.signum());
+        self.regressions.iter_mut().for_each(Regression::clear);
+        (self.predicted, self.torque, self.opposing) = (0.0, 0.0, 0.0);
+        (self.by_torque, self.rate) = (by_torque, rate);
     }
 
     /// Moves on by a time with this acceleration and torque.
     pub(super) fn advance(&mut self, elapsed: f64, acceleration: f64, torque: f64) {
         self.predicted += acceleration * elapsed;
         self.torque += torque * elapsed;
+        self.opposing -= self.rate.signum() * elapsed;
     }
 
-    /// Takes a reading of the rate, so long after the start.
-    pub(super) fn read(&mut self, elapsed: f64, rate: f64) {
+    /// Takes a reading of the rate.
+    pub(super) fn read(&mut self, rate: f64) {
         let observed = rate - self.predicted;
-        let (drag, torque) = (-self.sign * self.by_torque * elapsed, self.by_torque * self.torque);
-        if self.wheel {
-            self.regression.add(&[1.0, drag], observed);
-        } else {
-            self.regression.add(&[1.0, drag, torque], observed);
-        }
+        let (drag, torque) = (self.by_torque * self.opposing, self.by_torque * self.torque);
+        let [both, of_drag] = &mut self.regressions;
+        both.add(&[1.0, drag, torque], observed);
+        of_drag.add(&[1.0, drag], observed);
+        self.rate = rate;
     }
 
-    /// Drag torque beyond the model's, N m, or torque constant by the model's less one, with its variance.
-    pub(super) fn estimate(&self) -> Option<[f64; 2]> {
-        self.regression.solve()?.of(if self.wheel { 1 } else { 2 })
+    pub(super) fn estimate(&self) -> JointValues {
+        let [both, of_drag] = &self.regressions;
+        if let Some(found) = both.solve()
+            && let (Some(drag), Some(torque)) = (found.of(1), found.of(2))
+        {
+            let common = found.covariance[(2, 1)];
+            if common * common < ALIKE * drag[1] * torque[1] {
+                return [Some(drag), Some(torque)];
+            }
+        }
+        [of_drag.solve().and_then(|found| found.of(1)), None]
     }
 }

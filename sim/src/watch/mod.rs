@@ -24,7 +24,7 @@ mod body;
 mod detector;
 mod error;
 mod joint;
-mod model;
+pub(crate) mod model;
 mod quantity;
 mod regression;
 #[cfg(test)]
@@ -37,13 +37,13 @@ pub use detector::{Shift, Test};
 pub use error::WatchError;
 pub use quantity::{Alarm, Watched};
 
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns};
 use body::BodyFit;
 use detector::Detector;
 use joint::JointFit;
 use model::{Accelerations, WatchedModel};
-use quantity::Quantity;
+pub(crate) use quantity::Quantity;
 use thresholds::Thresholds;
 
 /// Onsets that the likelihood ratio is searched over.
@@ -103,7 +103,7 @@ impl Watch {
         sensors: &[SensorColumns],
         settings: &WatchSettings,
     ) -> Result<Self, WatchError> {
-        let WatchSettings { block, learn, false_alarms } = *settings;
+        let WatchSettings { block, learn, .. } = *settings;
         for (what, value) in
             [("the length of a block", block), ("the time of the reference", learn)]
         {
@@ -118,10 +118,7 @@ impl Watch {
         let motors: Vec<usize> = (0..count).filter(|joint| has(Sensor::Motor(*joint))).collect();
         let model = WatchedModel::new(scenario, &motors)?;
         let own = |joint: &usize| has(Sensor::Tachometer(*joint)) && has(Sensor::Motor(*joint));
-        let joints: Vec<_> = (0..count)
-            .filter(own)
-            .map(|joint| JointFit::new(joint, model.is_wheel(joint)))
-            .collect();
+        let joints: Vec<_> = (0..count).filter(own).map(JointFit::new).collect();
         let mut remarks = Vec::new();
         let turning: Vec<bool> =
             model.rotors().iter().map(|of| has(Sensor::Tachometer(of.joint))).collect();
@@ -145,31 +142,14 @@ impl Watch {
             }
             all.extend(["x", "y", "z"].map(|axis| (Watched::GyroJump, axis.to_owned())));
         }
-        let names: Vec<String> = scenario.joints().map(|(_, name, _)| name.to_owned()).collect();
-        all.extend(joints.iter().map(|of| {
-            let kind = if of.wheel { Watched::Drag } else { Watched::TorqueConstant };
-            (kind, names.get(of.joint).cloned().unwrap_or_default())
+        all.extend(joints.iter().flat_map(|of| {
+            let name = joint_name(scenario, of.joint);
+            [(Watched::Drag, name.clone()), (Watched::TorqueConstant, name)]
         }));
-        #[expect(clippy::cast_precision_loss, reason = "a hundred")]
-        let alpha = false_alarms * block / 3600.0 / all.len() as f64;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "positive, bounded"
-        )]
-        let reference = (learn / block).round().clamp(1.0, 1e6) as usize;
-        let at_once = Thresholds::new(alpha, 1, reference)?;
-        let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
-        let quantities = all.into_iter().map(|(watched, of)| {
-            let single =
-                matches!(watched, Watched::StaticPhase | Watched::DynamicPhase | Watched::GyroJump);
-            let (thresholds, onsets) = if single { (at_once, 1) } else { (over_onsets, ONSETS) };
-            Quantity::new(watched, &of, Detector::new(thresholds, [reference, onsets]))
-        });
         Ok(Self {
             settings: *settings,
             unseen: vec![true; sensors.len()],
-            quantities: quantities.collect(),
+            quantities: quantities_of(all, settings)?,
             sensors,
             model,
             present: None,
@@ -195,6 +175,15 @@ impl Watch {
     /// The reference of each quantity, and the scatter about it by the stated variance; none while it is taken.
     pub fn references(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
         self.quantities.iter().map(Quantity::reference)
+    }
+
+    /// The tests of these quantities with other settings, for the blocks of an earlier watch.
+    pub(crate) fn quantities_with(
+        &self,
+        settings: &WatchSettings,
+    ) -> Result<Vec<Quantity>, WatchError> {
+        let all = self.quantities.iter().map(|of| (of.watched.clone(), of.of.clone()));
+        quantities_of(all.collect(), settings)
     }
 
     /// Takes a reading; the block that ends before it, where one does.
@@ -269,8 +258,8 @@ impl Watch {
                     body.read_tachometer(joint, first, &self.model);
                 }
                 let own = self.joints.iter_mut().find(|of| of.joint == joint);
-                if let (Some(own), Some(elapsed)) = (own, elapsed) {
-                    own.read(elapsed, first);
+                if let (Some(own), Some(_)) = (own, elapsed) {
+                    own.read(first);
                 }
                 self.model.set_joint_rate(joint, first);
             }
@@ -312,9 +301,41 @@ impl Watch {
             }
             values.extend(jumps);
         }
-        values.extend(self.joints.iter().map(JointFit::estimate));
+        values.extend(self.joints.iter().flat_map(JointFit::estimate));
         let own = self.quantities.iter_mut().zip(&values);
         let alarms = own.filter_map(|(of, value)| of.take(times, (*value)?)).collect();
         Block { times, values, alarms }
     }
+}
+
+/// The device of a joint; with its body where the device has several: `rw1`, `cmg1.outer_gimbal`.
+fn joint_name(scenario: &Scenario, joint: usize) -> String {
+    let Some((device, name, info)) = scenario.joints().nth(joint) else { return String::new() };
+    let several = scenario.joints().filter(|(of, ..)| *of == device).nth(1).is_some();
+    if several { format!("{name}.{}", body_key(info)) } else { name.to_owned() }
+}
+
+/// The tests of quantities.
+fn quantities_of(
+    all: Vec<(Watched, String)>,
+    settings: &WatchSettings,
+) -> Result<Vec<Quantity>, WatchError> {
+    let WatchSettings { block, learn, false_alarms } = *settings;
+    #[expect(clippy::cast_precision_loss, reason = "a hundred")]
+    let alpha = false_alarms * block / 3600.0 / all.len() as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, bounded"
+    )]
+    let reference = (learn / block).round().clamp(1.0, 1e6) as usize;
+    let at_once = Thresholds::new(alpha, 1, reference)?;
+    let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
+    let quantities = all.into_iter().map(|(watched, of)| {
+        let single =
+            matches!(watched, Watched::StaticPhase | Watched::DynamicPhase | Watched::GyroJump);
+        let (thresholds, onsets) = if single { (at_once, 1) } else { (over_onsets, ONSETS) };
+        Quantity::new(watched, &of, Detector::new(thresholds, [reference, onsets]))
+    });
+    Ok(quantities.collect())
 }

@@ -13,11 +13,11 @@ use crate::scenario::{Scenario, body_key};
 
 /// A rotor whose imbalance is a parameter.
 #[derive(Clone, Debug)]
-pub(super) struct Rotor {
+pub(crate) struct Rotor {
     /// Its device.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Its joint.
-    pub(super) joint: usize,
+    pub(crate) joint: usize,
 }
 
 /// Angular acceleration of the hub by static and dynamic imbalance, 1/(kg m s²) and 1/(kg m² s²), as the real part times
@@ -30,7 +30,7 @@ pub(super) struct Signature {
     pub(super) coupling: Matrix3<f64>,
 }
 
-pub(super) struct WatchedModel {
+pub(crate) struct WatchedModel {
     evaluator: Evaluator,
     /// What was measured last.
     state: CraftState,
@@ -42,14 +42,14 @@ pub(super) struct WatchedModel {
 
 /// Accelerations of hub and joints.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Accelerations {
-    pub(super) hub: Vector3<f64>,
-    pub(super) joints: Vec<f64>,
+pub(crate) struct Accelerations {
+    pub(crate) hub: Vector3<f64>,
+    pub(crate) joints: Vec<f64>,
 }
 
 impl WatchedModel {
     /// Of a scenario whose joints with a motor in the telemetry are driven by it; the others keep their rates.
-    pub(super) fn new(scenario: &Scenario, motors: &[usize]) -> Result<Self, WatchError> {
+    pub(crate) fn new(scenario: &Scenario, motors: &[usize]) -> Result<Self, WatchError> {
         let evaluator = Evaluator::new(scenario).map_err(WatchError::Scenario)?;
         let state = evaluator.initial();
         let mut inputs = evaluator.no_inputs();
@@ -71,41 +71,37 @@ impl WatchedModel {
         Ok(Self { evaluator, state, inputs, rotors, wheels })
     }
 
-    pub(super) fn rotors(&self) -> &[Rotor] {
+    pub(crate) fn rotors(&self) -> &[Rotor] {
         &self.rotors
     }
 
-    pub(super) fn is_wheel(&self, joint: usize) -> bool {
-        self.wheels.get(joint).copied().unwrap_or(false)
-    }
-
     /// Takes a measured body rate, rad/s.
-    pub(super) fn set_rate(&mut self, omega: Vector3<f64>) {
+    pub(crate) fn set_rate(&mut self, omega: Vector3<f64>) {
         self.state.omega = omega;
     }
 
     /// Takes a measured rate of a joint, rad/s.
-    pub(super) fn set_joint_rate(&mut self, joint: usize, value: f64) {
+    pub(crate) fn set_joint_rate(&mut self, joint: usize, value: f64) {
         if let Some([_, rate]) = self.state.devices.states_mut().nth(joint) {
             *rate = value;
         }
     }
 
     /// Takes a measured coordinate of a joint, rad.
-    pub(super) fn set_coordinate(&mut self, joint: usize, value: f64) {
+    pub(crate) fn set_coordinate(&mut self, joint: usize, value: f64) {
         if let Some([coordinate, _]) = self.state.devices.states_mut().nth(joint) {
             *coordinate = value;
         }
     }
 
     /// Takes the torque of a motor, N m.
-    pub(super) fn set_motor(&mut self, joint: usize, value: f64) {
+    pub(crate) fn set_motor(&mut self, joint: usize, value: f64) {
         if let Some(motor) = self.inputs.motors.values_mut().nth(joint) {
             *motor = value;
         }
     }
 
-    pub(super) fn joint_rate(&self, joint: usize) -> f64 {
+    pub(crate) fn joint_rate(&self, joint: usize) -> f64 {
         self.state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate)
     }
 
@@ -130,7 +126,7 @@ impl WatchedModel {
     }
 
     /// Accelerations at what was measured last, without the imbalance of the wheels: the mean over two angles half a turn apart.
-    pub(super) fn mean(&self) -> Result<Accelerations, WatchError> {
+    pub(crate) fn mean(&self) -> Result<Accelerations, WatchError> {
         let [mut first, second] = [0.0, PI].map(|angle| self.at(&self.turn(angle), &self.inputs));
         if let (Ok(first), Ok(second)) = (&mut first, second) {
             first.hub = (first.hub + second.hub) * 0.5;

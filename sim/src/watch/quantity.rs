@@ -13,9 +13,9 @@ pub enum Watched {
     StaticPhase,
     /// Of dynamic imbalance, rad.
     DynamicPhase,
-    /// Drag torque of a wheel beyond that of the scenario, N m.
+    /// Drag torque of a wheel or gimbal beyond that of the scenario, N m.
     Drag,
-    /// Torque constant of a gimbal's motor by that of the scenario, less one.
+    /// Torque constant of the motor of a wheel or gimbal by that of the scenario, less one.
     TorqueConstant,
     /// Jump of the gyro's reading between two blocks, about an axis, rad/s.
     GyroJump,
@@ -53,10 +53,11 @@ impl Watched {
         let texts: &[&str] = match self {
             Self::StaticImbalance | Self::DynamicImbalance => &[
                 "a disturbance from elsewhere at the rotation frequency of {}",
+                "other stiffness of the bearings of {}, which amplifies the line",
                 "of all rotors at once: another inertia of the hub, or another scale factor of the gyro",
             ],
             Self::StaticPhase | Self::DynamicPhase => &[
-                "a jump of the angle of {}, which is the integral of its tachometer",
+                "a jump of the angle of {}, which is the integral of its tachometer; from block to block another scale of that",
                 "an imbalance that moves about the axis, such as a loose part",
             ],
             Self::Drag => &[
@@ -79,10 +80,11 @@ impl Watched {
 
 /// A quantity with its tests.
 #[derive(Clone, Debug)]
-pub(super) struct Quantity {
+pub(crate) struct Quantity {
     pub(super) watched: Watched,
     pub(super) name: String,
-    of: String,
+    /// Of which joint, rotor or axis.
+    pub(super) of: String,
     detector: Detector,
 }
 
@@ -106,13 +108,18 @@ impl Quantity {
         Self { name: watched.name(of), of: of.to_owned(), watched, detector }
     }
 
+    /// Of which joint, rotor or axis it is.
+    pub(crate) fn place(&self) -> &str {
+        &self.of
+    }
+
     /// The reference and the scatter about it by the stated variance; none while it is taken.
     pub(super) fn reference(&self) -> Option<[f64; 2]> {
         self.detector.reference()
     }
 
     /// Takes the estimate, with its variance, of a block.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         [start, end]: [f64; 2],
         [value, variance]: [f64; 2],

@@ -98,6 +98,11 @@ impl Gyro {
         self.bias
     }
 
+    /// Lets the bias jump, expressed in B, rad/s: a fault, from the next sample on.
+    pub fn add_bias(&mut self, jump: &Vector3<f64>) {
+        self.bias += jump;
+    }
+
     /// What is read at the next sample, expressed in B, rad/s. `omega` is the angular velocity at the sample or, of an
     /// integrating gyro, its mean since the sample before (the integral of its components over the period).
     pub fn measure(&mut self, omega: &Vector3<f64>) -> Vector3<f64> {

@@ -137,6 +137,13 @@ impl<'a> Controls<'a> {
         coming.fold(f64::INFINITY, f64::min)
     }
 
+    /// Lets the bias of every gyro jump, rad/s, its axes.
+    pub(crate) fn add_gyro_bias(&mut self, jump: &Vector3<f64>) {
+        for control in &mut self.each {
+            control.sensing.add_gyro_bias(jump);
+        }
+    }
+
     /// Does what is due at a time before the end of the run: samples, then what acts.
     pub(crate) fn act(
         &mut self,

@@ -87,6 +87,13 @@ impl Sensing {
         })
     }
 
+    /// Lets the bias of the gyro jump, rad/s.
+    pub(super) fn add_gyro_bias(&mut self, jump: &Vector3<f64>) {
+        if let Some(gyro) = &mut self.built.gyro {
+            gyro.add_bias(jump);
+        }
+    }
+
     /// The external torque at a momentum of the devices, N m, B; none without dumping.
     pub(super) fn external(&self, momentum: &Vector3<f64>) -> Option<Vector3<f64>> {
         self.built.dumping.as_ref().map(|of: &MomentumDumping| of.torque(momentum))

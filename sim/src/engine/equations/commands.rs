@@ -17,12 +17,14 @@ pub(crate) struct HeldCommands {
 }
 
 /// The command of a joint.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Held {
     /// Torque of its motor before clipping, N m.
     torque: f64,
     /// Whether a change, a brake or an end stop has taken the place of its controller.
     replaced: bool,
+    /// Torque of the motor by that which is commanded.
+    factor: f64,
 }
 
 /// What a controller computed at its last sample.
@@ -108,7 +110,7 @@ impl HeldCommands {
         let mut joints = vec![None; scenario.joint_count()];
         for of in scenario.controllers.iter().flat_map(|of| &of.joints) {
             if let Some(held) = joints.get_mut(of.joint) {
-                *held = Some(Held::default());
+                *held = Some(Held { torque: 0.0, replaced: false, factor: 1.0 });
             }
         }
         let nothing = |of: &SampledController| ControlValues::nothing(of.joints.len());
@@ -135,13 +137,20 @@ impl HeldCommands {
     /// The torque of a joint's motor before clipping, N m; none where no controller commands it at present.
     pub(crate) fn torque(&self, joint: usize) -> Option<f64> {
         let held = self.joints.get(joint).copied().flatten()?;
-        (!held.replaced).then_some(held.torque)
+        (!held.replaced).then_some(held.factor * held.torque)
     }
 
     /// Holds a torque of a joint that a controller commands; while another drive has its place it waits for its release.
     pub(crate) fn hold(&mut self, joint: usize, torque: f64) {
         if let Some(Some(held)) = self.joints.get_mut(joint) {
             held.torque = torque;
+        }
+    }
+
+    /// Lets the motor of a joint exert this multiple of what is commanded from now on.
+    pub(crate) fn set_factor(&mut self, joint: usize, factor: f64) {
+        if let Some(Some(held)) = self.joints.get_mut(joint) {
+            held.factor = factor;
         }
     }
 

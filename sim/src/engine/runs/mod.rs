@@ -6,6 +6,7 @@ mod coupled;
 mod friction;
 #[cfg(feature = "cuda")]
 mod gpu;
+mod hardware;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod motors;
@@ -20,6 +21,8 @@ pub(crate) use coupled::driven_by_program;
 use friction::Changed;
 #[cfg(feature = "cuda")]
 pub use gpu::Gpu;
+pub(crate) use hardware::HardwareChange;
+pub(crate) use recorded::run_with_change;
 pub use recorded::{run, run_with_controllers};
 pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side, run_side_by_side_on};
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::sampling::Sampling;
-use super::{Advance, Run};
+use super::{Advance, HardwareChange, Run};
 use crate::control::Controller;
 use crate::engine::equations::run_quantities::RunQuantities;
 use crate::record::{End, Outcome, Recorder, RunError};
@@ -123,6 +123,35 @@ pub fn run_with_controllers(
     let run = Run::with_controllers(scenario, RunQuantities::All, controllers)?;
     let mut recorded = Recorded::begin_with(run, recorder)?;
     loop {
+        if let Some(end) = recorded.advance()? {
+            return recorded.finish(end);
+        }
+        if progress(recorded.run.time()).is_break() && recorded.run.end.is_none() {
+            return recorded.finish(End::Cancelled);
+        }
+    }
+}
+
+/// As [`run_with_controllers`], of the motion only, with hardware that changes.
+///
+/// # Errors
+///
+/// As [`run_with_controllers`]; the scenario of the change, where its spacecraft cannot be built.
+pub(crate) fn run_with_change(
+    scenario: &Scenario,
+    controllers: Vec<(String, Box<dyn Controller>)>,
+    change: Option<&HardwareChange<'_>>,
+    recorder: &mut dyn Recorder,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Outcome, RunError> {
+    let run = Run::with_controllers(scenario, RunQuantities::Motion, controllers)?;
+    let mut recorded = Recorded::begin_with(run, recorder)?;
+    let mut waiting = change;
+    loop {
+        if let Some(change) = waiting.filter(|of| of.is_due(recorded.run.time())) {
+            recorded.run.change_hardware(change)?;
+            waiting = None;
+        }
         if let Some(end) = recorded.advance()? {
             return recorded.finish(end);
         }

@@ -81,6 +81,24 @@ rate = "10 Hz"
 const PLAN: &str = "format = 1\n[[vary]]\nkey = \"hub.mass\"\ndistribution = \"uniform\"\nfrom = \"90 kg\"\n\
                     to = \"100 kg\"\n";
 
+/// Two seconds of one case of the benchmark.
+const BENCHMARK: [&str; 14] = [
+    "--case",
+    "bus-open-nominal",
+    "--block",
+    "300 ms",
+    "--learn",
+    "1 s",
+    "--healthy",
+    "1 s",
+    "--duration",
+    "2 s",
+    "--false-alarms",
+    "1",
+    "--out",
+    "out",
+];
+
 /// Two seconds of the wheels of [`HELD`], which keep their rates.
 fn telemetry() -> String {
     let joints: Vec<_> = (1..=3).map(|wheel| format!(",rw{wheel}.spin,rw{wheel}.u_w")).collect();
@@ -231,6 +249,7 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         of("jitter", budget, &["budget.toml", "--out", "out"]),
         of("margins", &["held.toml"], &["held.toml", "--out", "out"]),
         of("watch", watched, &watch),
+        of("benchmark health", &[], &BENCHMARK),
         of("fit", &[measurement, samples], &[measurement, "--out", "out"]),
         of(
             "identify",
