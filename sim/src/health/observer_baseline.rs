@@ -1,5 +1,6 @@
 //! A baseline with the model, its wheels balanced: an observer of body and joint rates by measured torques; mean and root mean square of its
-//! innovations, by block.
+//! innovations, by block. Accelerations are those at what was measured last: at rates of its own the nutation of gimbals, integrated from reading
+//! to reading, would grow.
 
 use nalgebra::Vector3;
 
@@ -91,7 +92,7 @@ pub(super) fn features(
                 let innovation = omega.map_or_else(Vector3::zeros, |omega| measured - omega);
                 omega = Some(omega.map_or(measured, |omega| omega + innovation * GAIN));
                 sums.iter_mut().zip(innovation.iter()).for_each(|(sum, of)| sum.add(*of));
-                model.set_rate(omega.unwrap_or(measured));
+                model.set_rate(measured);
             }
             Some(Sensor::Tachometer(joint)) => {
                 let own = rates.get(joint).copied().flatten();
@@ -103,7 +104,7 @@ pub(super) fn features(
                 if let Some(sum) = sums.get_mut(3 + joint) {
                     sum.add(innovation);
                 }
-                model.set_joint_rate(joint, rate);
+                model.set_joint_rate(joint, x);
             }
             Some(Sensor::Encoder(joint)) => model.set_coordinate(joint, x),
             Some(Sensor::Motor(joint)) => model.set_motor(joint, x),

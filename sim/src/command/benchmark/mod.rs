@@ -1,24 +1,28 @@
 //! `benchmark health`: records of spacecraft whose hardware changes, alarms of the watch and of baselines in them, and their scores; scores
 //! of alarms of others.
 
-use std::fmt::Write as _;
+mod tables;
+
 use std::fs;
 use std::path::PathBuf;
+use std::thread;
 
 use clap::{Args, Subcommand};
 
 use super::error::CommandError;
 use super::exit::Exit;
+use super::options::Threads;
 use super::outputs::Outputs;
 use super::plot::time;
 use super::progress::{interrupted, progress_bar, watch_interrupts};
-use super::table::{aligned, six};
+use super::table::six;
 use super::terminal::{note, print};
 use crate::health::{
-    CaseScore, Examining, HealthCase, Method, MethodAlarm, RatePoint, Spacecraft, Timing,
-    TrueChange, alarms_from_csv, examine, rates, record, score,
+    CaseScore, Examined, Examining, HealthCase, HealthError, Method, MethodAlarm, RatePoint,
+    Spacecraft, Timing, TrueChange, alarms_from_csv, examine, rates, record, score,
 };
 use crate::report::rate_curves;
+use tables::{alarms_csv, points, rates_csv, rates_text, scores_csv, table, truth_csv};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -76,6 +80,8 @@ pub(super) struct HealthCommand {
     /// Write no telemetry, only truth, alarms and scores.
     #[arg(long)]
     no_telemetry: bool,
+    #[command(flatten)]
+    threads: Threads,
     /// Folder for the files; made if it is missing.
     #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
     out: PathBuf,
@@ -198,31 +204,50 @@ impl HealthCommand {
             alarms: Vec::new(),
             scores: with.false_alarms.iter().map(|_| Default::default()).collect(),
         };
-        for case in cases {
+        for group in cases.chunks(self.threads.count()) {
             if interrupted() {
                 break;
             }
-            let other = |error: crate::health::HealthError| {
-                CommandError::Other(format!("{}: {error}", case.name()))
-            };
-            let recorded = record(case, self.seed, &with.timing).map_err(other)?;
-            let examined = examine(case, &recorded, with).map_err(other)?;
-            if !self.no_telemetry {
-                outputs.write(&[(format!("{}.csv", case.name()), recorded.csv())])?;
-            }
-            let truth = case.truth(self.seed, &with.timing);
-            for (scores, alarms) in found.scores.iter_mut().zip(&examined.alarms) {
-                for (scores, method) in scores.iter_mut().zip(Method::ALL) {
-                    let own = alarms.iter().filter(|alarm| alarm.method == method);
-                    scores.push(score(&truth, own, &with.timing));
+            for (case, made) in group.iter().zip(self.side_by_side(group, with)) {
+                let (telemetry, examined) = made?;
+                if let Some(telemetry) = telemetry {
+                    outputs.write(&[(format!("{}.csv", case.name()), telemetry)])?;
                 }
+                let truth = case.truth(self.seed, &with.timing);
+                for (scores, alarms) in found.scores.iter_mut().zip(&examined.alarms) {
+                    for (scores, method) in scores.iter_mut().zip(Method::ALL) {
+                        let own = alarms.iter().filter(|alarm| alarm.method == method);
+                        scores.push(score(&truth, own, &with.timing));
+                    }
+                }
+                found.truths.push(truth);
+                found.alarms.extend(examined.alarms.into_iter().next());
+                bar.inc(1);
             }
-            found.truths.push(truth);
-            found.alarms.extend(examined.alarms.into_iter().next());
-            bar.inc(1);
         }
         bar.finish_and_clear();
         Ok(found)
+    }
+
+    /// Records and examines cases, each in a thread of its own: the telemetry as CSV where it is written, and the alarms.
+    fn side_by_side(
+        &self,
+        cases: &[HealthCase],
+        with: &Examining,
+    ) -> Vec<Result<(Option<String>, Examined), CommandError>> {
+        let one = |case: &HealthCase| {
+            let other = |error: HealthError| format!("{}: {error}", case.name());
+            let recorded = record(case, self.seed, &with.timing).map_err(other)?;
+            let examined = examine(case, &recorded, with).map_err(other)?;
+            Ok::<_, String>(((!self.no_telemetry).then(|| recorded.csv()), examined))
+        };
+        let found: Vec<_> = thread::scope(|scope| {
+            let running: Vec<_> = cases.iter().map(|case| scope.spawn(move || one(case))).collect();
+            running.into_iter().map(thread::ScopedJoinHandle::join).collect()
+        });
+        let fault = || Err("a fault of the program ended a case".to_owned());
+        let each = found.into_iter().map(|of| of.unwrap_or_else(|_| fault()));
+        each.map(|of| of.map_err(CommandError::Other)).collect()
     }
 
     /// Scores alarms of another method.
@@ -260,133 +285,4 @@ impl HealthCommand {
         ))?;
         Ok(Exit::Success)
     }
-}
-
-/// Points of each method at each bound.
-fn points(bounds: &[f64], found: &Found) -> [Vec<RatePoint>; 3] {
-    let mut points: [Vec<RatePoint>; 3] = Default::default();
-    for (bound, scores) in bounds.iter().zip(&found.scores) {
-        for (points, scores) in points.iter_mut().zip(scores) {
-            points.push(rates(*bound, scores));
-        }
-    }
-    points
-}
-
-/// A delay as a cell.
-fn delay(of: Option<f64>) -> String {
-    of.map_or_else(|| "-".to_owned(), |delay| format!("{delay:.1}"))
-}
-
-/// For people: of each case the delays to the first alarm, to that of the right name, its error, and false alarms, of each method.
-fn table(names: &[String], scores: &[&[CaseScore]]) -> String {
-    let mut head = vec!["case".to_owned()];
-    for name in names {
-        let of = |what: &str| format!("{name}: {what}");
-        head.extend([of("first, s"), "at its place, s".to_owned(), "named, s".to_owned()]);
-        head.extend(["size, %".to_owned(), "false".to_owned()]);
-    }
-    let mut rows = vec![head];
-    let count = scores.first().map_or(0, |of| of.len());
-    for index in 0..count {
-        let mut row = Vec::new();
-        for of in scores.iter().filter_map(|of| of.get(index)) {
-            if row.is_empty() {
-                row.push(of.case.clone());
-            }
-            row.extend([delay(of.delay), delay(of.located), delay(of.named)]);
-            row.push(of.size.map_or_else(
-                || "-".to_owned(),
-                |(error, covered)| {
-                    format!("{:+.0}{}", 100.0 * error, if covered { "" } else { "*" })
-                },
-            ));
-            row.push(of.false_alarms.to_string());
-        }
-        rows.push(row);
-    }
-    aligned(&rows)
-        + "delays are from the fault to the end of the block that raised the alarm; *: the interval of 95 % does not have the change\n"
-}
-
-fn rates_text(points: &[Vec<RatePoint>; 3]) -> String {
-    let mut rows = vec![
-        [
-            "method",
-            "false alarms an hour: stated",
-            "found",
-            "faults within 30 s, %",
-            "at their place, %",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-    ];
-    for (method, points) in Method::ALL.iter().zip(points) {
-        rows.extend(points.iter().map(|point| {
-            vec![
-                method.to_string(),
-                six(point.bound),
-                six(point.false_alarms),
-                format!("{:.1}", 100.0 * point.found),
-                format!("{:.1}", 100.0 * point.located),
-            ]
-        }));
-    }
-    aligned(&rows)
-}
-
-fn rates_csv(points: &[Vec<RatePoint>; 3]) -> String {
-    let mut text = "method,stated_per_hour,false_alarms_per_hour,found,located\n".to_owned();
-    for (method, points) in Method::ALL.iter().zip(points) {
-        for RatePoint { bound, false_alarms, found, located } in points {
-            let _ = writeln!(text, "{method},{bound},{false_alarms},{found},{located}");
-        }
-    }
-    text
-}
-
-fn truth_csv(truths: &[TrueChange]) -> String {
-    let mut text = "case,place,quantity,onset,change\n".to_owned();
-    for TrueChange { case, place, quantity, onset, change } in truths {
-        let change = if change.is_nan() { String::new() } else { format!("{change:e}") };
-        let _ = writeln!(text, "{case},{place},{quantity},{onset},{change}");
-    }
-    text
-}
-
-fn alarms_csv(found: &Found) -> String {
-    let mut text = "method,case,time,place,quantity,change,half_width\n".to_owned();
-    for (truth, alarms) in found.truths.iter().zip(&found.alarms) {
-        for MethodAlarm { method, time, name, place, change } in alarms {
-            let change = change
-                .map_or_else(|| ",".to_owned(), |[change, half]| format!("{change:e},{half:e}"));
-            let _ = writeln!(text, "{method},{},{time},{place},{name},{change}", truth.case);
-        }
-    }
-    text
-}
-
-fn scores_csv(found: &Found) -> String {
-    let mut text =
-        "method,case,false_alarms,healthy_s,delay_s,located_s,named_s,size_error,covered,misnamed\n"
-            .to_owned();
-    let cell = |of: Option<f64>| of.map_or_else(String::new, |value| value.to_string());
-    for (method, scores) in found.scores.first().iter().flat_map(|of| Method::ALL.iter().zip(*of)) {
-        for of in scores {
-            let covered = of.size.map_or("", |(_, covered)| if covered { "yes" } else { "no" });
-            let _ = writeln!(
-                text,
-                "{method},{},{},{},{},{},{},{},{covered},{}",
-                of.case,
-                of.false_alarms,
-                of.healthy,
-                cell(of.delay),
-                cell(of.located),
-                cell(of.named),
-                cell(of.size.map(|(error, _)| error)),
-                of.misnamed
-            );
-        }
-    }
-    text
 }
