@@ -1,6 +1,6 @@
 //! A baseline with the model, its wheels balanced: an observer of body and joint rates by measured torques; mean and root mean square of its
-//! innovations, by block. Accelerations are those at what was measured last: at rates of its own the nutation of gimbals, integrated from reading
-//! to reading, would grow.
+//! innovations, by block. Rates of gimbals in the equations are those that were measured last: nutation at rates of its own, integrated from
+//! reading to reading, would grow.
 
 use nalgebra::Vector3;
 
@@ -61,6 +61,7 @@ pub(super) fn features(
         names.push([format!("mean innovation of tachometer {joint}"), name.to_owned()]);
         names.push([format!("RMS of innovations of tachometer {joint}"), name.to_owned()]);
     }
+    let wheels: Vec<bool> = watched.joints().map(|(.., info)| body_key(info) == "wheel").collect();
     let count = watched.joint_count();
     let mut found = Features { names, blocks: Vec::new() };
     let mut sums = vec![Sums::default(); 3 + count];
@@ -92,7 +93,7 @@ pub(super) fn features(
                 let innovation = omega.map_or_else(Vector3::zeros, |omega| measured - omega);
                 omega = Some(omega.map_or(measured, |omega| omega + innovation * GAIN));
                 sums.iter_mut().zip(innovation.iter()).for_each(|(sum, of)| sum.add(*of));
-                model.set_rate(measured);
+                model.set_rate(omega.unwrap_or(measured));
             }
             Some(Sensor::Tachometer(joint)) => {
                 let own = rates.get(joint).copied().flatten();
@@ -104,7 +105,8 @@ pub(super) fn features(
                 if let Some(sum) = sums.get_mut(3 + joint) {
                     sum.add(innovation);
                 }
-                model.set_joint_rate(joint, x);
+                let is_wheel = wheels.get(joint) == Some(&true);
+                model.set_joint_rate(joint, if is_wheel { rate } else { x });
             }
             Some(Sensor::Encoder(joint)) => model.set_coordinate(joint, x),
             Some(Sensor::Motor(joint)) => model.set_motor(joint, x),

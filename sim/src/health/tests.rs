@@ -1,6 +1,7 @@
 //! Cases, their truth, and scores of alarms.
 
 use super::*;
+use crate::telemetry::Sensor;
 
 const SEED: u32 = 1;
 
@@ -95,4 +96,45 @@ fn records_are_the_same_bits_each_time() {
     }
     let finite = |of: &crate::telemetry::Reading| of.value.iter().all(|value| value.is_finite());
     assert!(first.readings.iter().all(finite));
+}
+
+/// Of a spacecraft with gimbals all methods have numbers of a short record, in either loop.
+#[test]
+fn both_loops_of_the_pyramid_are_examined() {
+    let timing = Timing { block: 0.5, learn: 1.5, healthy: 1.5, duration: 3.0 };
+    for name in ["pyramid-open-nominal", "pyramid-closed-torque-large"] {
+        let case = HealthCase::all().into_iter().find(|of| of.name() == name).expect("a case");
+        let recorded = record(&case, SEED, &timing).unwrap();
+        // The servo holds the gimbals: nothing turns.
+        let rates =
+            recorded.readings.iter().filter(|of| recorded.sensors[of.index].sensor == Sensor::Gyro);
+        let most = rates.flat_map(|of| of.value).fold(0.0, |most: f64, of| most.max(of.abs()));
+        assert!(most < 5e-3, "{name}: {most}");
+        let found = examine(&case, &recorded, &Examining { timing, false_alarms: vec![1.0] });
+        assert_eq!(found.unwrap().alarms.len(), 1);
+    }
+}
+
+/// Of a spacecraft with copies, too.
+#[test]
+fn a_fault_is_in_one_device() {
+    let timing = Timing::default();
+    for case in HealthCase::all() {
+        let [before, after] = case.truths(SEED, &timing).unwrap();
+        let texts = |of: &crate::scenario::Scenario| -> Vec<(String, String)> {
+            of.members().map(|(name, member)| (name.to_owned(), format!("{member:?}"))).collect()
+        };
+        let changed: Vec<String> = texts(&before)
+            .into_iter()
+            .zip(texts(&after))
+            .filter(|((_, before), (_, after))| before != after)
+            .map(|((name, _), _)| name)
+            .collect();
+        let elsewhere = matches!(
+            case.fault,
+            None | Some((Fault::TorqueConstant | Fault::GyroBias | Fault::Tachometer, _))
+        );
+        let expected = if elsewhere { Vec::new() } else { vec![case.truth(SEED, &timing).place] };
+        assert_eq!(changed, expected, "{}", case.name());
+    }
 }

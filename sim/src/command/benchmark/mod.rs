@@ -27,7 +27,7 @@ use tables::{alarms_csv, points, rates_csv, rates_text, scores_csv, table, truth
 pub(super) const HELP: &str = "\
 Examples:
   precess benchmark health --out health
-      records of 100 cases with their truth, alarms of precess watch and two baselines, scores: an hour or so
+      records of 100 cases with their truth, alarms of precess watch and two baselines, scores; one of the bus takes three seconds of a core
   precess benchmark health --case bus-open-drag-medium --case bus-open-nominal --out health
   precess benchmark health --score alarms.csv
       scores of another method: columns case, time, place, quantity, and change, half_width if it has them (docs/health.md)";
