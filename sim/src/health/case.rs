@@ -124,14 +124,14 @@ impl HealthCase {
     }
 
     /// Numbers of a case from zero to one: when a fault begins in its block, and where.
-    pub(super) fn drawn(&self, seed: u32) -> [f64; 2] {
+    pub(super) fn drawn(self, seed: u32) -> [f64; 2] {
         // Pairs of normal numbers by Box and Muller: the squared radius is exponential, and the angle uniform.
         let [a, b, c, d, ..] = Noise::new(u64::from(seed), &format!("{}.fault", self.name())).at(0);
         [[a, b], [c, d]].map(|[x, y]| 1.0 - libm::exp(-0.5 * (x * x + y * y)))
     }
 
     /// When the fault begins, s: at a sample of the controllers.
-    pub(super) fn onset(&self, seed: u32, timing: &Timing) -> f64 {
+    pub(super) fn onset(self, seed: u32, timing: &Timing) -> f64 {
         let [when, _] = self.drawn(seed);
         match self.fault {
             None => timing.duration,
@@ -140,7 +140,7 @@ impl HealthCase {
     }
 
     /// The number of the device, one to four, that it is in.
-    pub(super) fn number(&self, seed: u32) -> usize {
+    pub(super) fn number(self, seed: u32) -> usize {
         let [_, place] = self.drawn(seed);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below four")]
         let index = (4.0 * place).floor() as usize;

@@ -90,9 +90,8 @@ impl Fault {
         let bus = of == Spacecraft::Bus;
         let of = match self {
             Self::StaticImbalance if bus => [5e-7, 1.5e-6, 5e-6],
-            Self::StaticImbalance => [1e-6, 3e-6, 1e-5],
             Self::DynamicImbalance if bus => [1.5e-7, 5e-7, 1.5e-6],
-            Self::DynamicImbalance => [1e-6, 3e-6, 1e-5],
+            Self::StaticImbalance | Self::DynamicImbalance => [1e-6, 3e-6, 1e-5],
             Self::ImbalancePhase => [0.3, 0.9, 2.4],
             Self::Drag if bus => [3e-5, 1e-4, 3e-4],
             Self::Drag => [2e-4, 6e-4, 2e-3],

@@ -45,7 +45,7 @@ pub fn record(case: &HealthCase, seed: u32, timing: &Timing) -> Result<Record, H
     let [mut before, mut after] = case.truths(seed, timing)?;
     let watched = case.spacecraft.watched()?;
     let layout = TelemetryLayout::of_scenario(&watched, None)?;
-    let mut sampler = Sampler::new(case, seed, timing, &watched, &layout);
+    let mut sampler = Sampler::new(*case, seed, timing, &watched, &layout);
     for scenario in [&mut before, &mut after] {
         scenario.output.rate = f64::from(RATE);
         scenario.output.columns.clone_from(&sampler.columns);
@@ -174,7 +174,7 @@ struct Sampler {
 
 impl Sampler {
     fn new(
-        case: &HealthCase,
+        case: HealthCase,
         seed: u32,
         timing: &Timing,
         watched: &Scenario,

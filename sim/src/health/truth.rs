@@ -52,7 +52,7 @@ impl Spacecraft {
 
 impl HealthCase {
     /// The truth at the start and after the change.
-    pub(super) fn truths(&self, seed: u32, timing: &Timing) -> Result<[Scenario; 2], HealthError> {
+    pub(super) fn truths(self, seed: u32, timing: &Timing) -> Result<[Scenario; 2], HealthError> {
         let [_, text] = self.spacecraft.texts();
         let read = |overrides: &[String]| {
             let tables = Tables::Text {
@@ -80,7 +80,7 @@ impl HealthCase {
     }
 
     /// Keys of the truth that change; none of what is not of the spacecraft.
-    fn changes(&self, seed: u32) -> Vec<String> {
+    fn changes(self, seed: u32) -> Vec<String> {
         let Some((fault, size)) = self.fault else { return Vec::new() };
         let number = self.number(seed);
         let device = self.spacecraft.device(number);
@@ -123,7 +123,7 @@ impl HealthCase {
     }
 
     /// The angle by which a wheel's axes turn at the change, with its joint's device: of a static imbalance that moves.
-    pub(super) fn turn(&self, seed: u32) -> Option<(String, f64)> {
+    pub(super) fn turn(self, seed: u32) -> Option<(String, f64)> {
         let (fault, size) = self.fault?;
         (fault == Fault::ImbalancePhase).then(|| {
             (self.spacecraft.device(self.number(seed)), fault.change(self.spacecraft, size))
