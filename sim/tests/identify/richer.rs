@@ -173,7 +173,7 @@ fn covered(of: Richer, draws: u32, duration: f64) -> (usize, usize, f64, bool) {
 #[test]
 fn what_the_fitted_model_does_not_have_is_in_residuals_or_estimates() {
     let long = std::env::var("PRECESS_DRAWS").is_ok();
-    let (draws, duration) = if long { (20, 20.0) } else { (1, 3.0) };
+    let (draws, duration) = if long { (20, 20.0) } else { (1, 6.0) };
     let (inside, all, worst, holds) = covered(Richer::Nothing, draws, duration);
     assert!(holds && worst < 1.1 && 20 * inside > 17 * all, "{inside} of {all}, {worst}");
     for of in [Richer::Bearings, Richer::Tones, Richer::Structure] {
