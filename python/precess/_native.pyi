@@ -14,6 +14,7 @@ __all__ = [
     "NativeEvaluator",
     "NativeFit",
     "NativeFunction",
+    "NativeIdentified",
     "NativeInputs",
     "NativePsd",
     "NativeResult",
@@ -22,6 +23,7 @@ __all__ = [
     "estimate_probability",
     "fit_file",
     "fit_records",
+    "identify",
     "jitter_budget",
     "keep_out",
     "limits",
@@ -395,8 +397,9 @@ def fit_records(
     highest: float | None = None,
     speed_accuracy: float | None = None,
 ) -> NativeFit: ...
-_Direction = tuple[list[tuple[str, float, str]], float, bool]
+_Direction: TypeAlias = tuple[list[tuple[str, float, str]], float, bool]
 
+@final
 class NativeIdentified:
     @property
     def numbers(self) -> list[tuple[str, str, _Estimate, bool]]: ...
