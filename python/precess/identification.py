@@ -121,7 +121,7 @@ class Design:
     untold : tuple of Direction
         What the record does not tell of the spacecraft.
     deviations : array, shape (directions, manoeuvres)
-        Standard deviation along each by the data of the record and of each manoeuvre, in steps of it: 1 and less is told.
+        Standard deviation along each by the data of the record and of each manoeuvre, in steps of it: 1 and less is determined.
     """
 
     manoeuvres: tuple[str, ...]

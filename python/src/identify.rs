@@ -39,7 +39,7 @@ pub(crate) struct NativeIdentified {
 
 #[pymethods]
 impl NativeIdentified {
-    /// Name, unit, estimate and whether it is told, of each number.
+    /// Name, unit, estimate and whether it is determined, of each number.
     #[getter]
     fn numbers(&self) -> Vec<(String, &'static str, EstimateFacts, bool)> {
         let numbers = self.found.numbers.iter();

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{DeviceContributions, Devices, Each, Inputs, JointGains, State};
 
 use crate::craft::{Craft, StoredSpacecraft, made_by};
-use crate::error::{Code, Fault};
+use crate::error::{Code, Fault, Rejection};
 use crate::evaluate::{take_state_and_inputs, with};
 use crate::memory::{self, OutputPointer};
 use crate::types;
@@ -54,11 +54,9 @@ where
     let call = |craft: &StoredSpacecraft<SetOf<J>>| {
         // SAFETY: by contract.
         let out = unsafe { OutputPointer::new(out) }?;
-        let mut at = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::driven_for(&craft.spacecraft);
+        let mut of = craft.spacecraft.joint_gains();
         // SAFETY: by contract.
-        unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
-        let found = craft.spacecraft.device_contributions(&at, &given)?;
+        let found = unsafe { eliminated(craft, state, inputs, &mut of) }?;
         out.write(structure_of(&found));
         Ok(())
     };
@@ -87,12 +85,9 @@ where
         // SAFETY: by contract.
         let out = unsafe { OutputPointer::new(out) }?;
         memory::check(gains)?;
-        let mut at = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::driven_for(&craft.spacecraft);
-        // SAFETY: by contract.
-        unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
         let mut of = craft.spacecraft.joint_gains();
-        let found = craft.spacecraft.eliminate_joints(&at, &given, &mut of)?;
+        // SAFETY: by contract.
+        let found = unsafe { eliminated(craft, state, inputs, &mut of) }?;
         out.write(structure_of(&found));
         // SAFETY: not null, aligned; large enough by contract and `fits`.
         unsafe {
@@ -145,6 +140,27 @@ where
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
+}
+
+/// What the devices contribute; the gains are large, so that a result of them would be copied.
+///
+/// # Safety
+///
+/// Both pointers are null, misaligned, or point to readable structures.
+unsafe fn eliminated<const J: usize>(
+    craft: &StoredSpacecraft<SetOf<J>>,
+    state: *const types::State<J>,
+    inputs: *const types::Inputs<J>,
+    gains: &mut JointGains<SetOf<J>>,
+) -> Result<DeviceContributions, Rejection>
+where
+    Versions: Interface<J>,
+{
+    let mut at = State::at_rest_for(&craft.spacecraft);
+    let mut given = Inputs::driven_for(&craft.spacecraft);
+    // SAFETY: by contract.
+    unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
+    Ok(craft.spacecraft.eliminate_joints(&at, &given, gains)?)
 }
 
 fn structure_of(found: &DeviceContributions) -> types::Contributions {

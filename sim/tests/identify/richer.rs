@@ -16,7 +16,7 @@ use precess_control::Noise;
 use super::identified;
 use super::recovered::{compared, deviations, is_within, unknowns};
 
-/// A slew, so that inertia is told.
+/// A slew, so that inertia is determined.
 const REFERENCE: &str = "[controller.reference]\nkind = \"slew\"\nturn = { axis = [1, 1, 1], angle = \"30 deg\" }\n\
                          acceleration_limit = \"0.2 deg/s^2\"\n\n[controller.sensors]";
 const BEARINGS: &str = r#"
