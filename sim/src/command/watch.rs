@@ -1,4 +1,5 @@
-//! `watch`: a scenario's model run along telemetry, and what has changed: alarms, and the quantities of every block.
+//! `watch`: a scenario's model run along telemetry, and what has changed: alarms, the quantities of every
+//! block, a page.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -18,14 +19,15 @@ use super::table::six;
 use super::terminal::{note, print};
 use crate::file::from_file;
 use crate::record::partial::{Partial, partial_name};
+use crate::record::{Decimate, Recorder as _};
+use crate::report::watch::{BUCKETS, WatchReport, WatchedQuantity, shown, test_name};
 use crate::telemetry::{Exclusion, TelemetryLayout, TelemetryRows};
-use crate::watch::{Alarm, Block, Test, Watch, WatchSettings, Watched};
-use precess_dynamics::units::{to_g_cm, to_g_cm2};
+use crate::watch::{Alarm, Block, Watch, WatchSettings};
 
 pub(super) const HELP: &str = "\
 Examples:
   precess watch bus.toml --data telemetry.csv
-      what has changed since the first ten minutes; quantities of every block in precess-out/bus-watch.csv
+      what has changed since the first ten minutes; the page precess-out/bus-watch.html
   precess watch bus.toml --data telemetry.npz --learn '300 s' --false-alarms 0.1 --format json
 Columns are named as those of a run: time, aocs.gyro_x to _z, rw1.spin, rw1.u_w (docs/health.md).";
 
@@ -73,7 +75,9 @@ struct Findings {
     blocks: u64,
     /// Start of the first block and end of the last one, s.
     span: Option<[f64; 2]>,
-    references: Vec<(String, Watched, Option<[f64; 2]>)>,
+    references: Vec<WatchedQuantity>,
+    /// The middle of each block and each quantity, for the figures.
+    history: Decimate,
 }
 
 impl WatchCommand {
@@ -99,9 +103,9 @@ impl WatchCommand {
         for remark in watch.remarks() {
             note(&format!("warning: {remark}"));
         }
-        let [blocks, alarms] =
-            ["watch.csv", "alarms.json"].map(|ending| format!("{}-{ending}", scenario.name));
-        let names = [blocks.clone(), alarms.clone()];
+        let [blocks, alarms, page] = ["watch.csv", "alarms.json", "watch.html"]
+            .map(|ending| format!("{}-{ending}", scenario.name));
+        let names = [blocks.clone(), alarms.clone(), page.clone()];
         let mut outputs = uninterrupted(|| Outputs::reserve(&self.out, &names, self.force))?;
         let path = self.out.join(&blocks);
         let io = |source| CommandError::Io { path: path.clone(), source };
@@ -113,6 +117,7 @@ impl WatchCommand {
             blocks: 0,
             span: None,
             references: Vec::new(),
+            history: Decimate::new(BUCKETS),
         };
         let done = head(&mut table, &watch).map_err(io).and_then(|()| {
             while let Some(reading) = rows.next_reading().map_err(telemetry)? {
@@ -120,7 +125,7 @@ impl WatchCommand {
                 let block = watch.take(&reading).map_err(|error| other(&error))?;
                 if let Some(block) = block {
                     row(&mut table, &block).map_err(io)?;
-                    found.take(block);
+                    found.take(block)?;
                 }
             }
             Ok(())
@@ -140,14 +145,28 @@ impl WatchCommand {
             return Err(io(source));
         }
         let json = found.json(rows.exclusions());
-        let written = uninterrupted(|| outputs.write(&[(alarms.clone(), &json)]));
+        let html = WatchReport {
+            name: &scenario.name,
+            title: &scenario.title,
+            settings: &settings,
+            blocks: found.blocks,
+            span: found.span.unwrap_or_default(),
+            quantities: &found.references,
+            history: &found.history,
+            alarms: &found.alarms,
+            further: found.further,
+            exclusions: rows.exclusions(),
+        };
+        let html = html.html().map_err(|error| other(&error))?;
+        let files = [(alarms.clone(), &json), (page.clone(), &html)];
+        let written = uninterrupted(|| outputs.write(&files));
         written.map_err(|error| error.leaving(vec![path.clone()]))?;
         match self.format {
             Form::Json => print(&json)?,
             Form::Text => {
                 let folder = self.out.display();
                 print(&found.text(&settings, rows.exclusions()))?;
-                print(&format!("files: {folder}/{blocks}, {folder}/{alarms}\n"))?;
+                print(&format!("files: {folder}/{page}, {folder}/{blocks}, {folder}/{alarms}\n"))?;
             }
         }
         if found.blocks == 0 {
@@ -182,22 +201,14 @@ fn row(to: &mut Partial, block: &Block) -> std::io::Result<()> {
     writeln!(to, "{line},{}", block.alarms.len())
 }
 
-/// A number of a quantity in the unit that people use.
-fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
-    match watched {
-        Watched::StaticImbalance => (to_g_cm(value), "g cm"),
-        Watched::DynamicImbalance => (to_g_cm2(value), "g cm^2"),
-        Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
-        Watched::TorqueConstant => (100.0 * value, "%"),
-        Watched::Drag | Watched::GyroJump => (value, watched.unit()),
-    }
-}
-
 impl Findings {
-    fn take(&mut self, block: Block) {
+    fn take(&mut self, block: Block) -> Result<(), CommandError> {
         self.blocks += 1;
         let [start, end] = block.times;
         self.span = Some([self.span.map_or(start, |[first, _]| first), end]);
+        let values = block.values.iter().map(|of| of.map_or(f64::NAN, |[value, _]| value));
+        let row: Vec<f64> = std::iter::once(0.5 * (start + end)).chain(values).collect();
+        self.history.sample(&row).map_err(|error| CommandError::Other(error.to_string()))?;
         for alarm in block.alarms {
             if self.alarms.len() < KEPT {
                 self.alarms.push(alarm);
@@ -205,6 +216,7 @@ impl Findings {
                 self.further += 1;
             }
         }
+        Ok(())
     }
 
     /// For people.
@@ -273,10 +285,7 @@ fn sentence(alarm: &Alarm) -> String {
     let of = |value: f64| shown(watched, value);
     let ((change, unit), (half, _)) = (of(shift.change), of(shift.half_width));
     let (before, _) = of(shift.before);
-    let test = match shift.test {
-        Test::LikelihoodRatio => "likelihood ratio",
-        Test::CumulativeSum => "cumulative sum",
-    };
+    let test = test_name(shift.test);
     let mut text = format!(
         "alarm at {} s: {name} has changed by {} {unit} (95 %: {} to {}) from {} {unit}, since {} s ({test})\n",
         six(*time),
@@ -301,7 +310,7 @@ struct AlarmJson<'a> {
     before: f64,
     change: f64,
     interval: [f64; 2],
-    test: &'static str,
+    test: String,
     alike: &'a [String],
 }
 
@@ -316,10 +325,7 @@ impl<'a> AlarmJson<'a> {
             before: shift.before,
             change: shift.change,
             interval: [shift.change - shift.half_width, shift.change + shift.half_width],
-            test: match shift.test {
-                Test::LikelihoodRatio => "likelihood_ratio",
-                Test::CumulativeSum => "cumulative_sum",
-            },
+            test: test_name(shift.test).replace(' ', "_"),
             alike: &alarm.alike,
         }
     }

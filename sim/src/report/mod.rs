@@ -30,6 +30,7 @@ pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;
 mod unit;
+pub(crate) mod watch;
 
 pub use draw::cells;
 pub(crate) use draw::picture::Picture;

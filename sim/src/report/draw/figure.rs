@@ -213,6 +213,11 @@ pub(in crate::report) fn document(
 }
 
 impl Line {
+    /// Whether there is anything to draw.
+    pub(in crate::report) fn is_drawn(&self) -> bool {
+        self.bands.iter().any(|band| band.min.is_finite() && band.max.is_finite())
+    }
+
     /// As many bands as the picture can show, in runs without gaps.
     fn merged(&self) -> Vec<Vec<Band>> {
         let [of_line, of_band] = POINTS_MAX;

@@ -377,7 +377,7 @@ pub(super) fn hyphenated(name: &str) -> String {
     name.replace([' ', '_', '.'], "-")
 }
 
-pub(super) fn capitalised(text: &str) -> String {
+pub(in crate::report) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
