@@ -1,6 +1,6 @@
 """The effector of flight/basilisk in Basilisk: against our own runs, against Basilisk's effector, beside a panel of Basilisk.
 
-    python effector.py           runs all by cargo and in Basilisk; compares
+    python effector.py           runs all by the command `precess` and in Basilisk; compares
     python effector.py --check   the same
 
 Nothing is stored. The C library and the effector are built first, in target/flight and target/basilisk: CMake, a C++
@@ -62,6 +62,7 @@ try:
     import effector_in_basilisk as basilisk
     import gyros
     import numpy as np
+    import programs
     import wheels
     from runs import mounted
 except ModuleNotFoundError as error:
@@ -86,9 +87,8 @@ def main():
 
 
 def precess(*arguments):
-    cargo = os.environ.get("CARGO", "cargo")
-    run = [cargo, "run", "--quiet", "--package", "precess", "--"]
-    subprocess.run([*run, *arguments], cwd=ROOT, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    run = [programs.folder() / "precess", *arguments]
+    subprocess.run(run, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def exported(folder, scenario):

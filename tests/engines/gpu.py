@@ -17,6 +17,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+import programs
+
 MISSING = 77
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -42,15 +44,15 @@ inertia = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 UNIT = "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]"
 
 
-def cargo(package, *words, **more):
+def ran(package, *words, **more):
     """What a program of the workspace prints."""
-    command = ["cargo", "run", "-q", "-p", package, "--bin", package, "--", *words]
+    command = [programs.folder() / package, *words]
     return subprocess.run(command, text=True, check=True, cwd=ROOT, stdout=subprocess.PIPE, **more).stdout
 
 
 def bodies():
     """How many bodies each kind has."""
-    kinds = json.loads(cargo("precess", "kinds", "--json"))
+    kinds = json.loads(ran("precess", "kinds", "--json"))
     return {kind: len(of) for kind, of in sorted(kinds.items())}
 
 
@@ -128,7 +130,7 @@ def compiled():
         for name, kinds in sets.items():
             folder = Path(temporary) / name
             words = ["--general", "--batch", "--out", folder]
-            cargo("precess-bake", *words, input=description(name, kinds, count))
+            ran("precess-bake", *words, input=description(name, kinds, count))
             ptx = ptx_of(library, folder, name)
             fused = re.findall(r"\b(?:fma|mad)\.\S*f(?:32|64)", ptx)
             if fused:

@@ -1,6 +1,6 @@
 """Reads an MCAP file of `precess run` back with the package `mcap`, against the NPZ file of the same run.
 
-    python recording.py           runs the imaging satellite by cargo; compares
+    python recording.py           runs the imaging satellite; compares
     python recording.py --check   the same
 
 Each channel has a message for each sample, or for the frames as many as the page says; each column is in one
@@ -12,7 +12,6 @@ requirements.txt.
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -26,6 +25,7 @@ FRAMES_MAX = 1001
 
 try:
     import numpy as np
+    import programs
     from mcap.reader import make_reader
 except ModuleNotFoundError as error:
     if error.name not in ("mcap", "numpy"):
@@ -46,8 +46,7 @@ def main():
 
 def recorded(folder):
     """Runs the scenario; the path of its results without the ending."""
-    cargo = os.environ.get("CARGO", "cargo")
-    run = [cargo, "run", "--quiet", "--package", "precess", "--", "run", str(SCENARIO)]
+    run = [programs.folder() / "precess", "run", SCENARIO]
     options = ["--no-report", "--out", folder, "--set", 'output.formats=["mcap", "npz"]']
     subprocess.run([*run, *options], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     return Path(folder) / SCENARIO.stem

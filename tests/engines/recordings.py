@@ -1,22 +1,12 @@
-"""The command `precess`, built, and samples of its runs by the names of a unit's variables."""
+"""Samples of runs of the command `precess` by the names of a unit's variables."""
 
 import csv
-import os
 import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+from programs import ROOT
+
 SCENARIOS = ROOT / "scenarios"
-
-
-def programs():
-    """The folder of `precess`, `precess-bake` and the engine's library, which are built."""
-    cargo = os.environ.get("CARGO", "cargo")
-    build = [cargo, "build", "--quiet", "-p", "precess", "-p", "precess-bake", "-p", "precess-fmu", "--bins", "--lib"]
-    subprocess.run(build, cwd=ROOT, check=True)
-    target = os.environ.get("CARGO_TARGET_DIR", ROOT / "target")
-    return Path(target) / "debug"
 
 
 def ran(program, *arguments):

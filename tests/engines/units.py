@@ -29,11 +29,12 @@ AGREEMENT = 1e-7
 try:
     import fmpy
     import numpy as np
+    import programs
     from fmpy.build import build_platform_binary
     from fmpy.validation import validate_fmu
     from engine_units import check as check_engine
     from importers import instance
-    from recordings import SCENARIOS, programs, ran, recorded
+    from recordings import SCENARIOS, ran, recorded
     from unit_derivatives import check as derivatives
 except ModuleNotFoundError as error:
     if error.name not in ("fmpy", "numpy"):
@@ -290,7 +291,7 @@ def main():
     arguments.parse_args()
     if not shutil.which("cmake"):
         os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
-    built = Path(os.environ["PRECESS_BUILT"]) if "PRECESS_BUILT" in os.environ else programs()
+    built = programs.folder()
     chance = random.Random(40)
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)

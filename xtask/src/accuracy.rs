@@ -5,8 +5,8 @@ use std::process::Command;
 
 use clap::Args;
 
-use crate::members::without_lanes;
-use crate::test::CASES;
+use crate::members::{Members, without_lanes};
+use crate::test::{CASES, optimisation};
 use xtask::files::{File, differing, write};
 use xtask::run::{built, cargo, program, root, run, target};
 use xtask::say;
@@ -26,22 +26,18 @@ pub(crate) struct Options {
 pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     let out = target()?.join("accuracy");
     let derivatives = target()?.join("derivatives.txt");
-    // As `cargo test` builds them: a release build takes minutes, to the same bytes.
+    // As `cargo xtask test` builds them: a release build takes minutes, to the same bytes.
+    let all = std::env::var_os(CASES).is_some_and(|cases| cases == "all");
+    let mut selected = without_lanes();
+    selected.extend(optimisation(all));
+    selected.extend(Members::Plain.features(true));
     let suite = ["--quiet", "--test", "linearize"];
     let only = ["--", "--ignored", "figures_for_the_accuracy_page"];
     let mut figures = Command::new(program());
-    figures.arg("test").args(without_lanes()).args(suite).args(only);
+    figures.arg("test").args(&selected).args(suite).args(only);
     run(figures.env("PRECESS_FIGURES", &derivatives).env(CASES, "all"))?;
-    let example = [
-        "--profile",
-        "test",
-        "--quiet",
-        "--features",
-        "precess-tests/shapes",
-        "--example",
-        "accuracy",
-    ];
-    cargo(&[&["build"], &without_lanes()[..], &example].concat())?;
+    let example = ["--profile", "test", "--quiet", "--example", "accuracy"];
+    cargo(&[&["build"], &selected[..], &example].concat())?;
     let mut example = Command::new(built("examples/accuracy")?);
     run(example.arg("--out").arg(&out).arg("--derivatives").arg(&derivatives))?;
     let files = FILES.map(|name| {

@@ -31,6 +31,7 @@ use crate::members::Members;
 use crate::program::{DERIVE, DISTRIBUTE, SITE};
 use outcome::Outcome;
 use programs::Program;
+pub(crate) use programs::optimisation;
 use queue::{Job, Queue, held};
 use suites::{How, SUITES, Suite, When};
 
@@ -160,6 +161,10 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
                 };
                 queue.add(built.into_iter().filter(wanted).map(Job::program));
                 if members == Members::Plain {
+                    if chosen.iter().any(|suite| matches!(suite.how, How::Command(["engines"]))) {
+                        // The engine's library, which units are linked with.
+                        programs::build_libraries(members, &of_group, all, notes)?;
+                    }
                     // They use the desktop tool as it is tested.
                     queue.has_tool(of_group.iter().any(|suite| suite.is_of("precess")));
                     scope.spawn(beside);
@@ -183,7 +188,7 @@ fn built_for(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<(), S
         let needs = |suite: &&Suite| {
             matches!(suite.how, How::Command(words) if program.is_needed_by(words[0]))
         };
-        let options = programs::optimisation(all);
+        let options = optimisation(all);
         if chosen.iter().any(needs) { program.build(options, Some(notes)) } else { Ok(()) }
     })
 }

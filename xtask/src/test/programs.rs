@@ -4,11 +4,12 @@
 //! lanes has a command of its own, and every other member is compiled once for all commands.
 
 use std::collections::BTreeSet;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
-use xtask::run::{program, root};
+use xtask::run::{program, root, run};
 
 use super::suites::{How, Suite};
 use crate::measured;
@@ -32,29 +33,14 @@ pub(crate) fn build(
     all: bool,
     notes: &Path,
 ) -> Result<Vec<Program>, String> {
-    let mut cargo = Command::new(program());
-    cargo.args(["test", "--no-run", "--message-format=json-render-diagnostics"]);
-    cargo.args(members.features(all));
-    cargo.args(optimisation(all));
-    let (mut packages, mut kinds) = (BTreeSet::new(), BTreeSet::new());
-    for suite in suites {
-        let How::Target { package, target } = suite.how else { continue };
-        packages.insert(package);
-        match target {
-            "lib" => kinds.insert("--lib"),
-            "bin" => kinds.insert("--bins"),
-            name => {
-                cargo.args(["--test", name]);
-                continue;
-            }
-        };
-    }
-    cargo.args(kinds);
-    cargo.args(packages.iter().flat_map(|package| ["--package", *package]));
-    if packages.is_empty() {
+    let selected = selected(members, suites, all);
+    if selected.is_empty() {
         return Ok(Vec::new());
     }
-    eprintln!("$ cargo test --no-run ({} packages{})", packages.len(), members.says());
+    let count = selected.iter().filter(|word| **word == "--package").count();
+    eprintln!("$ cargo test --no-run ({count} packages{})", members.says());
+    let mut cargo = Command::new(program());
+    cargo.args(["test", "--no-run", "--message-format=json-render-diagnostics"]).args(selected);
     measured::wrap(&mut cargo, notes);
     let output = cargo.stdout(Stdio::piped()).current_dir(root()).spawn();
     let output = output.and_then(std::process::Child::wait_with_output);
@@ -64,6 +50,44 @@ pub(crate) fn build(
     }
     let text = String::from_utf8_lossy(&output.stdout);
     Ok(text.lines().filter_map(read).collect())
+}
+
+/// Puts the libraries of packages beside the programs that were built for the tests, from the same crates: with another
+/// selection cargo would compile all of them again.
+pub(crate) fn build_libraries(
+    members: Members,
+    suites: &[&Suite],
+    all: bool,
+    notes: &Path,
+) -> Result<(), String> {
+    eprintln!("$ cargo build --lib");
+    let mut cargo = Command::new(program());
+    let selected = selected(members, suites, all).into_iter().filter(|word| *word != "--bins");
+    cargo.args(["build", "--quiet"]).args(selected);
+    measured::wrap(&mut cargo, notes);
+    run(&mut cargo)
+}
+
+/// Arguments of cargo that select the test programs of some suites; none where there are none.
+fn selected(members: Members, suites: &[&Suite], all: bool) -> Vec<&'static str> {
+    let (mut packages, mut kinds) = (BTreeSet::new(), BTreeSet::new());
+    for suite in suites {
+        let How::Target { package, target } = suite.how else { continue };
+        packages.insert(package);
+        match target {
+            "lib" => kinds.insert(("--lib", None)),
+            "bin" => kinds.insert(("--bins", None)),
+            name => kinds.insert(("--test", Some(name))),
+        };
+    }
+    if packages.is_empty() {
+        return Vec::new();
+    }
+    let mut words = members.features(all).to_vec();
+    words.extend(optimisation(all));
+    words.extend(kinds.into_iter().flat_map(|(option, name)| iter::once(option).chain(name)));
+    words.extend(packages.into_iter().flat_map(|package| ["--package", package]));
+    words
 }
 
 /// What `--all` optimises: the desktop tool and the solver behind it, whose fits and budgets then take a sixth of the
