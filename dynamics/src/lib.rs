@@ -87,6 +87,7 @@ pub use attitude::parameterisation::Attitude;
 pub use attitude::quaternion::Quaternion;
 pub use derivatives::dual::column::{Column, Outputs};
 pub use derivatives::error::DerivativeError;
+pub use derivatives::fixed_linearization::LinearizationWorkspace;
 #[cfg(feature = "alloc")]
 pub use derivatives::linearization::{Linearization, Output};
 pub use derivatives::parameters::columns::{Component, ParameterVariable};

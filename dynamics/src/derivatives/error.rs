@@ -83,6 +83,17 @@ pub enum DerivativeError<T = f64> {
         /// How many there are.
         found: usize,
     },
+    /// A matrix has another number of elements, or a workspace is of fewer joints.
+    Size {
+        /// How many there must be: of elements rows times columns, of joints those of the spacecraft.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// What acts, or a device, has no emitted derivatives: a flexible structure, a carrier, lumped imbalance, wrenches on
+    /// bodies, a central field, a kind of more joints than [`MAX_JOINTS`](crate::MAX_JOINTS); any device without the
+    /// feature `derivatives`.
+    NotEmitted,
     /// Every input is finite and so are the accelerations, but a direction, weights or their product with the derivatives
     /// is not.
     NotFiniteProduct,
@@ -136,6 +147,15 @@ impl<T: Scalar> Display for DerivativeError<T> {
                 f,
                 "{found} numbers where there are {expected} variables or accelerations; list \
                  `state_variables` and `input_variables` for the inputs at hand"
+            ),
+            Self::Size { expected, found } => write!(
+                f,
+                "{found} elements of a matrix, or joints of a workspace, where there are {expected}; a matrix has a row of \
+                 each of the `state_variables`, and a column of each of these or of the `input_variables`"
+            ),
+            Self::NotEmitted => f.write_str(
+                "no emitted derivatives of what acts, or of a device; take the columns of `derivatives`, and check the \
+                 feature `derivatives`",
             ),
             Self::NotFiniteProduct => f.write_str(
                 "a product of derivatives is not finite although the accelerations are; check the direction or \

@@ -301,7 +301,8 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         outputs: &Outputs<D::Scalar>,
     ) {
         let Self { states, inputs: by_inputs, workspace: Workspace { moving, .. }, .. } = self;
-        Slopes::list_moving(inputs, moving);
+        moving.clear();
+        Slopes::moving_joints(inputs).for_each(|joint| moving.push(joint));
         let moving = || moving.iter().copied();
         let modes = || 0..S::modes(craft);
         // Those of `state_variables`, of which each list has a known length.

@@ -12,18 +12,18 @@
 //! | `step` | derivatives of a step of RK4, by the chain rule through its stages |
 //!
 //! `linearization` fills matrices with columns, with the feature `alloc`: `emitted` has those of accelerations, `slopes`
-//! what the slopes of the states change by.
+//! what the slopes of the states change by. `fixed_linearization` fills matrices of fixed size, without a heap.
 
 pub(crate) mod dual;
 #[cfg(feature = "alloc")]
 mod emitted;
 pub(crate) mod error;
+pub(crate) mod fixed_linearization;
 #[cfg(feature = "alloc")]
 pub(crate) mod linearization;
 pub(crate) mod loads;
 pub(crate) mod parameters;
 pub(crate) mod products;
-#[cfg(feature = "alloc")]
 mod slopes;
 #[cfg(feature = "alloc")]
 pub(crate) mod step;

@@ -5,13 +5,13 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use alloc::vec::Vec;
-
+#[cfg(feature = "alloc")]
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
+#[cfg(feature = "alloc")]
 use crate::equations::arithmetic::Arithmetic;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
@@ -28,6 +28,7 @@ pub(crate) const OF_HUB: usize = 12;
 /// What the slopes at a state depend on, and the order of the states.
 #[derive(Debug)]
 pub(crate) struct Slopes<'a, T> {
+    #[cfg(feature = "alloc")]
     pub(crate) by: Arithmetic,
     pub(crate) bn: Columns<T>,
     pub(crate) omega: Vec3<T>,
@@ -50,6 +51,7 @@ impl<'a, T: Scalar> Slopes<'a, T> {
         moving: &'a [usize],
     ) -> Self {
         Self {
+            #[cfg(feature = "alloc")]
             by: craft.arithmetic,
             bn: columns(&state.attitude.dcm()),
             omega: components(&state.omega),
@@ -61,14 +63,12 @@ impl<'a, T: Scalar> Slopes<'a, T> {
         }
     }
 
-    /// Lists the joints that are not locked.
-    pub(crate) fn list_moving<D: Devices<Scalar = T>, S: StructureDerivatives>(
+    /// The joints that are not locked.
+    pub(crate) fn moving_joints<D: Devices<Scalar = T>, S: StructureDerivatives>(
         inputs: &Inputs<D, S>,
-        moving: &mut Vec<usize>,
-    ) {
+    ) -> impl Iterator<Item = usize> {
         let modes = inputs.modes.values().enumerate();
-        moving.clear();
-        modes.filter(|(_, mode)| *mode != Mode::Locked).for_each(|(joint, _)| moving.push(joint));
+        modes.filter(|(_, mode)| *mode != Mode::Locked).map(|(joint, _)| joint)
     }
 
     /// The change of the acceleration of B, N axes, where the attitude changes by a small rotation.
@@ -88,6 +88,16 @@ impl<'a, T: Scalar> Slopes<'a, T> {
         }
     }
 
+    /// The number of states.
+    pub(crate) fn states(&self) -> usize {
+        let of_hub = if self.hub { OF_HUB } else { 0 };
+        let of_others = self.moving.len().saturating_add(self.modes).saturating_mul(2);
+        of_others.saturating_add(of_hub)
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Slopes<'_, T> {
     /// The columns of variables into `slopes`, from those of the accelerations; the first variable of which the hub's are
     /// not finite.
     pub(crate) fn fill(
@@ -150,7 +160,21 @@ impl<'a, T: Scalar> Slopes<'a, T> {
     /// What accelerations change slopes by, and zeros; whether that of B in N is finite.
     #[inline(always)]
     fn of_accelerations(&self, accelerations: &[T], slopes: &mut [T]) -> bool {
-        let Some((of_hub, joints)) = accelerations.split_first_chunk::<6>() else { return true };
+        let found = accelerations.split_first_chunk::<6>();
+        found.is_none_or(|(of_hub, others)| self.of_hub_and_others(of_hub, others, slopes))
+    }
+}
+
+impl<T: Scalar> Slopes<'_, T> {
+    /// What accelerations of the hub, and of joints and modes, change slopes by, and zeros; whether that of B in N is
+    /// finite.
+    #[inline(always)]
+    pub(crate) fn of_hub_and_others(
+        &self,
+        of_hub: &[T; 6],
+        joints: &[T],
+        slopes: &mut [T],
+    ) -> bool {
         let (mut to, mut finite) = (slopes, true);
         if self.hub {
             let Some((hub, rest)) = to.split_first_chunk_mut::<OF_HUB>() else { return true };

@@ -1,9 +1,7 @@
 //! [`Structure`]: a rigid hub or a flexible structure, and what differs between the two in derivatives.
 
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::each_device::Moving;
-#[cfg(feature = "alloc")]
-use crate::derivatives::loads::kernel::NotEmitted;
+use crate::derivatives::loads::kernel::{Moving, NotEmitted};
 #[cfg(feature = "alloc")]
 use crate::derivatives::tree::base_motion::BaseMotion;
 #[cfg(feature = "alloc")]

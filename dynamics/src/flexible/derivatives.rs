@@ -3,9 +3,7 @@
 use core::convert::Infallible;
 
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::each_device::Moving;
-#[cfg(feature = "alloc")]
-use crate::derivatives::loads::kernel::NotEmitted;
+use crate::derivatives::loads::kernel::{Moving, NotEmitted};
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::StructureDerivatives;

@@ -2,9 +2,7 @@
 
 use crate::attitude::parameterisation::Attitude;
 #[cfg(feature = "alloc")]
-use crate::derivatives::loads::each_device::Moving;
-#[cfg(feature = "alloc")]
-use crate::derivatives::loads::kernel::NotEmitted;
+use crate::derivatives::loads::kernel::{Moving, NotEmitted};
 #[cfg(feature = "alloc")]
 use crate::derivatives::structure::StructureColumns;
 use crate::derivatives::structure::{Structure, StructureDerivatives};

@@ -11,6 +11,9 @@
 pub mod bits;
 pub mod board;
 pub mod conformance;
+// The timer is a Cortex-M's.
+#[cfg(any(feature = "count", feature = "count-linearization"))]
+pub mod count;
 pub mod craft;
 pub mod devices;
 pub mod random;

@@ -71,7 +71,7 @@ impl<T: Scalar> Matrices<'_, T> {
     #[inline(always)]
     fn fill(self) -> Option<bool> {
         let Self { loads, slopes, by_states, by_inputs } = self;
-        let joints = loads.devices.joints();
+        let joints = loads.joints;
         let (of_hub, given) = if slopes.hub { (OF_HUB, 6) } else { (0, 0) };
         let [states, inputs] = [&by_states, &by_inputs].map(|[of, _]| of.ncols());
         let regular = slopes.moving.len() == joints.len()
@@ -88,8 +88,7 @@ impl<T: Scalar> Matrices<'_, T> {
         let (hub, joints_of) = split(by_states, heights, of_hub)?;
         let (by_coordinates, by_rates) = split(joints_of, heights, joints.len())?;
         let (given, by_drives) = split(by_inputs, heights, given)?;
-        let columns =
-            Columns { gains: &loads.devices.gains, turned: slopes.hub.then_some(&slopes.bn) };
+        let columns = Columns { gains: loads.gains, turned: slopes.hub.then_some(&slopes.bn) };
         let mut all = Finiteness::of_none();
         if slopes.hub {
             loads.fill_hub(slopes, &columns, (hub, heights), &mut all)?;
@@ -159,7 +158,7 @@ impl<T: Scalar> ByLoads<'_, T> {
 
 /// Column by column.
 struct Columns<'a, T> {
-    gains: &'a Gains<T>,
+    gains: Gains<'a, T>,
     /// `[BN]`; none where the hub is fixed: it has no states.
     turned: Option<&'a Axes<T>>,
 }

@@ -6,21 +6,31 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+#[cfg(feature = "alloc")]
 use nalgebra::DMatrix;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::derivatives::loads::each_device::{EachDevice, Moving};
+#[cfg(feature = "alloc")]
+use crate::derivatives::loads::each_device::EachDevice;
+use crate::derivatives::loads::fixed_columns::{FixedColumns, FixedDevices};
+use crate::derivatives::loads::kernel::Moving;
 use crate::derivatives::loads::kernel_loads::{COORDINATE, DRIVE, RATE};
-use crate::derivatives::loads::load_columns::{JointColumns, LoadColumns, LoadsWorkspace};
-use crate::derivatives::loads::mass_system::MassSystem;
-use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER, are_finite};
+#[cfg(feature = "alloc")]
+use crate::derivatives::loads::load_columns::LoadsWorkspace;
+use crate::derivatives::loads::load_columns::{HubSums, JointColumns};
+use crate::derivatives::loads::mass_system::{Gains, MassSystem};
+#[cfg(feature = "alloc")]
+use crate::derivatives::loads::side_by_side::are_finite;
+use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::{Axis, Variable};
+#[cfg(feature = "alloc")]
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::gravity::Gravity;
 use crate::equations::hub::HubConstants;
 use crate::equations::load_sums::HubAccelerations;
 use crate::model::mode::HubMode;
+#[cfg(feature = "alloc")]
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::vec3::{Vec3, components, cross, sub};
@@ -32,10 +42,12 @@ use crate::solve::state::{Accelerations, State};
 
 /// The derivatives of the loads at a state, and the mass matrix.
 #[derive(Debug)]
-pub(crate) struct ByLoads<'a, T> {
+pub(crate) struct ByLoads<'a, T, const P: usize = TOGETHER> {
+    #[cfg(feature = "alloc")]
     pub(crate) by: Arithmetic,
     /// Of the joints, with the hub's accelerations for the right side of its equations.
-    pub(crate) devices: &'a LoadColumns<T>,
+    pub(crate) joints: &'a [JointColumns<T>],
+    pub(crate) gains: Gains<'a, T, P>,
     system: MassSystem<T>,
     /// The hub's accelerations by each component of its angular velocity.
     pub(crate) by_omega: HubGroup<T>,
@@ -44,6 +56,73 @@ pub(crate) struct ByLoads<'a, T> {
     hub_is_free: bool,
 }
 
+/// How the hub moves, seen from a frame that falls with a uniform field.
+struct FallingHub<T> {
+    omega: Vec3<T>,
+    accelerations: HubAccelerations<T>,
+    /// The field, B axes.
+    gravity: Vec3<T>,
+}
+
+impl<T: Scalar> FallingHub<T> {
+    /// None where what acts has no emitted derivatives: a flexible structure, wrenches on bodies, a central field.
+    fn new<D: Devices<Scalar = T>, A: Attitude<T>, S: StructureDerivatives>(
+        craft: &Spacecraft<D, S>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+    ) -> Option<Self> {
+        let central = matches!(inputs.gravity, Gravity::Central { .. });
+        let deforms = S::modes(craft) > 0 || S::mounts(craft) > 0;
+        if central || deforms || inputs.bodies.is_some() {
+            return None;
+        }
+        let start = evaluation_start(state, inputs);
+        let (omega, gravity) = (start.environment.omega, start.at_b);
+        let accelerations = HubAccelerations {
+            r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), gravity),
+            omega_dot: components(&accelerations.omega_dot),
+        };
+        Some(Self { omega, accelerations, gravity })
+    }
+}
+
+impl<'a, T: Scalar> ByLoads<'a, T, 1> {
+    /// As [`ByLoads::new`], without a heap; none also where there is no room for the joints.
+    pub(crate) fn in_arrays<D: Devices<Scalar = T>, A: Attitude<T>, S, const JOINTS: usize>(
+        craft: &Spacecraft<D, S>,
+        state: &State<D, A, S>,
+        inputs: &Inputs<D, S>,
+        accelerations: &Accelerations<D, S>,
+        columns: &'a mut FixedColumns<T, JOINTS>,
+    ) -> Option<Self>
+    where
+        S: StructureDerivatives,
+    {
+        let FallingHub { omega, accelerations: hub, gravity } =
+            FallingHub::new(craft, state, inputs, accelerations)?;
+        let mut each = FixedDevices::new((omega, hub), columns);
+        let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
+        D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
+        let (joints, blocks, sums) = each.found()?;
+        let hub_is_free = matches!(inputs.hub, HubMode::Free);
+        let (hub, mass) = (&craft.hub, craft.mass());
+        let reduction = HubReduction { hub, omega, mass, joints: &mut *joints, sums, hub_is_free };
+        let (system, by_omega) = reduction.run();
+        Some(Self {
+            #[cfg(feature = "alloc")]
+            by: Arithmetic::Portable,
+            joints,
+            gains: Gains { blocks },
+            system,
+            by_omega,
+            gravity,
+            hub_is_free,
+        })
+    }
+}
+
+#[cfg(feature = "alloc")]
 impl<'a, T: Scalar> ByLoads<'a, T> {
     /// At a state with its accelerations; none where what acts has no emitted derivatives: a flexible structure,
     /// platforms, lumped imbalance, wrenches on bodies, a central field.
@@ -54,32 +133,23 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         accelerations: &Accelerations<D, S>,
         workspace: &'a mut LoadsWorkspace<T>,
     ) -> Option<Self> {
-        let central = matches!(inputs.gravity, Gravity::Central { .. });
-        let deforms = S::modes(craft) > 0 || S::mounts(craft) > 0;
-        if central || deforms || inputs.bodies.is_some() {
-            return None;
-        }
-        let start = evaluation_start(state, inputs);
-        let (omega, gravity) = (start.environment.omega, start.at_b);
-        let hub = HubAccelerations {
-            r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), gravity),
-            omega_dot: components(&accelerations.omega_dot),
-        };
+        let FallingHub { omega, accelerations: hub, gravity } =
+            FallingHub::new(craft, state, inputs, accelerations)?;
         let (by, joints) = (craft.arithmetic, accelerations.devices.values().count());
         let mut each = EachDevice::new(by, (omega, hub), joints, workspace);
         let data = (&state.devices, inputs.of_joints(), &accelerations.devices);
         D::visit::<Moving, _>(&craft.devices, data, &mut each).ok()?;
         let hub_is_free = matches!(inputs.hub, HubMode::Free);
-        let devices = &mut workspace.columns;
+        let (joints, sums) = workspace.columns.joints_and_sums();
         let (hub, mass) = (&craft.hub, craft.mass());
-        let reduction = HubReduction { hub, omega, mass, devices, hub_is_free };
+        let reduction = HubReduction { hub, omega, mass, joints, sums, hub_is_free };
         let (system, by_omega) = match by {
             #[cfg(feature = "lanes")]
             Arithmetic::Dispatched(cpu) => cpu.dispatch(reduction),
             Arithmetic::Portable => reduction.run(),
         };
-        let devices = &mut workspace.columns;
-        Some(Self { by, devices, system, by_omega, gravity, hub_is_free })
+        let (joints, gains) = (workspace.columns.joints(), workspace.columns.gains());
+        Some(Self { by, joints, gains, system, by_omega, gravity, hub_is_free })
     }
 
     /// The accelerations' derivatives by these variables into the columns of a matrix, whose other rows stay as they
@@ -113,35 +183,48 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
         let mut finite = Finiteness::of_none();
         for (variable, column) in variables.iter().zip(into.chunks_exact_mut(rows)) {
             let Some((hub, joints)) = column.split_first_chunk_mut::<6>() else { continue };
-            let Some(Change { base, field, own }) = self.change(*variable) else {
+            if !self.fill_column(*variable, (hub, joints), &mut finite) {
                 column.fill(zero());
-                continue;
-            };
-            self.devices.gains.follow(&base, joints, &mut finite);
-            *hub = base;
-            match own {
-                Own::Device { of, place } => {
-                    let last = of.first.wrapping_add(of.count);
-                    let own = joints.get_mut(of.first..last).unwrap_or_default();
-                    let less = of.less.iter().map(|line| line[place % TOGETHER]);
-                    own.iter_mut().zip(less).for_each(|(to, less)| *to = *to - less);
-                    own.chunks(TOGETHER).for_each(|own| finite.see_each(own));
-                }
-                Own::All(axis) => {
-                    self.devices.gains.subtract_by_omega(axis as usize, joints);
-                    joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
-                }
-                Own::None => {}
             }
-            if let Some([x, y, z]) = field {
-                let [a, b, c, d, e, f] = base;
-                *hub = [a + x, b + y, c + z, d, e, f];
-            }
-            let [a, b, c, d, rest @ ..] = *hub;
-            finite.see(&[a, b, c, d]);
-            finite.see_each(&rest);
         }
         finite.holds()
+    }
+}
+
+impl<T: Scalar, const P: usize> ByLoads<'_, T, P> {
+    /// The hub's accelerations and the joints' by a variable; false, and nothing is written, where nothing changes.
+    #[inline(always)]
+    pub(crate) fn fill_column(
+        &self,
+        by: Variable,
+        (hub, joints): (&mut Six<T>, &mut [T]),
+        finite: &mut Finiteness<T>,
+    ) -> bool {
+        let Some(Change { base, field, own }) = self.change(by) else { return false };
+        self.gains.follow(&base, joints, finite);
+        *hub = base;
+        match own {
+            Own::Device { of, place } => {
+                let last = of.first.wrapping_add(of.count);
+                let own = joints.get_mut(of.first..last).unwrap_or_default();
+                let less = of.less.iter().map(|line| line[place % TOGETHER]);
+                own.iter_mut().zip(less).for_each(|(to, less)| *to = *to - less);
+                own.chunks(TOGETHER).for_each(|own| finite.see_each(own));
+            }
+            Own::All(axis) => {
+                self.gains.subtract_by_omega(axis as usize, joints);
+                joints.chunks(TOGETHER).for_each(|joints| finite.see_each(joints));
+            }
+            Own::None => {}
+        }
+        if let Some([x, y, z]) = field {
+            let [a, b, c, d, e, f] = base;
+            *hub = [a + x, b + y, c + z, d, e, f];
+        }
+        let [a, b, c, d, rest @ ..] = *hub;
+        finite.see(&[a, b, c, d]);
+        finite.see_each(&rest);
+        true
     }
 
     /// What changes with one variable; none where nothing does.
@@ -180,6 +263,7 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
     }
 
     /// The hub's accelerations by its inputs: by force and torque, by themselves where they are given.
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn by_hub(&self) -> [Six<T>; 6] {
         let units = [0, 1, 2, 3, 4, 5].map(|row| {
@@ -193,13 +277,13 @@ impl<'a, T: Scalar> ByLoads<'a, T> {
     /// By the coordinate of a joint, by its rate, or by what drives it.
     #[inline(always)]
     fn by_joint(&self, joint: usize, place: usize) -> Option<Change<'_, T>> {
-        let of = self.devices.joints().get(joint)?;
+        let of = self.joints.get(joint)?;
         let base = of.hub.map(|row| row[place % TOGETHER]);
         Some(Change { base, field: None, own: Own::Device { of, place } })
     }
 
     fn is_free(&self, joint: usize) -> bool {
-        self.devices.joints().get(joint).is_some_and(|of| of.free)
+        self.joints.get(joint).is_some_and(|of| of.free)
     }
 }
 
@@ -209,7 +293,8 @@ struct HubReduction<'a, T> {
     omega: Vec3<T>,
     /// Of the whole.
     mass: T,
-    devices: &'a mut LoadColumns<T>,
+    joints: &'a mut [JointColumns<T>],
+    sums: &'a HubSums<T>,
     hub_is_free: bool,
 }
 
@@ -217,12 +302,12 @@ impl<T: Scalar> HubReduction<'_, T> {
     /// In place of the right sides the hub's accelerations; those by its angular velocity, too.
     #[inline(always)]
     fn run(self) -> (MassSystem<T>, HubGroup<T>) {
-        let Self { hub, omega, mass, devices, hub_is_free } = self;
-        let system = MassSystem::new(hub, mass, &devices.matrix, hub_is_free);
-        for joint in devices.joints_mut() {
+        let Self { hub, omega, mass, joints, sums, hub_is_free } = self;
+        let system = MassSystem::new(hub, mass, &sums.matrix, hub_is_free);
+        for joint in joints {
             system.hub_of_group(&mut joint.hub);
         }
-        let mut by_omega = devices.omega;
+        let mut by_omega = sums.omega;
         for (axis, unit) in UNITS.into_iter().enumerate() {
             let own = of_both(hub.loads_by_omega(omega, unit.map(T::from_f64)));
             for (row, own) in by_omega.iter_mut().zip(own) {

@@ -7,6 +7,7 @@ use crate::derivatives::loads::device_reduction::{DeviceGroups, DeviceReduction,
 use crate::derivatives::loads::kernel_in_lanes::Slopes;
 use crate::derivatives::loads::kernel_loads::{COORDINATE, OMEGA, OMEGA_DOT, RATE, show};
 use crate::derivatives::loads::load_columns::{JointColumns, LoadColumns};
+use crate::derivatives::loads::mass_system::set_gains;
 use crate::derivatives::loads::side_by_side::{HubGroup, LoadGroup, TOGETHER};
 use crate::equations::side_by_side::gather::values_in_lanes;
 use crate::equations::side_by_side::group::DeviceGroup;
@@ -104,12 +105,12 @@ impl<K: Kind, T: Number> GroupColumns<'_, K, T> {
         );
         let DeviceReduction { eliminated, omega, less_by_omega, matrix } = reduction;
         let real = (devices < WIDTH).then(|| zero.load(&group.weight).above(zero));
-        for (to, of) in columns.omega.iter_mut().zip(&omega) {
+        for (to, of) in columns.sums.omega.iter_mut().zip(&omega) {
             for (to, number) in to.iter_mut().zip(of) {
                 add::<K, T>(to, *number, real);
             }
         }
-        for (column, (to, of)) in columns.matrix.iter_mut().zip(&matrix).enumerate() {
+        for (column, (to, of)) in columns.sums.matrix.iter_mut().zip(&matrix).enumerate() {
             for (to, number) in to.iter_mut().zip(of).take(column.wrapping_add(1)) {
                 add::<K, T>(to, *number, real);
             }
@@ -123,7 +124,7 @@ impl<K: Kind, T: Number> GroupColumns<'_, K, T> {
             for lane in 0..devices.min(WIDTH) {
                 let at = |k: usize| K::Scalar::from_f64(stored[k % 9].at(lane));
                 let of_hub = [at(0), at(1), at(2), at(3), at(4), at(5)];
-                columns.gains.set(number, &of_hub, &[at(6), at(7), at(8)]);
+                set_gains(&mut columns.gains, number, &of_hub, &[at(6), at(7), at(8)]);
                 number = number.wrapping_add(N);
             }
         }

@@ -6,6 +6,9 @@ use crate::derivatives::loads::joint_elimination::JointElimination;
 use crate::derivatives::loads::kernel_loads::DRIVE;
 use crate::derivatives::loads::side_by_side::{HubGroup, LoadGroup, Six, by_b, turned};
 use crate::model::joint_array::MAX_JOINTS;
+use crate::model::kind::Kind;
+use crate::model::mode::Mode;
+use crate::numbers::each::Each;
 use crate::numbers::real::Real;
 use crate::numbers::vec3::Columns;
 
@@ -16,6 +19,20 @@ pub(crate) struct JointModes {
     pub(crate) free: [bool; MAX_JOINTS],
     /// Which have one that is prescribed.
     pub(crate) accelerated: [bool; MAX_JOINTS],
+}
+
+impl JointModes {
+    /// Of a device whose joints have these modes.
+    pub(crate) fn of<K: Kind>(modes: &K::PerJoint<Mode<K::Scalar>>) -> Self {
+        let (mut free, mut accelerated) = ([false; MAX_JOINTS], [false; MAX_JOINTS]);
+        let modes = modes.values().zip(K::JOINTS);
+        for ((free, accelerated), (mode, info)) in free.iter_mut().zip(&mut accelerated).zip(modes)
+        {
+            *free = mode == Mode::Driven && info.driven;
+            *accelerated = matches!(mode, Mode::Prescribed(_)) && info.driven;
+        }
+        Self { free, accelerated }
+    }
 }
 
 /// Loads of a device in its axes, by some variables side by side; arrays have room for `ROOM` joints.

@@ -8,7 +8,7 @@
 use alloc::vec::Vec;
 
 use crate::derivatives::loads::device_reduction::JointModes;
-use crate::derivatives::loads::kernel::{NotEmitted, check_count, check_coupled};
+use crate::derivatives::loads::kernel::{Moving, NotEmitted, check_count, check_coupled};
 #[cfg(feature = "lanes")]
 use crate::derivatives::loads::kernel_in_lanes::{Found, GroupKernel, LanedKernel, Slopes};
 use crate::derivatives::loads::kernel_loads::{KernelInputs, KernelLoads};
@@ -21,11 +21,12 @@ use crate::equations::side_by_side::fallbacks;
 #[cfg(feature = "lanes")]
 use crate::equations::side_by_side::group::DeviceGroup;
 use crate::isolation::carrier::Carrier;
-use crate::model::joint_array::MAX_JOINTS;
 #[cfg(feature = "lanes")]
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
+#[cfg(feature = "lanes")]
 use crate::model::mode::Mode;
+#[cfg(feature = "lanes")]
 use crate::numbers::each::Each;
 #[cfg(feature = "lanes")]
 use crate::numbers::each::JointStates;
@@ -33,7 +34,7 @@ use crate::numbers::each::JointStates;
 use crate::numbers::laned::WIDEST;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
-use crate::sets::bundle::{Bundle, Given, Shared};
+use crate::sets::bundle::Bundle;
 #[cfg(feature = "lanes")]
 use crate::sets::bundle::{MemberIndex, Part};
 use crate::sets::carrying::{Carrying, PreparedCarrying};
@@ -42,6 +43,7 @@ use crate::sets::devices::Devices;
 use crate::sets::devices::{DeviceSet, Visit};
 #[cfg(feature = "lanes")]
 use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
+#[cfg(feature = "lanes")]
 use crate::sets::per_device as data;
 #[cfg(feature = "lanes")]
 use crate::solve::rows::{copy, members};
@@ -74,26 +76,10 @@ impl<'a, T: Scalar> EachDevice<'a, T> {
     }
 }
 
-impl JointModes {
-    /// Of a device whose joints have these modes.
-    fn of<K: Kind>(modes: &K::PerJoint<Mode<K::Scalar>>) -> Self {
-        let (mut free, mut accelerated) = ([false; MAX_JOINTS], [false; MAX_JOINTS]);
-        let modes = modes.values().zip(K::JOINTS);
-        for ((free, accelerated), (mode, info)) in free.iter_mut().zip(&mut accelerated).zip(modes)
-        {
-            *free = mode == Mode::Driven && info.driven;
-            *accelerated = matches!(mode, Mode::Prescribed(_)) && info.driven;
-        }
-        Self { free, accelerated }
-    }
-}
-
-/// State, inputs and accelerations of the joints.
-pub(crate) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
-
 /// A device's joints eliminated by the instructions of this CPU.
 #[cfg(feature = "lanes")]
 struct Dispatched<'a, 'b, T> {
+    count: usize,
     given: &'a GivenJoints<'a, T>,
     loads: &'b KernelLoads<T>,
     found: &'b mut LoadColumns<T>,
@@ -105,8 +91,8 @@ impl<T: Scalar> pulp::WithSimd for Dispatched<'_, '_, T> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { given, loads, found } = self;
-        found.add(given, loads);
+        let Self { count, given, loads, found } = self;
+        found.add(count, given, loads);
     }
 }
 
@@ -118,22 +104,23 @@ fn eliminate<K: Kind>(
     loads: &KernelLoads<K::Scalar>,
     found: &mut LoadColumns<K::Scalar>,
 ) {
-    let given = &GivenJoints { mount: &device.mount, count: K::JOINTS.len(), modes };
+    let (count, given) = (K::JOINTS.len(), &GivenJoints { mount: &device.mount, modes });
     match by {
         #[cfg(feature = "lanes")]
-        Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { given, loads, found }),
-        Arithmetic::Portable => portable(given, loads, found),
+        Arithmetic::Dispatched(cpu) => cpu.dispatch(Dispatched { count, given, loads, found }),
+        Arithmetic::Portable => portable(count, given, loads, found),
     }
 }
 
 // Never inlined: one copy for all kinds.
 #[inline(never)]
 fn portable<T: Scalar>(
+    count: usize,
     given: &GivenJoints<'_, T>,
     loads: &KernelLoads<T>,
     found: &mut LoadColumns<T>,
 ) {
-    found.add(given, loads);
+    found.add(count, given, loads);
 }
 
 /// Joints of a device, their modes, their accelerations.

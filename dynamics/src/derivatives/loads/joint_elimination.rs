@@ -9,6 +9,7 @@ use crate::numbers::real::{Real, Scalar, one, zero};
 
 /// What a load of a device is with its joints eliminated: what is left for the hub's equations, on their right side, and
 /// by how much less its joints accelerate on a hub whose accelerations do not change.
+#[cfg(feature = "alloc")]
 type Reduced<T, const N: usize> = (Six<T>, [T; N]);
 
 /// The joints of one device, eliminated.
@@ -114,6 +115,7 @@ impl<T: Real, const N: usize> JointElimination<T, N> {
     }
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Scalar, const N: usize> JointElimination<T, N> {
     /// Among more joints, which are not free.
     pub(crate) fn padded(&self) -> JointElimination<T, MAX_JOINTS> {

@@ -8,6 +8,11 @@ use crate::equations::load_sums::HubAccelerations;
 use crate::equations::system::Solution;
 use crate::model::kind::{Kind, LoadDerivatives};
 use crate::numbers::vec3::{Vec3, rotate_transposed};
+use crate::sets::bundle::{Given, Shared};
+use crate::sets::per_device as data;
+
+/// State, inputs and accelerations of the joints.
+pub(crate) type Moving = (Shared<data::Joints>, Given, Shared<data::Accelerations>);
 
 /// A device has no emitted derivatives: a platform, the lumped model, more joints than
 /// [`MAX_JOINTS`](crate::MAX_JOINTS).
@@ -20,7 +25,6 @@ pub(crate) fn check_coupled<K: Kind>(device: &Device<K>) -> Result<(), NotEmitte
 }
 
 /// Rejects kinds of more joints than arrays of one device have.
-#[cfg(feature = "alloc")]
 pub(crate) fn check_count<K: Kind>() -> Result<(), NotEmitted> {
     let fits = K::JOINTS.len() <= crate::model::joint_array::MAX_JOINTS;
     if fits { Ok(()) } else { Err(NotEmitted) }

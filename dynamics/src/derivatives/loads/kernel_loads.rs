@@ -11,7 +11,7 @@ use crate::equations::load_sums::HubAccelerations;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{Kernels, Kind, LoadColumn, LoadDerivatives};
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Real, Scalar, zero};
+use crate::numbers::real::{Real, Scalar};
 use crate::numbers::vec3::{Vec3, components};
 
 /// Groups of variables: of each joint its coordinate, rate and acceleration; the hub's angular velocity and its
@@ -43,8 +43,8 @@ pub(crate) struct KernelLoads<T> {
 }
 
 impl<T: Scalar> KernelLoads<T> {
-    pub(crate) fn none() -> Self {
-        Self { groups: [LoadGroup::none(zero()); GROUPS] }
+    pub(crate) const fn none() -> Self {
+        Self { groups: [LoadGroup::none(T::ZERO); GROUPS] }
     }
 
     /// Evaluates the kernel of a device.

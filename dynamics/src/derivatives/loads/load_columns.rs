@@ -2,12 +2,15 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
+#[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
 use crate::derivatives::loads::device_reduction::{DeviceReduction, JointModes};
 use crate::derivatives::loads::joint_elimination::JointElimination;
 use crate::derivatives::loads::kernel_loads::KernelLoads;
+#[cfg(feature = "alloc")]
 use crate::derivatives::loads::mass_system::Gains;
+use crate::derivatives::loads::mass_system::{Block, set_gains};
 use crate::derivatives::loads::side_by_side::{HubGroup, Six, TOGETHER};
 use crate::model::joint_array::MAX_JOINTS;
 use crate::numbers::real::{Scalar, zero};
@@ -28,16 +31,33 @@ pub(crate) struct JointColumns<T> {
 }
 
 impl<T: Scalar> JointColumns<T> {
-    fn none() -> Self {
-        let (hub, less) = ([[zero(); TOGETHER]; 6], [[zero(); TOGETHER]; MAX_JOINTS]);
+    pub(crate) const fn none() -> Self {
+        let (hub, less) = ([[T::ZERO; TOGETHER]; 6], [[T::ZERO; TOGETHER]; MAX_JOINTS]);
         Self { first: 0, count: 0, free: false, hub, less }
     }
 }
 
+/// The sums of all devices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HubSums<T> {
+    /// By the angular velocity of the hub, B axes: what is left for the hub.
+    pub(crate) omega: HubGroup<T>,
+    /// What the devices add to the hub's matrix, by columns, what is not below the diagonal.
+    pub(crate) matrix: [Six<T>; 6],
+}
+
+impl<T: Scalar> HubSums<T> {
+    pub(crate) const fn none() -> Self {
+        Self { omega: [[T::ZERO; TOGETHER]; 6], matrix: [[T::ZERO; 6]; 6] }
+    }
+}
+
 /// The number of joints of a device, and these eliminated.
+#[cfg(feature = "alloc")]
 type Kept<T> = (usize, JointElimination<T, MAX_JOINTS>);
 
 /// Those of all devices with their joints eliminated.
+#[cfg(feature = "alloc")]
 #[derive(Debug)]
 pub(crate) struct LoadColumns<T> {
     /// Those of the joints, and of lanes without a device in the last group, which are written, too.
@@ -46,36 +66,32 @@ pub(crate) struct LoadColumns<T> {
     count: usize,
     /// The joint that comes next.
     pub(crate) next: usize,
-    /// By the angular velocity of the hub, B axes: what is left for the hub, of all devices.
-    pub(crate) omega: HubGroup<T>,
     /// By how much less the joints accelerate.
-    pub(crate) gains: Gains<T>,
+    pub(crate) gains: Vec<Block<T>>,
+    pub(crate) sums: HubSums<T>,
     /// Of each device, where it is kept.
     pub(crate) eliminated: Option<Vec<Kept<T>>>,
-    /// What the devices add to the hub's matrix, by columns, what is not below the diagonal.
-    pub(crate) matrix: [Six<T>; 6],
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Scalar> LoadColumns<T> {
     fn none() -> Self {
         Self {
             joints: Vec::new(),
             count: 0,
             next: 0,
-            omega: [[zero(); TOGETHER]; 6],
-            gains: Gains::none(),
+            gains: Vec::new(),
+            sums: HubSums::none(),
             eliminated: None,
-            matrix: [[zero(); 6]; 6],
         }
     }
 
     /// Of no device; so many joints are expected. What room there is stays.
     pub(crate) fn begin(&mut self, joints: usize) {
         (self.count, self.next) = (joints, 0);
-        self.omega = [[zero(); TOGETHER]; 6];
-        self.matrix = [[zero(); 6]; 6];
+        self.sums = HubSums::none();
         self.make_room(joints);
-        self.gains.resize(joints);
+        self.gains.resize(joints.div_ceil(TOGETHER), [[zero(); TOGETHER]; 9]);
     }
 
     /// Makes room for so many joints, where there is less.
@@ -86,19 +102,19 @@ impl<T: Scalar> LoadColumns<T> {
         }
     }
 
+    /// How the joints follow the hub.
+    pub(crate) fn gains(&self) -> Gains<'_, T> {
+        Gains { blocks: &self.gains }
+    }
+
     /// Those of each joint.
     pub(crate) fn joints(&self) -> &[JointColumns<T>] {
         self.joints.get(..self.count).unwrap_or_default()
     }
 
-    /// Those of each joint, to be changed.
-    pub(crate) fn joints_mut(&mut self) -> &mut [JointColumns<T>] {
-        self.joints.get_mut(..self.count).unwrap_or_default()
-    }
-
-    /// Those of the joints that come next.
-    pub(crate) fn next_joints(&mut self) -> &mut [JointColumns<T>] {
-        self.joints.get_mut(self.next..).unwrap_or_default()
+    /// Those of each joint, to be changed, and the sums.
+    pub(crate) fn joints_and_sums(&mut self) -> (&mut [JointColumns<T>], &HubSums<T>) {
+        (self.joints.get_mut(..self.count).unwrap_or_default(), &self.sums)
     }
 
     /// Those of so many joints that come next, of lanes without a device, too.
@@ -107,11 +123,12 @@ impl<T: Scalar> LoadColumns<T> {
     #[inline(never)]
     pub(crate) fn next_joints_of_group(&mut self, joints: usize) -> &mut [JointColumns<T>] {
         self.make_room(self.next.saturating_add(joints));
-        self.next_joints()
+        self.joints.get_mut(self.next..).unwrap_or_default()
     }
 }
 
 /// Where the columns of all devices are written. Kept from one state to the next, it is allocated once.
+#[cfg(feature = "alloc")]
 #[derive(Debug)]
 pub(crate) struct LoadsWorkspace<T> {
     pub(crate) columns: LoadColumns<T>,
@@ -119,24 +136,25 @@ pub(crate) struct LoadsWorkspace<T> {
     pub(crate) loads: Vec<KernelLoads<T>>,
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Scalar> LoadsWorkspace<T> {
     pub(crate) fn new() -> Self {
         Self { columns: LoadColumns::none(), loads: Vec::new() }
     }
 }
 
-/// What is given of the joints of a device, their number, and its mount.
+/// What is given of the joints of a device, and its mount.
 pub(crate) struct GivenJoints<'a, T> {
     pub(crate) mount: &'a Columns<T>,
-    pub(crate) count: usize,
     pub(crate) modes: JointModes,
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Scalar> LoadColumns<T> {
-    /// Adds a device.
+    /// Adds a device of a number of joints.
     #[inline(always)]
-    pub(crate) fn add(&mut self, given: &GivenJoints<'_, T>, loads: &KernelLoads<T>) {
-        match given.count {
+    pub(crate) fn add(&mut self, count: usize, given: &GivenJoints<'_, T>, loads: &KernelLoads<T>) {
+        match count {
             0 | 1 => self.add_joints::<1>(given, loads),
             2 => self.add_joints::<2>(given, loads),
             3 => self.add_joints::<3>(given, loads),
@@ -150,9 +168,35 @@ impl<T: Scalar> LoadColumns<T> {
     /// Adds a device of so many joints.
     #[inline(always)]
     fn add_joints<const N: usize>(&mut self, given: &GivenJoints<'_, T>, loads: &KernelLoads<T>) {
-        let GivenJoints { mount, modes, .. } = given;
-        let first = self.next;
-        let Some(own) = self.next_joints().first_chunk_mut::<N>() else { return };
+        let Self { joints, gains, sums, next, eliminated, .. } = self;
+        let mut to = DeviceColumns { joints, gains, sums, first: *next };
+        let Some(found) = to.add::<N>(given, loads) else { return };
+        if let Some(list) = eliminated {
+            list.push((N, found.padded()));
+        }
+        *next = next.wrapping_add(N);
+    }
+}
+
+/// Where a device is added: columns and gains of all joints, of which those from the first on are its own.
+pub(crate) struct DeviceColumns<'a, T, const P: usize> {
+    pub(crate) joints: &'a mut [JointColumns<T>],
+    pub(crate) gains: &'a mut [Block<T, P>],
+    pub(crate) sums: &'a mut HubSums<T>,
+    pub(crate) first: usize,
+}
+
+impl<T: Scalar, const P: usize> DeviceColumns<'_, T, P> {
+    /// Adds a device of so many joints; none, and nothing added, where there is no room for them.
+    #[inline(always)]
+    pub(crate) fn add<const N: usize>(
+        &mut self,
+        GivenJoints { mount, modes, .. }: &GivenJoints<'_, T>,
+        loads: &KernelLoads<T>,
+    ) -> Option<JointElimination<T, N>> {
+        let Self { joints, gains, sums, first } = self;
+        let first = *first;
+        let own = joints.get_mut(first..)?.first_chunk_mut::<N>()?;
         let groups = loads.groups();
         let show = |joint: usize, hub: &HubGroup<T>, less: &[[T; TOGETHER]; N]| {
             let Some(to) = own.get_mut(joint) else { return };
@@ -162,16 +206,13 @@ impl<T: Scalar> LoadColumns<T> {
         };
         let found = DeviceReduction::<T, N, TOGETHER>::new(zero(), mount, modes, &groups, show);
         let DeviceReduction { eliminated, omega, less_by_omega, matrix } = found;
-        add(self.omega.as_flattened_mut(), omega.as_flattened());
-        add(self.matrix.as_flattened_mut(), matrix.as_flattened());
-        let gains = eliminated.gains.iter().zip(&less_by_omega);
-        for (joint, (gains, [x, y, z, _])) in (first..).zip(gains) {
-            self.gains.set(joint, gains, &[*x, *y, *z]);
+        add(sums.omega.as_flattened_mut(), omega.as_flattened());
+        add(sums.matrix.as_flattened_mut(), matrix.as_flattened());
+        let of_joints = eliminated.gains.iter().zip(&less_by_omega);
+        for (joint, (of, [x, y, z, _])) in (first..).zip(of_joints) {
+            set_gains(gains, joint, of, &[*x, *y, *z]);
         }
-        if let Some(list) = &mut self.eliminated {
-            list.push((N, eliminated.padded()));
-        }
-        self.next = first.wrapping_add(N);
+        Some(eliminated)
     }
 }
 

@@ -7,7 +7,8 @@ use std::vec::Vec;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::each_device::{EachDevice, Moving};
+use super::each_device::EachDevice;
+use super::kernel::Moving;
 use super::load_columns::{LoadColumns, LoadsWorkspace};
 use super::side_by_side::TOGETHER;
 use crate::equations::load_sums::HubAccelerations;
@@ -121,8 +122,9 @@ fn found<D: DeviceSet<Scalar = f64> + crate::Devices>(
         let less = three(of.less.get(..of.count).unwrap_or_default());
         (of.first, of.count, of.free, three(&of.hub), less)
     });
-    let (of_joints, omega) = (of_joints.collect::<Vec<_>>(), three(&columns.omega));
-    let LoadColumns { gains, eliminated, matrix, .. } = columns;
+    let (of_joints, omega) = (of_joints.collect::<Vec<_>>(), three(&columns.sums.omega));
+    let LoadColumns { gains, eliminated, sums, .. } = columns;
+    let matrix = sums.matrix;
     format!("{of_joints:?} {omega:?} {gains:?} {eliminated:?} {matrix:?}")
 }
 

@@ -5,8 +5,6 @@
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
-use alloc::vec::Vec;
-
 use crate::derivatives::loads::joint_elimination::inverse;
 use crate::derivatives::loads::side_by_side::{Finiteness, HubGroup, Six, TOGETHER, add_product};
 use crate::equations::hub::HubConstants;
@@ -14,42 +12,40 @@ use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
 
 /// Of some joints in a row.
-pub(crate) type Block<T> = [[T; TOGETHER]; 9];
+pub(crate) type Block<T, const P: usize = TOGETHER> = [[T; P]; 9];
 
 /// How free joints follow the hub: `-M_jj⁻¹ M_jh` by each of its accelerations; then by how much less they accelerate by
-/// each component of its angular velocity. Some joints after one another side by side.
-#[derive(Debug)]
-pub(crate) struct Gains<T> {
-    blocks: Vec<Block<T>>,
+/// each component of its angular velocity. So many joints after one another side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gains<'a, T, const P: usize = TOGETHER> {
+    pub(crate) blocks: &'a [Block<T, P>],
 }
 
-impl<T: Scalar> Gains<T> {
-    pub(crate) const fn none() -> Self {
-        Self { blocks: Vec::new() }
-    }
-
-    /// Room for so many joints.
-    pub(crate) fn resize(&mut self, joints: usize) {
-        self.blocks.resize(joints.div_ceil(TOGETHER), [[zero(); TOGETHER]; 9]);
-    }
-
-    /// Sets those of a joint, by how much less it accelerates: by the hub's accelerations, by its angular velocity.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, joint: usize, of: &Six<T>, by_omega: &Vec3<T>) {
-        let Some(block) = self.blocks.get_mut(joint / TOGETHER) else { return };
-        let ([a, b, c, d, e, f], [p, q, r]) = (*of, *by_omega);
-        for (line, gain) in block.iter_mut().zip([-a, -b, -c, -d, -e, -f, p, q, r]) {
-            line[joint % TOGETHER] = gain;
+/// Sets those of a joint, by how much less it accelerates: by the hub's accelerations, by its angular velocity.
+#[inline(always)]
+pub(crate) fn set_gains<T: Scalar, const P: usize>(
+    blocks: &mut [Block<T, P>],
+    joint: usize,
+    of: &Six<T>,
+    by_omega: &Vec3<T>,
+) {
+    let Some(block) = blocks.get_mut(joint / P.max(1)) else { return };
+    let ([a, b, c, d, e, f], [p, q, r]) = (*of, *by_omega);
+    for (line, gain) in block.iter_mut().zip([-a, -b, -c, -d, -e, -f, p, q, r]) {
+        if let Some(to) = line.get_mut(joint % P.max(1)) {
+            *to = gain;
         }
     }
+}
 
+impl<T: Scalar, const P: usize> Gains<'_, T, P> {
     /// What the joints' accelerations are where the hub has these: of joints that nothing moves minus zero. Sees all of
     /// them: a loop with a sum is not vectorised across blocks, which would gather their numbers.
     #[inline(always)]
     pub(crate) fn follow(&self, base: &Six<T>, out: &mut [T], finite: &mut Finiteness<T>) {
-        let (fours, last) = out.as_chunks_mut::<TOGETHER>();
+        let (whole, last) = out.as_chunks_mut::<P>();
         let mut blocks = self.blocks.iter();
-        for (to, block) in fours.iter_mut().zip(&mut blocks) {
+        for (to, block) in whole.iter_mut().zip(&mut blocks) {
             *to = followed(block, base);
             finite.see(to);
         }
@@ -59,6 +55,18 @@ impl<T: Scalar> Gains<T> {
         }
     }
 
+    /// Takes what they accelerate less by the angular velocity about an axis.
+    #[inline(always)]
+    pub(crate) fn subtract_by_omega(&self, axis: usize, out: &mut [T]) {
+        for (to, block) in out.chunks_mut(P.max(1)).zip(self.blocks) {
+            let line = block.get(axis.wrapping_add(6)).into_iter().flatten();
+            to.iter_mut().zip(line).for_each(|(to, less)| *to = *to - *less);
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Gains<'_, T> {
     /// The same as `own` changes it, twice, and zeros: three lists of as many joints.
     #[inline(always)]
     pub(crate) fn follow_twice(
@@ -72,7 +80,7 @@ impl<T: Scalar> Gains<T> {
         let (copies, last_copy) = copy.as_chunks_mut::<TOGETHER>();
         let (cleared, last_zeros) = zeros.as_chunks_mut::<TOGETHER>();
         let whole = fours.iter_mut().zip(copies).zip(cleared);
-        for (((to, copy), zeros), block) in whole.zip(&self.blocks) {
+        for (((to, copy), zeros), block) in whole.zip(self.blocks) {
             let found = own(followed(block, base), block);
             (*to, *copy, *zeros) = (found, found, [zero(); TOGETHER]);
             finite.see(&found);
@@ -104,21 +112,12 @@ impl<T: Scalar> Gains<T> {
         let place = joint % TOGETHER;
         [x[place], y[place], z[place]]
     }
-
-    /// Takes what they accelerate less by the angular velocity about an axis.
-    #[inline(always)]
-    pub(crate) fn subtract_by_omega(&self, axis: usize, out: &mut [T]) {
-        for (to, block) in out.chunks_mut(TOGETHER).zip(&self.blocks) {
-            let line = block.get(axis.wrapping_add(6)).into_iter().flatten();
-            to.iter_mut().zip(line).for_each(|(to, less)| *to = *to - *less);
-        }
-    }
 }
 
 /// What some joints' accelerations are where the hub has these.
 #[inline(always)]
-fn followed<T: Scalar>(block: &Block<T>, base: &Six<T>) -> [T; TOGETHER] {
-    let ([a, b, c, d, e, f, ..], mut found) = (block, [zero(); TOGETHER]);
+fn followed<T: Scalar, const P: usize>(block: &Block<T, P>, base: &Six<T>) -> [T; P] {
+    let ([a, b, c, d, e, f, ..], mut found) = (block, [zero(); P]);
     for (k, to) in found.iter_mut().enumerate() {
         let linear = a[k] * base[0] + b[k] * base[1] + c[k] * base[2];
         *to = linear + d[k] * base[3] + e[k] * base[4] + f[k] * base[5];
@@ -127,6 +126,7 @@ fn followed<T: Scalar>(block: &Block<T>, base: &Six<T>) -> [T; TOGETHER] {
 }
 
 /// What some joints accelerate less what they do by the angular velocity about an axis.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn less<T: Scalar>(
     mut found: [T; TOGETHER],
@@ -159,6 +159,7 @@ impl<T: Scalar> MassSystem<T> {
     }
 
     /// The hub's accelerations for a right side of its equations; those that are given where it is not free.
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn hub(&self, right: &Six<T>, given: Six<T>) -> Six<T> {
         let Some(inverse) = &self.inverse else { return given };

@@ -3,28 +3,22 @@
 
 #[cfg(feature = "alloc")]
 pub(crate) mod by_joints;
-#[cfg(feature = "alloc")]
 pub(crate) mod by_loads;
 #[cfg(feature = "lanes")]
 mod columns_of_group;
-#[cfg(feature = "alloc")]
 pub(crate) mod device_reduction;
 #[cfg(feature = "alloc")]
 pub(crate) mod each_device;
-#[cfg(feature = "alloc")]
+pub(crate) mod fixed_columns;
 pub(crate) mod joint_elimination;
 pub(crate) mod kernel;
 #[cfg(feature = "lanes")]
 pub(crate) mod kernel_in_lanes;
-#[cfg(feature = "alloc")]
 mod kernel_loads;
-#[cfg(feature = "alloc")]
 pub(crate) mod load_columns;
 #[cfg(all(test, feature = "lanes"))]
 mod load_columns_tests;
-#[cfg(feature = "alloc")]
 pub(crate) mod mass_system;
 #[cfg(feature = "alloc")]
 pub(crate) mod row_product;
-#[cfg(feature = "alloc")]
 pub(crate) mod side_by_side;

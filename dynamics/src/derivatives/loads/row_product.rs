@@ -82,7 +82,7 @@ impl<T: Scalar> RowProduct<T> {
     /// Reads what the states change.
     fn read(&mut self, loads: &ByLoads<'_, T>, states: &[Variable]) {
         let Self { states: rows, field: fields, less, counts, places, omega, .. } = self;
-        let joints = loads.devices.joints();
+        let joints = loads.joints;
         rows.clear();
         fields.clear();
         places.clear();
@@ -122,7 +122,7 @@ impl<T: Scalar> RowProduct<T> {
                 let entries = places.iter().zip([line[COORDINATE], line[RATE]]);
                 less.extend(entries.filter_map(|(state, entry)| state.map(|state| (state, entry))));
             }
-            let by_omega = omega.iter().zip(loads.devices.gains.by_omega(number));
+            let by_omega = omega.iter().zip(loads.gains.by_omega(number));
             less.extend(by_omega.filter_map(|(state, entry)| state.map(|state| (state, entry))));
             counts.push(less.len().wrapping_sub(before));
         }
@@ -179,7 +179,7 @@ impl<T: Scalar> Product<'_, '_, T> {
             let mut less = less.as_slice();
             for ((number, to), count) in to.enumerate().zip(&*counts) {
                 let mut sum = [zero::<T>(); COLUMNS];
-                let gains = loads.devices.gains.of_joint(number);
+                let gains = loads.gains.of_joint(number);
                 for (by, base) in gains.iter().zip(base.as_flattened()) {
                     add_product(&mut sum, *by, base);
                 }

@@ -17,6 +17,7 @@ pub(crate) type HubGroup<T, const P: usize = TOGETHER> = [[T; P]; 6];
 
 /// By one variable: force and moment about B that the hub exerts on a device, B axes, and what each of its motors exerts
 /// less spring and friction.
+#[cfg(feature = "alloc")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Load<T> {
     pub(crate) hub: Six<T>,
@@ -30,6 +31,7 @@ pub(crate) struct LoadGroup<T, const JOINTS: usize = MAX_JOINTS, const P: usize 
     pub(crate) joints: [[T; P]; JOINTS],
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Scalar> Load<T> {
     pub(crate) fn none() -> Self {
         Self { hub: [zero(); 6], joints: [zero(); MAX_JOINTS] }
@@ -38,7 +40,7 @@ impl<T: Scalar> Load<T> {
 
 impl<T: Copy, const JOINTS: usize, const P: usize> LoadGroup<T, JOINTS, P> {
     #[inline(always)]
-    pub(crate) fn none(zero: T) -> Self {
+    pub(crate) const fn none(zero: T) -> Self {
         Self { hub: [[zero; P]; 6], joints: [[zero; P]; JOINTS] }
     }
 
@@ -113,7 +115,7 @@ impl<T: Scalar> Finiteness<T> {
     }
 
     #[inline(always)]
-    pub(crate) fn see(&mut self, numbers: &[T; TOGETHER]) {
+    pub(crate) fn see<const P: usize>(&mut self, numbers: &[T; P]) {
         for (sum, number) in self.sums.iter_mut().zip(numbers) {
             *sum = *sum + *number;
         }

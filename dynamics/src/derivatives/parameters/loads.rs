@@ -9,7 +9,8 @@ use alloc::vec::Vec;
 use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::dual::column::Column;
 use crate::derivatives::error::DerivativeError;
-use crate::derivatives::loads::each_device::{EachDevice, Moving};
+use crate::derivatives::loads::each_device::EachDevice;
+use crate::derivatives::loads::kernel::Moving;
 use crate::derivatives::loads::load_columns::{LoadColumns, LoadsWorkspace};
 use crate::derivatives::loads::mass_system::MassSystem;
 use crate::derivatives::loads::side_by_side::{Finiteness, Load, Six};
@@ -99,7 +100,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
                 bodies: inputs.bodies.as_ref(),
             },
             device: (DeviceMotion::none(), None),
-            system: MassSystem::new(&craft.hub, craft.mass(), &loads.matrix, hub_is_free),
+            system: MassSystem::new(&craft.hub, craft.mass(), &loads.sums.matrix, hub_is_free),
             columns: loads,
             bn: columns(&state.attitude.dcm()),
             accelerations: vec![zero(); joints],
@@ -178,7 +179,7 @@ impl<'a, D: WithNumbers> ParameterLoads<'a, D> {
         );
         let base = self.system.hub(&hub, [zero(); 6]);
         let finite = &mut Finiteness::of_none();
-        self.columns.gains.follow(&base, &mut self.accelerations, finite);
+        self.columns.gains().follow(&base, &mut self.accelerations, finite);
         let own = self.accelerations.iter_mut().skip(first);
         let count = eliminated.map_or(0, |(count, _)| *count);
         own.zip(joints).take(count).for_each(|(to, less)| *to = *to - less);

@@ -153,7 +153,8 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         })?;
         let accelerations = self.joints().count().saturating_add(S::modes(self)).saturating_add(6);
         let ChainWorkspace { chain, by_states, by_held, moving } = workspace;
-        Slopes::list_moving(inputs, moving);
+        moving.clear();
+        Slopes::moving_joints(inputs).for_each(|joint| moving.push(joint));
         set_size(by_states, accelerations, b.nrows());
         set_size(by_held, accelerations, b.ncols());
         let hub = !matches!(inputs.hub, HubMode::Fixed);

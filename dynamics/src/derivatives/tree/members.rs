@@ -4,8 +4,7 @@
 
 use alloc::vec::Vec;
 
-use crate::derivatives::loads::each_device::Moving;
-use crate::derivatives::loads::kernel::{NotEmitted, check_count};
+use crate::derivatives::loads::kernel::{Moving, NotEmitted, check_count};
 use crate::derivatives::loads::side_by_side::Load;
 use crate::derivatives::tree::applied_columns::{Applied, by_wrenches};
 use crate::derivatives::tree::base_motion::{BaseMotion, Link, Moments, spatial};

@@ -1,62 +1,30 @@
 //! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and
 //! four, and of what steers four DGVSCMGs.
 //!
-//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick
-//! every 40 instructions. Costs depend on the set, modes and gravity, not on the numbers: a free
+//! Costs depend on the set, modes and gravity, not on the numbers: a free
 //! hub, every motor driven, no gravity, as in the committed counts of the desktop.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use core::fmt::{self, Display, Write};
+use core::fmt::Write;
 use core::hint::black_box;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Accelerations, Angle, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, FlexibleVscmg,
-    HingedPanel, Hub, Inputs, JointStates, ParameterError, ReactionWheel, Scalar, Servo, Sgcmg,
-    SloshMass, SolveError, Spacecraft, State, Steered, SteeringLaw, Vscmg,
+    BalancedVscmg, Dgcmg, Dgvscmg, FixedSet, FlexibleReactionWheel, FlexibleVscmg, HingedPanel,
+    Inputs, ReactionWheel, Scalar, Servo, Sgcmg, SloshMass, Spacecraft, State, Steered,
+    SteeringLaw, Vscmg,
 };
-use precess_firmware::board::{Options, Timer};
-use precess_firmware::random::Random;
+use precess_firmware::board::Options;
+use precess_firmware::count::{Counts, Stop, hub, moving};
 use precess_flight_library as library;
 use precess_flight_library::{Evaluate, Step};
 
 precess_firmware::program!(program);
 
-/// Instructions in a tick of the timer.
-const PER_TICK: u32 = 40;
-
-/// Calls per count: a tick more or less is less than half an instruction.
-const CALLS: u32 = 100;
-
 /// Step of the integrator, s.
 const STEP: f64 = 1e-3;
-
-/// Why the program stopped.
-enum Stop {
-    Console,
-    Parameters(ParameterError<f64>),
-    Solve(SolveError<f64>),
-    Rejected,
-}
-
-impl Display for Stop {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Console => write!(f, "the console took no more"),
-            Self::Parameters(error) => write!(f, "{error}"),
-            Self::Solve(error) => write!(f, "{error}"),
-            Self::Rejected => write!(f, "a call was rejected"),
-        }
-    }
-}
-
-impl From<fmt::Error> for Stop {
-    fn from(_: fmt::Error) -> Self {
-        Self::Console
-    }
-}
 
 /// Counts each of these: `module device devices;`.
 macro_rules! count {
@@ -71,12 +39,12 @@ macro_rules! count {
 }
 
 fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
-    let mut counts = Counts { out, lines: 0 };
-    counts.line("sin_cos", || {
+    let mut counts = Measured(Counts::new(out));
+    counts.0.line("sin_cos", || {
         black_box(Angle::sin_cos(black_box(1.25_f64)));
         true
     })?;
-    counts.line("sqrt", || {
+    counts.0.line("sqrt", || {
         black_box(Scalar::sqrt(black_box(1.25_f64)));
         true
     })?;
@@ -129,16 +97,13 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
     }
     counts.steering(dgvscmg)?;
     counts.baked()?;
-    Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)
+    counts.0.end()
 }
 
-/// Prints counts, and counts the lines.
-struct Counts<'a> {
-    out: &'a mut dyn Write,
-    lines: u32,
-}
+/// What is counted of devices.
+struct Measured<'a>(Counts<'a>);
 
-impl Counts<'_> {
+impl Measured<'_> {
     /// An evaluation and a step of these devices.
     fn count<D: FixedSet<Scalar = f64>>(
         &mut self,
@@ -154,10 +119,10 @@ impl Counts<'_> {
             craft.accelerations(&state, &inputs).map_err(Stop::Solve)?;
         // Known to the compiler neither by address nor by value: nothing is inlined.
         let (evaluate, step) = (black_box(evaluate), black_box(step));
-        write!(self.out, "{name} accelerations")?;
-        self.line("", || evaluate(&craft, black_box(&state), &inputs, black_box(&mut found)))?;
-        write!(self.out, "{name} step")?;
-        self.line("", || step(&craft, black_box(&mut state), &inputs, STEP))
+        write!(self.0.out, "{name} accelerations")?;
+        self.0.line("", || evaluate(&craft, black_box(&state), &inputs, black_box(&mut found)))?;
+        write!(self.0.out, "{name} step")?;
+        self.0.line("", || step(&craft, black_box(&mut state), &inputs, STEP))
     }
 
     /// Terms, allocation of a torque, and servo of four DGVSCMGs: every gimbal by its rate, every wheel by its acceleration.
@@ -185,17 +150,17 @@ impl Counts<'_> {
         let mut torques = [0.0; JOINTS];
         // By address, so that nothing is inlined.
         let of_terms: extern "C" fn(&_, &_, &mut _) -> bool = black_box(steering::terms);
-        self.line("dgvscmg_4 steering_terms", || {
+        self.0.line("dgvscmg_4 steering_terms", || {
             of_terms(&craft, black_box(&state), black_box(&mut terms))
         })?;
         let allocate: extern "C" fn(&_, &_, &_, &mut _) -> bool = black_box(steering::allocate);
-        self.line("dgvscmg_4 allocate", || {
+        self.0.line("dgvscmg_4 allocate", || {
             allocate(&law, black_box(&matrix), &torque, black_box(&mut found))
         })?;
         let commands = [0.1; JOINTS];
         let of_servo: extern "C" fn(&_, &_, &_, &_, &_, &mut _) -> bool =
             black_box(steering::servo);
-        self.line("dgvscmg_4 servo", || {
+        self.0.line("dgvscmg_4 servo", || {
             let state = black_box(&state);
             of_servo(&craft, &servo, state, &inputs, &commands, black_box(&mut torques))
         })
@@ -238,49 +203,9 @@ impl Counts<'_> {
         };
         // By address, so that nothing is inlined.
         let evaluate = black_box(Spacecraft::accelerations as Evaluated);
-        self.line("imaging_satellite accelerations", || {
+        self.0.line("imaging_satellite accelerations", || {
             let found = evaluate(black_box(&craft), black_box(&state), black_box(&inputs));
             black_box(&found).is_ok()
         })
-    }
-
-    fn line(&mut self, name: &str, mut call: impl FnMut() -> bool) -> Result<(), Stop> {
-        let timer = Timer::start();
-        let mut done = true;
-        for _ in 0..CALLS {
-            done &= call();
-        }
-        let ticks = timer.ticks();
-        if !done {
-            return Err(Stop::Rejected);
-        }
-        self.lines += 1;
-        // To the nearest.
-        Ok(writeln!(self.out, "{name}: {}", (ticks * PER_TICK + CALLS / 2) / CALLS)?)
-    }
-}
-
-fn hub() -> Hub {
-    Hub {
-        m_b: 800.0,
-        r_bc_b: Vector3::new(0.1, -0.2, 0.3),
-        i_b_bc: Matrix3::new(900.0, 50.0, 30.0, 50.0, 800.0, 20.0, 30.0, 20.0, 600.0),
-    }
-}
-
-/// General motion: nothing is zero, no gimbal is in a pose in which it has no inertia.
-fn moving<D: FixedSet<Scalar = f64>>(state: &mut State<D>, inputs: &mut Inputs<D>) {
-    let random = &mut Random::new(0x1AC_17C1);
-    let mut number = |size: f64| random.within(0.5 * size, size);
-    state.r_b_n = Vector3::from_fn(|_, _| number(100.0));
-    state.r_b_n_dot = Vector3::from_fn(|_, _| number(10.0));
-    state.omega = Vector3::from_fn(|_, _| number(0.5));
-    inputs.force = Vector3::from_fn(|_, _| number(10.0));
-    inputs.torque_b = Vector3::from_fn(|_, _| number(1.0));
-    for [coordinate, rate] in state.devices.states_mut() {
-        (*coordinate, *rate) = (number(1.0), number(2.0));
-    }
-    for motor in inputs.motors.values_mut() {
-        *motor = number(0.2);
     }
 }

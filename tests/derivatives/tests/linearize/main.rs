@@ -6,6 +6,7 @@ mod by_loads;
 mod columns;
 mod draw;
 mod figures;
+mod fixed;
 mod heap;
 mod known;
 mod outputs;

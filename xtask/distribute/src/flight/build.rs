@@ -21,6 +21,10 @@ const OUTER: [&str; 7] = [
     "LD_LIBRARY_PATH",
 ];
 
+/// The programs that count, with the feature that each needs.
+const COUNTING: [(&str, &str); 2] =
+    [("instructions", "count"), ("linearization", "count-linearization")];
+
 /// The manifest of the firmware's workspace.
 pub(super) fn firmware() -> PathBuf {
     root().join("flight/firmware")
@@ -43,8 +47,10 @@ pub(super) fn programs(board: &Board, programs: &[&str]) -> Result<PathBuf, Stri
     let (mut command, folder, images) = on_board(board, "build")?;
     stale(programs.iter().map(|program| images.join(program)))?;
     command.args(bins(programs));
-    if programs.contains(&"instructions") {
-        command.args(["--features", "count"]);
+    for (program, feature) in COUNTING {
+        if programs.contains(&program) {
+            command.args(["--features", feature]);
+        }
     }
     built(&mut command, &folder)?;
     Ok(images)

@@ -29,6 +29,10 @@ use xtask::skip::skip;
 const LIBRARY: &str = "precess-flight-library";
 const EXAMPLE: &str = "wake-up";
 const COUNTS: &str = "instructions";
+/// The library of the linearised system, which has the emitted derivatives, and the program that counts it: built apart,
+/// so that nothing else has them.
+const LINEARIZATION: &str = "precess-flight-linearization";
+const LINEARIZATION_COUNTS: &str = "linearization";
 
 /// Options of `flight`.
 #[derive(Args)]
@@ -86,6 +90,7 @@ fn built(boards: &[&Board]) -> Vec<Result<PathBuf, String>> {
         let mut programs = board.programs.to_vec();
         if board.name == BOARDS[0].name {
             programs.extend([EXAMPLE, COUNTS]);
+            build::programs(board, &[LINEARIZATION_COUNTS])?;
         }
         build::programs(board, &programs)
     };
@@ -143,19 +148,32 @@ fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
     let exports = exports.chain(steering);
     let library =
         Library { package: LIBRARY, features: &["standalone"], exports: exports.collect() };
-    let image = gates::passed(board, &library);
-    let images = xtask::run::target().map(|folder| {
-        folder.join("flight").join(board.name).join(board.triple).join("release").join(COUNTS)
-    });
-    let counts = images.and_then(|path| lines(&mut board.emulate(&path))).and_then(whole);
-    let found = match (&image, &counts) {
-        (Ok(image), Ok(counts)) => Some(Figures::from_image(image, counts)),
+    let exports = page::LINEARIZED.map(|devices| format!("precess_dgvscmg_{devices}_linearize"));
+    let linearization =
+        Library { package: LINEARIZATION, features: &["standalone"], exports: exports.into() };
+    let images = [&library, &linearization].map(|library| gates::passed(board, library));
+    let folder = xtask::run::target()
+        .map(|folder| folder.join("flight").join(board.name).join(board.triple).join("release"));
+    let counted = |folder: &Path| -> Result<Vec<String>, String> {
+        let of = |program: &str| lines(&mut board.emulate(&folder.join(program))).and_then(whole);
+        let mut counts = of(COUNTS)?;
+        counts.extend(of(LINEARIZATION_COUNTS)?);
+        Ok(counts)
+    };
+    let counts = folder.and_then(|folder| counted(&folder));
+    let found = match (&images, &counts) {
+        ([Ok(image), Ok(linearization)], Ok(counts)) => {
+            Some(Figures::from_images(image, linearization, counts))
+        }
         _ => None,
     };
-    let exports = library.exports.len();
-    let gated =
-        format!("gates: {LIBRARY}, {exports} exports, without allocator, panic or endless stack");
-    tally.check(&gated, image.map(|_| ()));
+    for (Library { package, exports, .. }, image) in [library, linearization].iter().zip(images) {
+        let exports = exports.len();
+        let gated = format!(
+            "gates: {package}, {exports} exports, without allocator, panic or endless stack"
+        );
+        tally.check(&gated, image.map(|_| ()));
+    }
     tally.check(&format!("{}: instructions counted", board.name), counts.map(|_| ()));
     match found? {
         Ok(figures) => Some(figures),

@@ -33,6 +33,9 @@ const SERVO: u64 = 17;
 /// What steers four DGVSCMGs: its name in the library.
 pub(super) const STEERING: [&str; 3] = ["steering_terms", "allocate", "servo"];
 
+/// Of so many DGVSCMGs the linearised system is measured.
+pub(super) const LINEARIZED: [u32; 2] = [1, 4];
+
 /// A set of devices that is measured.
 pub(super) struct Set {
     pub(super) kind: &'static str,
@@ -66,11 +69,17 @@ pub(super) struct Figures {
     baked: u64,
     /// Instructions, stack and code of each of [`STEERING`].
     steering: [[u64; 3]; 3],
+    /// The same of the linearised system of [`LINEARIZED`].
+    linearized: [[u64; 3]; 2],
 }
 
 impl Figures {
-    /// From the library's image and the lines of the program that counts.
-    pub(super) fn from_image(image: &Image, counts: &[String]) -> Result<Self, String> {
+    /// From the images of the library and of that of the linearised system, and the lines of the programs that count.
+    pub(super) fn from_images(
+        image: &Image,
+        linearization: &Image,
+        counts: &[String],
+    ) -> Result<Self, String> {
         let counted = |name: &str| {
             let of_line = |line: &String| line.strip_prefix(name)?.strip_prefix(": ")?.parse().ok();
             counts.iter().find_map(of_line).ok_or_else(|| format!("no count of `{name}`"))
@@ -95,13 +104,28 @@ impl Figures {
             let instructions = counted(&format!("dgvscmg_4 {call}"))?;
             *columns = [instructions, image.stack(&export)?, image.reach(&export)?];
         }
+        let mut linearized = [[0; 3]; 2];
+        for (columns, devices) in linearized.iter_mut().zip(LINEARIZED) {
+            let export = format!("precess_dgvscmg_{devices}_linearize");
+            let instructions = counted(&format!("dgvscmg_{devices} linearize"))?;
+            *columns = [instructions, linearization.stack(&export)?, linearization.reach(&export)?];
+        }
         Ok(Self {
             steering,
+            linearized,
             rows: sets().map(row).collect::<Result<_, String>>()?,
             text: image.text,
             parts: [counted("sin_cos")?, counted("sqrt")?],
             baked: counted("imaging_satellite accelerations")?,
         })
+    }
+
+    /// Name and columns of what steers and of the linearised system: instructions, stack, code.
+    fn others(&self) -> impl Iterator<Item = (String, [u64; 3])> {
+        let steering = STEERING.map(|call| format!("steering: {call}"));
+        let linearized = LINEARIZED.map(|devices| format!("linearized: dgvscmg {devices}"));
+        let rows = steering.into_iter().zip(self.steering);
+        rows.chain(linearized.into_iter().zip(self.linearized))
     }
 
     fn instructions(&self, devices: u32) -> u64 {
@@ -137,6 +161,7 @@ pub(super) fn settle(
         parts: figures.parts,
         baked: figures.baked - figures.baked / 10,
         steering: figures.steering.map(|row| row.map(|n| n - n / 10)),
+        linearized: figures.linearized.map(|row| row.map(|n| n - n / 10)),
     };
     let caught = match held(figures, &page(compiler, &smaller)) {
         Ok(()) => Err("they passed: the gate is blind".to_owned()),
@@ -171,8 +196,7 @@ fn held(figures: &Figures, committed: &str) -> Result<(), String> {
     hold("whole library", figures.text, text);
     let baked = committed_row(committed, "imaging satellite, baked");
     hold("imaging satellite, baked", figures.baked, baked.and_then(|row| row.first().copied()));
-    for (call, columns) in STEERING.iter().zip(figures.steering) {
-        let name = format!("steering: {call}");
+    for (name, columns) in figures.others() {
         let before = committed_row(committed, &name);
         for (index, (what, now)) in
             ["instructions", "stack", "code"].iter().zip(columns).enumerate()
@@ -218,10 +242,19 @@ fn page(compiler: &str, figures: &Figures) -> String {
     let _ = writeln!(text, "| `imaging satellite, baked` | {} | | | | | |", figures.baked);
     text += "\n## What steers four DGVSCMGs\n\n`steering_terms`, `SteeringLaw::allocate` of the exact inverse for twelve joints, and `servo`, an evaluation with\n\
              prescribed joints and inverse dynamics:\n\n| call | instructions | stack | code |\n|---|---:|---:|---:|\n";
-    for (call, columns) in STEERING.iter().zip(figures.steering) {
-        let cells = columns.map(|number| number.to_string()).join(" | ");
-        let _ = writeln!(text, "| `steering: {call}` | {cells} |");
-    }
+    let mut others = figures.others();
+    let mut rows = |text: &mut String, count: usize| {
+        for (name, columns) in others.by_ref().take(count) {
+            let cells = columns.map(|number| number.to_string()).join(" | ");
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "| `{name}` | {cells} |");
+        }
+    };
+    rows(&mut text, STEERING.len());
+    text += "\n## The linearised system\n\n`Spacecraft::linearize_fixed`: the matrices A and B, 18 by 18 and 18 by 9 of one DGVSCMG, 36 by 36 and 36 by 18 of four,\n\
+             into the caller's arrays, with the accelerations. A library of its own, with the feature `derivatives`, which the other\n\
+             does not have. The workspace is the caller's, too:\n\n| call | instructions | stack | code |\n|---|---:|---:|---:|\n";
+    rows(&mut text, LINEARIZED.len());
     text
 }
 
@@ -259,6 +292,7 @@ mod tests {
             parts: [1, 2],
             baked: number,
             steering: [[number; 3]; 3],
+            linearized: [[number; 3]; 2],
         }
     }
 
