@@ -85,6 +85,8 @@ mod validation;
 pub use attitude::mrp::Mrp;
 pub use attitude::parameterisation::Attitude;
 pub use attitude::quaternion::Quaternion;
+#[cfg(feature = "alloc")]
+pub use derivatives::acceleration_derivatives::AccelerationDerivatives;
 pub use derivatives::dual::column::{Column, Outputs};
 pub use derivatives::error::DerivativeError;
 pub use derivatives::fixed_linearization::LinearizationWorkspace;

@@ -45,6 +45,18 @@ impl<'a, T: Scalar> Emitted<'a, T> {
         }
     }
 
+    /// Those of the accelerations by all states and by all inputs, whole; false where that has to be done column by column.
+    pub(crate) fn fill_accelerations(
+        &self,
+        slopes: &Slopes<'_, T>,
+        into: [&mut DMatrix<T>; 2],
+    ) -> bool {
+        match self {
+            Self::OnHub(found) => found.fill_accelerations(slopes, into),
+            Self::OfTree(_) => false,
+        }
+    }
+
     /// The accelerations' derivatives by these variables into the columns of a matrix; the first of the variables of which
     /// one is not finite.
     pub(crate) fn columns(

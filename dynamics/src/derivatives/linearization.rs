@@ -216,8 +216,31 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         self.columns_by(emitted, at, &outputs, lists, into).map(|()| false)
     }
 
+    /// Lists the joints that are not locked, the states and the inputs.
+    pub(crate) fn list_variables(
+        &self,
+        inputs: &Inputs<D, S>,
+        moving: &mut Vec<usize>,
+        [states, by_inputs]: [&mut Vec<Variable>; 2],
+    ) {
+        moving.clear();
+        Slopes::moving_joints(inputs).for_each(|joint| moving.push(joint));
+        let moving = || moving.iter().copied();
+        let modes = || 0..S::modes(self);
+        // Those of `state_variables`, of which each list has a known length.
+        states.clear();
+        states.extend_from_slice(hub_states(&inputs.hub));
+        states.extend(moving().map(Variable::Coordinate));
+        states.extend(moving().map(Variable::Rate));
+        states.extend(modes().map(Variable::ModalCoordinate));
+        states.extend(modes().map(Variable::ModalRate));
+        // Inner iteration: what the iterators chain is then a loop each.
+        by_inputs.clear();
+        self.input_variables(inputs).for_each(|variable| by_inputs.push(variable));
+    }
+
     /// Emitted derivatives, where there are any of these outputs.
-    fn emitted<'a, A: Attitude<D::Scalar>>(
+    pub(crate) fn emitted<'a, A: Attitude<D::Scalar>>(
         &self,
         (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
         accelerations: &Accelerations<D, S>,
@@ -232,7 +255,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     }
 
     /// Columns by emitted derivatives; without, by dual numbers.
-    fn columns_by<A: Attitude<D::Scalar>>(
+    pub(crate) fn columns_by<A: Attitude<D::Scalar>>(
         &self,
         emitted: Option<Emitted<'_, D::Scalar>>,
         (state, inputs): (&State<D, A, S>, &Inputs<D, S>),
@@ -301,20 +324,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Linearization<D, S> {
         outputs: &Outputs<D::Scalar>,
     ) {
         let Self { states, inputs: by_inputs, workspace: Workspace { moving, .. }, .. } = self;
-        moving.clear();
-        Slopes::moving_joints(inputs).for_each(|joint| moving.push(joint));
-        let moving = || moving.iter().copied();
-        let modes = || 0..S::modes(craft);
-        // Those of `state_variables`, of which each list has a known length.
-        states.clear();
-        states.extend_from_slice(hub_states(&inputs.hub));
-        states.extend(moving().map(Variable::Coordinate));
-        states.extend(moving().map(Variable::Rate));
-        states.extend(modes().map(Variable::ModalCoordinate));
-        states.extend(modes().map(Variable::ModalRate));
-        // Inner iteration: what the iterators chain is then a loop each.
-        by_inputs.clear();
-        craft.input_variables(inputs).for_each(|variable| by_inputs.push(variable));
+        craft.list_variables(inputs, moving, [states, by_inputs]);
         craft.outputs(outputs, &mut self.outputs);
         let (states, by_inputs, rows) = (self.states.len(), self.inputs.len(), self.outputs.len());
         let sizes = [(states, states), (states, by_inputs), (rows, states), (rows, by_inputs)];
@@ -345,7 +355,7 @@ impl<T: Scalar, D: Devices<Scalar = T>, S: StructureDerivatives> Column<D, S> {
 }
 
 /// A matrix of zeros. What the allocator clears is not cleared again.
-fn zeros<T: Scalar>(rows: usize, columns: usize) -> DMatrix<T> {
+pub(crate) fn zeros<T: Scalar>(rows: usize, columns: usize) -> DMatrix<T> {
     let elements = vec![zero(); rows.saturating_mul(columns)];
     DMatrix::from_data(VecStorage::new(Dyn(rows), Dyn(columns), elements))
 }

@@ -12,8 +12,11 @@
 //! | `step` | derivatives of a step of RK4, by the chain rule through its stages |
 //!
 //! `linearization` fills matrices with columns, with the feature `alloc`: `emitted` has those of accelerations, `slopes`
-//! what the slopes of the states change by. `fixed_linearization` fills matrices of fixed size, without a heap.
+//! what the slopes of the states change by. `acceleration_derivatives` has only those of accelerations.
+//! `fixed_linearization` fills matrices of fixed size, without a heap.
 
+#[cfg(feature = "alloc")]
+pub(crate) mod acceleration_derivatives;
 pub(crate) mod dual;
 #[cfg(feature = "alloc")]
 mod emitted;

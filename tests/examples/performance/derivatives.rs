@@ -153,11 +153,16 @@ impl Page {
 const OURS: &str = "linearized-into";
 
 /// Service, what its time is compared with, and its title.
-const SERVICES: [[&str; 3]; 11] = [
+const SERVICES: [[&str; 3]; 12] = [
     ["evaluation", "evaluation", "an evaluation"],
     ["derivatives", "evaluation", "`derivatives`: by states and inputs"],
     ["linearized-into", "evaluation", "`linearize_into`: by states and inputs, matrices kept"],
     ["linearized", "evaluation", "`linearize`: by states and inputs, matrices allocated"],
+    [
+        "acceleration-derivatives",
+        "evaluation",
+        "`acceleration_derivatives_into`: only of the accelerations, matrices kept",
+    ],
     ["jvp", "evaluation", "`jvp`: along one direction"],
     ["vjp", "evaluation", "`vjp`: of one weighted sum"],
     ["differences", "evaluation", "central differences by the same variables"],

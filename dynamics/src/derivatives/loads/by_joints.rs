@@ -1,6 +1,7 @@
 //! [`ByLoads::fill_matrices`]: all four matrices of a linearised system, where every joint is two states and has an input.
 //!
-//! A column of the accelerations and that of the slopes are written together, and no variable is looked up.
+//! A column of the accelerations and that of the slopes are written together, and no variable is looked up. Where only
+//! accelerations are wanted, slopes have no rows.
 
 #![expect(clippy::inline_always, reason = "instructions are reached only in what is inlined")]
 
@@ -26,12 +27,19 @@ const BEFORE_OMEGA: usize = 9;
 /// Columns of both.
 type BothColumns<'a, T> = [&'a mut [T]; 2];
 
-/// What is filled.
-struct Matrices<'a, T> {
+/// Columns of both of so many rows, by so many variables.
+struct Columned<'a, T> {
+    both: BothColumns<'a, T>,
+    heights: [usize; 2],
+    columns: usize,
+}
+
+/// What is filled: `SLOPES` where slopes are wanted, too.
+struct Matrices<'a, T, const SLOPES: bool> {
     loads: &'a ByLoads<'a, T>,
     slopes: &'a Slopes<'a, T>,
-    by_states: Both<'a, T>,
-    by_inputs: Both<'a, T>,
+    by_states: Columned<'a, T>,
+    by_inputs: Columned<'a, T>,
 }
 
 impl<T: Scalar> ByLoads<'_, T> {
@@ -46,7 +54,31 @@ impl<T: Scalar> ByLoads<'_, T> {
         slopes: &Slopes<'_, T>,
         [by_states, by_inputs]: [Both<'_, T>; 2],
     ) -> bool {
-        let of = Matrices { loads: self, slopes, by_states, by_inputs };
+        let [by_states, by_inputs] = [by_states, by_inputs].map(|[accelerations, slopes]| {
+            let (heights, columns) = ([accelerations.nrows(), slopes.nrows()], slopes.ncols());
+            let both = [accelerations.as_mut_slice(), slopes.as_mut_slice()];
+            Columned { both, heights, columns }
+        });
+        let of = Matrices::<T, true> { loads: self, slopes, by_states, by_inputs };
+        let finite = match self.by {
+            #[cfg(feature = "lanes")]
+            Arithmetic::Dispatched(cpu) => cpu.dispatch(of),
+            Arithmetic::Portable => of.fill(),
+        };
+        finite == Some(true)
+    }
+
+    /// The same of only the accelerations.
+    pub(crate) fn fill_accelerations(
+        &self,
+        slopes: &Slopes<'_, T>,
+        into: [&mut DMatrix<T>; 2],
+    ) -> bool {
+        let [by_states, by_inputs] = into.map(|of| {
+            let (heights, columns) = ([of.nrows(), 0], of.ncols());
+            Columned { both: [of.as_mut_slice(), &mut []], heights, columns }
+        });
+        let of = Matrices::<T, false> { loads: self, slopes, by_states, by_inputs };
         let finite = match self.by {
             #[cfg(feature = "lanes")]
             Arithmetic::Dispatched(cpu) => cpu.dispatch(of),
@@ -57,7 +89,7 @@ impl<T: Scalar> ByLoads<'_, T> {
 }
 
 #[cfg(feature = "lanes")]
-impl<T: Scalar> pulp::WithSimd for Matrices<'_, T> {
+impl<T: Scalar, const SLOPES: bool> pulp::WithSimd for Matrices<'_, T, SLOPES> {
     type Output = Option<bool>;
 
     #[inline(always)]
@@ -66,45 +98,47 @@ impl<T: Scalar> pulp::WithSimd for Matrices<'_, T> {
     }
 }
 
-impl<T: Scalar> Matrices<'_, T> {
+impl<T: Scalar, const SLOPES: bool> Matrices<'_, T, SLOPES> {
     /// Whether all numbers are finite; none where a joint has other variables.
     #[inline(always)]
     fn fill(self) -> Option<bool> {
         let Self { loads, slopes, by_states, by_inputs } = self;
         let joints = loads.joints;
         let (of_hub, given) = if slopes.hub { (OF_HUB, 6) } else { (0, 0) };
-        let [states, inputs] = [&by_states, &by_inputs].map(|[of, _]| of.ncols());
+        let (states, inputs) = (by_states.columns, by_inputs.columns);
         let regular = slopes.moving.len() == joints.len()
             && states == joints.len().checked_mul(2)?.checked_add(of_hub)?
             && inputs == joints.len().checked_add(given)?;
         if !regular {
             return None;
         }
-        let [(by_states, heights), (by_inputs, _)] =
-            [by_states, by_inputs].map(|[accelerations, slopes]| {
-                let heights = [accelerations.nrows(), slopes.nrows()];
-                ([accelerations.as_mut_slice(), slopes.as_mut_slice()], heights)
-            });
+        let Columned { both: by_states, heights, .. } = by_states;
+        let by_inputs = by_inputs.both;
         let (hub, joints_of) = split(by_states, heights, of_hub)?;
         let (by_coordinates, by_rates) = split(joints_of, heights, joints.len())?;
         let (given, by_drives) = split(by_inputs, heights, given)?;
-        let columns = Columns { gains: loads.gains, turned: slopes.hub.then_some(&slopes.bn) };
+        let turned = (SLOPES && slopes.hub).then_some(&slopes.bn);
+        let columns = Columns::<T, SLOPES> { gains: loads.gains, turned };
         let mut all = Finiteness::of_none();
         if slopes.hub {
             loads.fill_hub(slopes, &columns, (hub, heights), &mut all)?;
-            for (base, both) in loads.by_hub().iter().zip(each(given, heights)) {
+            for (base, both) in loads.by_hub().iter().zip(each::<T, SLOPES>(given, heights)) {
                 columns.fill(base, [zero(); 3], both, &mut all)?;
             }
         }
-        let of_joints = each(by_coordinates, heights).zip(each(by_rates, heights));
-        let of_joints = of_joints.zip(each(by_drives, heights)).zip(joints).enumerate();
+        let of_states =
+            each::<T, SLOPES>(by_coordinates, heights).zip(each::<T, SLOPES>(by_rates, heights));
+        let of_joints =
+            of_states.zip(each::<T, SLOPES>(by_drives, heights)).zip(joints).enumerate();
         for (joint, (((by_coordinate, [accelerations, slopes]), by_drive), of)) in of_joints {
             let in_n = columns.in_n_of_group(&of.hub);
             of.hub.iter().chain(&in_n).for_each(|row| all.see(row));
             columns.fill_joint(of, &in_n, COORDINATE, by_coordinate, &mut all)?;
             columns.fill_joint(of, &in_n, DRIVE, by_drive, &mut all)?;
             columns.fill_joint(of, &in_n, RATE, [accelerations, &mut *slopes], &mut all)?;
-            *slopes.get_mut(of_hub.wrapping_add(joint))? = one();
+            if SLOPES {
+                *slopes.get_mut(of_hub.wrapping_add(joint))? = one();
+            }
         }
         Some(all.holds())
     }
@@ -113,10 +147,10 @@ impl<T: Scalar> Matrices<'_, T> {
 impl<T: Scalar> ByLoads<'_, T> {
     /// By the states of the hub.
     #[inline(always)]
-    fn fill_hub(
+    fn fill_hub<const SLOPES: bool>(
         &self,
         slopes: &Slopes<'_, T>,
-        columns: &Columns<'_, T>,
+        columns: &Columns<'_, T, SLOPES>,
         (hub, heights): (BothColumns<'_, T>, [usize; 2]),
         finite: &mut Finiteness<T>,
     ) -> Option<()> {
@@ -127,12 +161,15 @@ impl<T: Scalar> ByLoads<'_, T> {
         let (_, others) = split([accelerations, slopes_of], heights, 3)?;
         let (by_attitude, [_, by_velocity]) = split(others, heights, 3)?;
         for (axis, [accelerations, slopes_of]) in
-            Axis::ALL.into_iter().zip(each(by_attitude, heights))
+            Axis::ALL.into_iter().zip(each::<T, SLOPES>(by_attitude, heights))
         {
             let by = Variable::Attitude(axis);
             if let Some(Change { base, field, .. }) = self.change(by) {
                 let field = field.unwrap_or_else(zeros);
                 columns.fill(&base, field, [accelerations, &mut *slopes_of], finite)?;
+            }
+            if !SLOPES {
+                continue;
             }
             slopes.of_variable(by, slopes_of);
             let [attitude, velocity] = slopes_of.get(3..9)?.as_chunks::<3>().0 else {
@@ -146,24 +183,26 @@ impl<T: Scalar> ByLoads<'_, T> {
         }
         let in_n = columns.in_n_of_group(&self.by_omega);
         self.by_omega.iter().chain(&in_n).for_each(|row| finite.see(row));
-        for (axis, [accelerations, slopes_of]) in each(by_omega, heights).enumerate() {
+        for (axis, [accelerations, slopes_of]) in each::<T, SLOPES>(by_omega, heights).enumerate() {
             let own = |found, block: &_| less(found, block, axis);
             let of = (&self.by_omega, &in_n, axis);
             columns.fill_place(of, own, [accelerations, &mut *slopes_of], finite)?;
-            *slopes_of.get_mut(axis.wrapping_add(3))? = one();
+            if SLOPES {
+                *slopes_of.get_mut(axis.wrapping_add(3))? = one();
+            }
         }
         Some(())
     }
 }
 
 /// Column by column.
-struct Columns<'a, T> {
+struct Columns<'a, T, const SLOPES: bool> {
     gains: Gains<'a, T>,
-    /// `[BN]`; none where the hub is fixed: it has no states.
+    /// `[BN]`; none where the hub is fixed: it has no states. None where slopes are not wanted.
     turned: Option<&'a Axes<T>>,
 }
 
-impl<T: Scalar> Columns<'_, T> {
+impl<T: Scalar, const SLOPES: bool> Columns<'_, T, SLOPES> {
     /// The acceleration of B along N, of some columns; zeros where the hub is fixed.
     #[inline(always)]
     fn in_n_of_group(&self, [a, b, c, ..]: &HubGroup<T>) -> [[T; TOGETHER]; 3] {
@@ -189,8 +228,17 @@ impl<T: Scalar> Columns<'_, T> {
         let [joints, rates] =
             self.fill_place((&of.hub, in_n, place), |found, _| found, both, finite)?;
         let last = of.first.wrapping_add(of.count);
-        let own = joints.get_mut(of.first..last)?.iter_mut().zip(rates.get_mut(of.first..last)?);
+        let own = joints.get_mut(of.first..last)?.iter_mut();
         let mut sum = zero::<T>();
+        if !SLOPES {
+            for (line, to) in of.less.iter().zip(own) {
+                *to = *to - line[place % TOGETHER];
+                sum = sum + *to;
+            }
+            finite.see_each(&[sum]);
+            return Some(());
+        }
+        let own = own.zip(rates.get_mut(of.first..last)?);
         for (line, (to, rate)) in of.less.iter().zip(own) {
             let found = *to - line[place % TOGETHER];
             (*to, *rate) = (found, found);
@@ -248,6 +296,10 @@ impl<T: Scalar> Columns<'_, T> {
     ) -> Option<BothColumns<'b, T>> {
         let (of_hub, joints) = accelerations.split_first_chunk_mut::<6>()?;
         *of_hub = *hub;
+        if !SLOPES {
+            self.gains.follow_changed(base, own, &mut *joints, finite);
+            return Some([joints, slopes]);
+        }
         let mut rest = slopes;
         if self.turned.is_some() {
             let (of_hub, of_joints) = rest.split_first_chunk_mut::<OF_HUB>()?;
@@ -273,12 +325,16 @@ fn split<'a, T>(
     Some(([first, first_slopes], [others, other_slopes]))
 }
 
-/// Column by column.
+/// Column by column; without slopes, those are empty.
 #[inline(always)]
-fn each<'a, T>(
+fn each<'a, T, const SLOPES: bool>(
     [accelerations, slopes]: BothColumns<'a, T>,
     [height, rows]: [usize; 2],
 ) -> impl Iterator<Item = BothColumns<'a, T>> {
+    let mut slopes = slopes.chunks_exact_mut(rows.max(1));
     let columns = accelerations.chunks_exact_mut(height.max(1));
-    columns.zip(slopes.chunks_exact_mut(rows.max(1))).map(|(of, slopes)| [of, slopes])
+    columns.map_while(move |of| {
+        let slopes = if SLOPES { slopes.next()? } else { &mut [] };
+        Some([of, slopes])
+    })
 }

@@ -95,6 +95,27 @@ impl<T: Scalar> Gains<'_, T> {
         }
     }
 
+    /// The same, of one list.
+    #[inline(always)]
+    pub(crate) fn follow_changed(
+        &self,
+        base: &Six<T>,
+        own: impl Fn([T; TOGETHER], &Block<T>) -> [T; TOGETHER],
+        out: &mut [T],
+        finite: &mut Finiteness<T>,
+    ) {
+        let (fours, last) = out.as_chunks_mut::<TOGETHER>();
+        for (to, block) in fours.iter_mut().zip(self.blocks) {
+            *to = own(followed(block, base), block);
+            finite.see(to);
+        }
+        if let (Some(block), false) = (self.blocks.last(), last.is_empty()) {
+            let found = own(followed(block, base), block);
+            finite.see(&found);
+            last.iter_mut().zip(found).for_each(|(to, found)| *to = found);
+        }
+    }
+
     /// How a joint follows each of the hub's accelerations.
     #[inline(always)]
     pub(crate) fn of_joint(&self, joint: usize) -> Six<T> {

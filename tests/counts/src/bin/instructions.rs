@@ -240,8 +240,18 @@ impl Cases {
         });
     }
 
-    /// The products of derivatives with a direction and with weights.
+    /// Derivatives of the accelerations only, and their products with a direction and with weights.
     fn products<D: WithNumbers<Scalar = f64>>(&mut self, name: &str, devices: &D) {
+        self.case(&format!("acceleration_derivatives_into/{name}"), || {
+            let Measured { craft, state, inputs } = Measured::new(devices);
+            let kept = RefCell::new(craft.acceleration_derivatives(&state, &inputs).ok());
+            move || {
+                if let Some(kept) = kept.borrow_mut().as_mut() {
+                    let (state, inputs) = (black_box(&state), black_box(&inputs));
+                    let _ = black_box(craft.acceleration_derivatives_into(state, inputs, kept));
+                }
+            }
+        });
         self.case(&format!("jvp/{name}"), || {
             let Measured { craft, state, inputs } = Measured::new(devices);
             let of_state = vec![0.25; craft.state_variables(&inputs).count()];

@@ -130,7 +130,7 @@ fn nothing_is_allocated() {
         let into = [a.as_mut_slice(), b.as_mut_slice()];
         assert!(craft.linearize_fixed(&state, &inputs, into, &mut workspace).is_ok());
     };
-    // With lanes, the first evaluation asks which CPU there is.
+    // With lanes, the first evaluation of a thread allocates what its others take.
     call();
     assert_eq!(measure(call).count_total, 0);
 }

@@ -10,18 +10,20 @@ use precess_dynamics::{
     Spacecraft, State,
 };
 
-/// Allocations of `linearize_into` after its first call, of `jvp`, `vjp`, and of one evaluation.
+/// Allocations of `linearize_into` after its first call, of `jvp`, `vjp`, of `acceleration_derivatives_into` after its
+/// first call, and of one evaluation.
 fn allocations<D: WithNumbers<Scalar = f64>>(
     craft: &Spacecraft<D>,
     state: &State<D>,
     inputs: &Inputs<D>,
-) -> [u64; 4] {
+) -> [u64; 5] {
     let outputs = Outputs::accelerations();
     let mut kept = craft.linearize(state, inputs, &outputs).unwrap();
     let (of_states, of_inputs) = (vec![0.3; kept.states.len()], vec![-0.2; kept.inputs.len()]);
     let (mut by_states, mut by_inputs) = (of_states.clone(), of_inputs.clone());
     let weights = kept.accelerations.clone();
-    let [mut into, mut jvp, mut vjp, mut one] = [false; 4];
+    let mut of_accelerations = craft.acceleration_derivatives(state, inputs).unwrap();
+    let [mut into, mut jvp, mut vjp, mut only, mut one] = [false; 5];
     let counts = [
         measure(|| into = craft.linearize_into(state, inputs, &outputs, &mut kept).is_ok()),
         measure(|| jvp = craft.jvp(state, inputs, (&of_states, &of_inputs)).is_ok()),
@@ -29,9 +31,13 @@ fn allocations<D: WithNumbers<Scalar = f64>>(
             let gradient = (by_states.as_mut_slice(), by_inputs.as_mut_slice());
             vjp = craft.vjp(state, inputs, &weights, gradient).is_ok();
         }),
+        measure(|| {
+            let into = &mut of_accelerations;
+            only = craft.acceleration_derivatives_into(state, inputs, into).is_ok();
+        }),
         measure(|| one = craft.accelerations(state, inputs).is_ok()),
     ];
-    assert!(into && jvp && vjp && one);
+    assert!(into && jvp && vjp && only && one);
     counts.map(|count| count.count_total)
 }
 
@@ -61,7 +67,7 @@ fn check<D: WithNumbers<Scalar = f64>>(devices: &D) {
                 if mode == Mode::Locked {
                     *state.devices.states_mut().next().unwrap()[1] = 0.0;
                 }
-                assert_eq!(allocations(&craft, &state, &inputs), [0; 4], "{inputs:?}");
+                assert_eq!(allocations(&craft, &state, &inputs), [0; 5], "{inputs:?}");
             }
         }
     }
@@ -83,7 +89,7 @@ fn a_list_allocates_what_an_evaluation_of_it_does() {
     let inertia = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.12));
     let gyro = Dgvscmg { d: 1e-3, ..Dgvscmg::bare_wheel(4.0, inertia) };
     let (craft, state, inputs) = moving(&vec![BuiltIn::from(gyro); 5]);
-    let [into, _, _, one] = allocations(&craft, &state, &inputs);
+    let [into, _, _, only, one] = allocations(&craft, &state, &inputs);
     assert!(one > 0);
-    assert_eq!(into, one);
+    assert_eq!([into, only], [one; 2]);
 }

@@ -1,5 +1,6 @@
 //! Derivatives: against differences in double-double, against what is known, and what is rejected.
 
+mod acceleration_derivatives;
 mod accuracy;
 mod along;
 mod by_loads;

@@ -7,8 +7,8 @@ use std::hint::black_box;
 use nalgebra::Vector3;
 use precess_dynamics::kind::{Each as _, JointStates as _};
 use precess_dynamics::{
-    Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs, Quaternion, Spacecraft, State,
-    StepLinearization, Variable,
+    AccelerationDerivatives, Accelerations, Axis, Dgvscmg, Inputs, Linearization, Outputs,
+    Quaternion, Spacecraft, State, StepLinearization, Variable,
 };
 use precess_tests::measured::imbalance_of;
 use precess_tests::stored::Stored;
@@ -34,6 +34,7 @@ pub(super) struct Derivatives<const N: usize> {
     inputs: Inputs<Set<N>>,
     variables: Vec<Variable>,
     kept: Linearization<Set<N>>,
+    kept_accelerations: AccelerationDerivatives<Set<N>>,
     kept_step: StepLinearization<Set<N>>,
     /// A direction of states and of inputs, and the gradient by them.
     products: [Vec<f64>; 4],
@@ -48,6 +49,7 @@ impl<const N: usize> Derivatives<N> {
             craft.state_variables(&inputs).chain(craft.input_variables(&inputs)).collect();
         let (stored, devices) = (stored.clone(), *devices);
         let kept = craft.linearize(&state, &inputs, &Outputs::accelerations())?;
+        let kept_accelerations = craft.acceleration_derivatives(&state, &inputs)?;
         let kept_step = craft.linearize_step(&state, &inputs, STEP)?;
         let sizes = [kept.states.len(), kept.inputs.len()];
         let [of_states, of_inputs] = sizes.map(|size| vec![1.0; size]);
@@ -61,6 +63,7 @@ impl<const N: usize> Derivatives<N> {
             inputs,
             variables,
             kept,
+            kept_accelerations,
             kept_step,
             products,
         })
@@ -85,6 +88,11 @@ impl<const N: usize> Derivatives<N> {
             Name::LinearizedInto => {
                 self.craft.linearize_into(state, inputs, &none, &mut self.kept)?;
                 Ok(black_box(&self.kept).accelerations.omega_dot)
+            }
+            Name::AccelerationDerivatives => {
+                let kept = &mut self.kept_accelerations;
+                self.craft.acceleration_derivatives_into(state, inputs, kept)?;
+                Ok(black_box(&self.kept_accelerations).accelerations.omega_dot)
             }
             Name::Jvp => {
                 let [of_states, of_inputs, ..] = black_box(&self.products);
@@ -197,8 +205,15 @@ impl<const N: usize> Derivatives<N> {
             }
             return Ok(blocks);
         }
-        let found = self.craft.linearize(state, inputs, &none)?;
-        for (variables, matrix) in [(&found.states, &found.c), (&found.inputs, &found.d)] {
+        let (by_states, by_inputs) = if self.name == Name::AccelerationDerivatives {
+            let found = self.craft.acceleration_derivatives(state, inputs)?;
+            (found.by_states, found.by_inputs)
+        } else {
+            let found = self.craft.linearize(state, inputs, &none)?;
+            (found.c, found.d)
+        };
+        let (states, others) = self.variables.split_at(by_states.ncols());
+        for (variables, matrix) in [(states, &by_states), (others, &by_inputs)] {
             for (variable, column) in variables.iter().zip(matrix.column_iter()) {
                 add_column(&mut blocks, *variable, column.iter().copied());
             }
@@ -282,8 +297,14 @@ impl<const N: usize> Service for Derivatives<N> {
     fn check(&mut self) -> Result<Value, Rejected> {
         self.call()?;
         let mut found = flat(&self.craft.accelerations(&self.state, &self.inputs)?);
-        let by_all =
-            [Name::Derivatives, Name::Linearized, Name::LinearizedInto, Name::Jvp, Name::Vjp];
+        let by_all = [
+            Name::Derivatives,
+            Name::Linearized,
+            Name::LinearizedInto,
+            Name::AccelerationDerivatives,
+            Name::Jvp,
+            Name::Vjp,
+        ];
         if by_all.contains(&self.name) {
             found["derivatives"] = json!(self.blocks()?);
         }

@@ -61,6 +61,9 @@ pub(crate) enum Name {
     /// The same into matrices that are kept
     #[cfg(feature = "lanes")]
     LinearizedInto,
+    /// Derivatives of the accelerations, and nothing else, into matrices that are kept
+    #[cfg(feature = "lanes")]
+    AccelerationDerivatives,
     /// The derivative of the accelerations along a direction
     #[cfg(feature = "lanes")]
     Jvp,
@@ -130,6 +133,9 @@ impl Name {
             Self::Derivatives => ("`derivatives`", "derivatives", None, 1),
             Self::Linearized => ("`linearize`", "derivatives", None, 1),
             Self::LinearizedInto => ("`linearize_into`", "derivatives", None, 1),
+            Self::AccelerationDerivatives => {
+                ("`acceleration_derivatives_into`", "derivatives", None, 1)
+            }
             Self::Jvp => ("`jvp`", "derivatives", None, 1),
             Self::Vjp => ("`vjp`", "derivatives", None, 1),
             Self::Differences => ("central differences", "derivatives", None, 1),
