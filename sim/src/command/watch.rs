@@ -49,7 +49,7 @@ pub(super) struct WatchCommand {
     #[arg(long, value_name = "NAME")]
     controller: Option<String>,
     /// Length of a block, with its unit.
-    #[arg(long, value_name = "TIME", value_parser = time, default_value = "10 s")]
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "2 s")]
     block: f64,
     /// How long the reference is taken, from the start.
     #[arg(long, value_name = "TIME", value_parser = time, default_value = "600 s")]
@@ -201,6 +201,17 @@ fn row(to: &mut Partial, block: &Block) -> std::io::Result<()> {
     writeln!(to, "{line},{}", block.alarms.len())
 }
 
+/// A number of a quantity in the unit that people use.
+fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
+    match watched {
+        Watched::StaticImbalance => (to_g_cm(value), "g cm"),
+        Watched::DynamicImbalance => (to_g_cm2(value), "g cm^2"),
+        Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
+        Watched::TorqueConstant | Watched::TachometerScale => (100.0 * value, "%"),
+        Watched::Drag | Watched::GyroJump => (value, watched.unit()),
+    }
+}
+
 impl Findings {
     fn take(&mut self, block: Block) -> Result<(), CommandError> {
         self.blocks += 1;
@@ -236,8 +247,10 @@ impl Findings {
             self.references.len(),
             six(settings.false_alarms)
         );
-        for (name, _, reference) in &self.references {
+        for (name, watched, reference) in &self.references {
             match reference {
+                // It is found in the series of drag.
+                None if *watched == Watched::TorqueConstant => {}
                 None => {
                     let _ =
                         writeln!(text, "{name}: not enough blocks determine it for a reference");

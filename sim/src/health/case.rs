@@ -48,7 +48,7 @@ pub struct Timing {
 
 impl Default for Timing {
     fn default() -> Self {
-        Self { block: 5.0, learn: 100.0, healthy: 130.0, duration: 200.0 }
+        Self { block: 2.0, learn: 200.0, healthy: 230.0, duration: 300.0 }
     }
 }
 

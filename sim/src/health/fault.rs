@@ -95,10 +95,10 @@ impl Fault {
             Self::ImbalancePhase => [0.3, 0.9, 2.4],
             Self::Drag if bus => [3e-5, 1e-4, 3e-4],
             Self::Drag => [2e-4, 6e-4, 2e-3],
-            Self::Bearing => [-0.1, -0.25, -0.5],
+            Self::Bearing => [-0.25, -0.5, -0.7],
             Self::GimbalDrag => [5e-3, 15e-3, 50e-3],
             Self::TorqueConstant => [-0.02, -0.06, -0.2],
-            Self::GyroBias => [1.5e-6, 5e-6, 1.5e-5],
+            Self::GyroBias => [1.5e-5, 5e-5, 1.5e-4],
             Self::Tachometer => [3e-4, 1e-3, 3e-3],
         };
         let [small, medium, large] = of;
@@ -139,8 +139,10 @@ impl HealthCase {
                 (format!("torque constant of {device}.outer_gimbal"), device, change)
             }
             Fault::GyroBias => ("gyro bias about y".to_owned(), "y".to_owned(), change),
-            // The watch has no name of its own for these two.
-            Fault::Bearing | Fault::Tachometer => (String::new(), device, f64::NAN),
+            Fault::Tachometer if bus => (format!("tachometer scale of {device}"), device, change),
+            Fault::Tachometer => (format!("tachometer scale of {device}.wheel"), device, change),
+            // The watch has no name of its own for it.
+            Fault::Bearing => (String::new(), device, f64::NAN),
         };
         TrueChange { case, place, quantity, onset, change }
     }

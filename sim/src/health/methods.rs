@@ -49,9 +49,10 @@ pub fn examine(
         let mut quantities = watch.quantities_with(&settings)?;
         let mut own = Vec::new();
         for block in &blocks {
-            for (quantity, value) in quantities.iter_mut().zip(&block.values) {
+            let estimates = block.values.iter().zip(&block.signatures);
+            for (quantity, (value, signature)) in quantities.iter_mut().zip(estimates) {
                 let Some(value) = value else { continue };
-                let found = quantity.take(block.times, *value);
+                let found = quantity.take(block.times, *value, *signature);
                 own.extend(found.map(|alarm| MethodAlarm {
                     method: Method::Watch,
                     time: alarm.time,

@@ -1,7 +1,8 @@
 //! [`record`]: the readings of a case, each sensor by its own clock, and as CSV with the columns of a scenario's telemetry.
 //!
 //! The gyro is that of the controller, 100 Hz, with random walks of angle and rate. A wheel's electronics telemeter its tachometer and the torque
-//! that is commanded, 50 Hz, at a time of their own between the samples of the gyro; those of gimbals 100 Hz, with an encoder. Clocks
+//! that is commanded, 50 Hz, at a time of their own between the samples of the gyro; those of gimbals 100 Hz, with an encoder. A torque is the
+//! mean from its time to that of the next one: a servo's torque has lines of the wheels, and samples of it would alias them. Clocks
 //! are off by 0.1 ms and 1 ppm a joint. What the controller reads of a tachometer is the rate itself.
 
 use std::ops::ControlFlow;
@@ -18,8 +19,10 @@ use crate::record::{End, Header, Outcome, RecordError, Recorder, RunError};
 use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns, TelemetryLayout};
 
-/// Rows a second.
-const RATE: u32 = 200;
+/// Rows a second, of the bus and of the pyramid, whose servo has as many samples.
+const RATES: [u64; 2] = [200, 500];
+/// Readings a second of the gyro and of gimbals, and of wheels.
+const READINGS: [u64; 2] = [100, 50];
 /// Standard deviations of the tachometers of wheels and gimbals, rad/s, and of the encoders, rad.
 const NOISE: [f64; 3] = [0.01, 2e-5, 1e-6];
 /// Times nearer than this are one, s.
@@ -47,7 +50,9 @@ pub fn record(case: &HealthCase, seed: u32, timing: &Timing) -> Result<Record, H
     let layout = TelemetryLayout::of_scenario(&watched, None)?;
     let mut sampler = Sampler::new(*case, seed, timing, &watched, &layout);
     for scenario in [&mut before, &mut after] {
-        scenario.output.rate = f64::from(RATE);
+        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+        let rate = rows(case.spacecraft) as f64;
+        scenario.output.rate = rate;
         scenario.output.columns.clone_from(&sampler.columns);
         scenario.requirements.clear();
     }
@@ -95,6 +100,12 @@ pub fn record(case: &HealthCase, seed: u32, timing: &Timing) -> Result<Record, H
     let Sampler { sensors, mut readings, .. } = sampler;
     readings.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(Record { sensors, readings })
+}
+
+/// Rows a second.
+fn rows(of: Spacecraft) -> u64 {
+    let [bus, pyramid] = RATES;
+    if of == Spacecraft::Bus { bus } else { pyramid }
 }
 
 impl Record {
@@ -161,6 +172,8 @@ struct Source {
     scale: Option<[f64; 2]>,
     /// From a time on, the torque is that which is exerted by this: what was commanded.
     motor: Option<[f64; 2]>,
+    /// Of a torque, which is a mean: the time of the reading, and sum and number of rows since then.
+    mean: Option<[f64; 3]>,
 }
 
 /// Makes readings of rows.
@@ -212,18 +225,20 @@ impl Sampler {
                 ))
             };
             let [of_wheel, of_gimbal, of_angle] = NOISE;
-            let every = if wheel { 4 } else { 2 };
+            let [often, seldom] = READINGS.map(|of| rows(case.spacecraft) / of);
+            let every = if wheel { seldom } else { often };
             let number = joint as u64 + 1;
             #[expect(clippy::cast_precision_loss, reason = "a dozen")]
             let clock = CLOCK.map(|of| of * number as f64);
             let source = match of.sensor {
                 Sensor::Gyro | Sensor::StarTracker => Source {
                     columns: Vec::new(),
-                    every: [2, 0],
+                    every: [often, 0],
                     clock: [0.0; 2],
                     noise: None,
                     scale: None,
                     motor: None,
+                    mean: None,
                 },
                 Sensor::Tachometer(_) => Source {
                     columns: Vec::new(),
@@ -232,6 +247,7 @@ impl Sampler {
                     noise: noise(if wheel { of_wheel } else { of_gimbal }, "tachometer"),
                     scale: of_fault(Fault::Tachometer, name, &body),
                     motor: None,
+                    mean: None,
                 },
                 Sensor::Encoder(_) => Source {
                     columns: Vec::new(),
@@ -240,6 +256,7 @@ impl Sampler {
                     noise: noise(of_angle, "encoder"),
                     scale: None,
                     motor: None,
+                    mean: None,
                 },
                 Sensor::Motor(_) => Source {
                     columns: Vec::new(),
@@ -248,6 +265,7 @@ impl Sampler {
                     noise: None,
                     scale: None,
                     motor: of_fault(Fault::TorqueConstant, name, &body),
+                    mean: Some([f64::NAN, 0.0, 0.0]),
                 },
             };
             columns.extend(of.columns.iter().cloned());
@@ -270,9 +288,10 @@ impl Recorder for Sampler {
 
     fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
         let time = row.first().copied().unwrap_or_default();
-        for (index, source) in self.sources.iter().enumerate() {
+        for (index, source) in self.sources.iter_mut().enumerate() {
             let [every, first] = source.every;
-            if self.count % every != first {
+            let due = self.count % every == first;
+            if !due && source.mean.is_none() {
                 continue;
             }
             let mut value = [0.0; 4];
@@ -291,6 +310,20 @@ impl Recorder for Sampler {
                 value[0] += deviation * drawn;
             }
             let [offset, drift] = source.clock;
+            let mut time = time;
+            if let Some([from, sum, count]) = &mut source.mean {
+                let whole = [*from, *sum / *count];
+                if due {
+                    (*from, *sum, *count) = (time, 0.0, 0.0);
+                }
+                *sum += value[0];
+                *count += 1.0;
+                // None before the first.
+                if !due || whole.iter().any(|of| of.is_nan()) {
+                    continue;
+                }
+                [time, value[0]] = whole;
+            }
             self.readings.push(Reading { index, time: time + offset + drift * time, value });
         }
         self.count += 1;

@@ -1,14 +1,15 @@
-//! A baseline without a model: amplitude of the gyro near the rotation frequency of each wheel, steps of its mean, slope of each tachometer.
+//! A baseline without a model: RMS of the gyro near the rotation frequency of each wheel, by FFT with Hann's window, steps of its mean, slope of each tachometer.
 
 use std::f64::consts::TAU;
 
 use super::recording::Record;
 use super::statistic::Features;
 use crate::scenario::{Scenario, body_key};
+use crate::spectra::{Detrend, WelchSettings, float, psd};
 use crate::telemetry::Sensor;
 
-/// Frequencies about the mean rotation frequency at which the amplitude is looked for, Hz, on either side, and their steps.
-const ABOUT: [f64; 2] = [0.6, 0.1];
+/// Half the width of the band about the mean rotation frequency, Hz.
+const ABOUT: f64 = 0.6;
 
 /// Readings of one block.
 #[derive(Clone, Default)]
@@ -66,16 +67,7 @@ fn numbers(of: &Readings, wheels: &[usize], before: &mut Option<[f64; 3]>) -> Ve
     for joint in wheels {
         let rates = of.joints.get(*joint).map(Vec::as_slice).unwrap_or_default();
         let rate = mean(rates.iter().map(|(_, rate)| *rate));
-        all.push(rate.map(|rate| {
-            let [width, step] = ABOUT;
-            let mut frequency = rate.abs() / TAU - width;
-            let mut most = 0.0_f64;
-            while frequency <= rate.abs() / TAU + width {
-                most = most.max(amplitude(&of.gyro, frequency));
-                frequency += step;
-            }
-            most
-        }));
+        all.push(rate.and_then(|rate| near(&of.gyro, rate.abs() / TAU)));
     }
     let means = [0, 1, 2].map(|axis| mean(of.gyro.iter().map(|(_, rates)| rates[axis])));
     for (axis, mean) in means.iter().enumerate() {
@@ -94,24 +86,18 @@ fn mean(of: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0.0).then(|| sum / count)
 }
 
-/// Root of the sum of the squared amplitudes of three axes at a frequency, Hz, with Hann's window.
-fn amplitude(gyro: &[(f64, [f64; 3])], frequency: f64) -> f64 {
-    let (Some((from, _)), Some((to, _))) = (gyro.first(), gyro.last()) else { return 0.0 };
-    let means = [0, 1, 2].map(|axis| mean(gyro.iter().map(|(_, of)| of[axis])).unwrap_or(0.0));
-    let mut sums = [[0.0; 2]; 3];
-    let mut weights = 0.0;
-    for (time, rates) in gyro {
-        let window =
-            0.5 - 0.5 * libm::cos(TAU * (time - from) / (to - from).max(f64::MIN_POSITIVE));
-        let (sine, cosine) = libm::sincos(TAU * frequency * (time - from));
-        for ((sum, rate), mean) in sums.iter_mut().zip(rates).zip(means) {
-            sum[0] += window * (rate - mean) * cosine;
-            sum[1] += window * (rate - mean) * sine;
-        }
-        weights += window;
+/// Root of the sum of the mean squares of three axes near a frequency, Hz; none of a frequency that the readings do not have.
+fn near(gyro: &[(f64, [f64; 3])], frequency: f64) -> Option<f64> {
+    let ((from, _), (to, _)) = (gyro.first()?, gyro.last()?);
+    let rate = float(gyro.len().checked_sub(1)?) / (to - from);
+    let settings = WelchSettings { detrend: Detrend::Mean, ..WelchSettings::hann(gyro.len()) };
+    let mut square = 0.0;
+    for axis in 0..3 {
+        let samples: Vec<f64> = gyro.iter().map(|(_, rates)| rates[axis]).collect();
+        let found = psd(&samples, rate, &settings).ok()?;
+        square += found.band_rms([frequency - ABOUT, frequency + ABOUT]).ok()?.powi(2);
     }
-    let square: f64 = sums.iter().flatten().map(|of| of * of).sum();
-    2.0 * square.sqrt() / weights
+    Some(square.sqrt())
 }
 
 /// Of a straight line by least squares.

@@ -21,6 +21,8 @@ pub(super) struct Features {
 #[derive(Clone, Default)]
 struct Reference {
     values: Vec<f64>,
+    /// Mean, and deviation of one more, once it is taken.
+    taken: Option<[f64; 2]>,
 }
 
 impl Features {
@@ -46,15 +48,19 @@ impl Features {
                 values.iter().zip(&mut references).zip(&self.names)
             {
                 let Some(value) = value else { continue };
-                if reference.values.len() < count {
+                let Some([mean, deviation]) = reference.taken else {
                     reference.values.push(*value);
+                    if reference.values.len() == count {
+                        let mean = reference.values.iter().sum::<f64>() / size;
+                        let squares: f64 =
+                            reference.values.iter().map(|of| (of - mean).powi(2)).sum();
+                        let deviation = (squares / (size - 1.0) * (1.0 + 1.0 / size)).sqrt();
+                        reference.taken = Some([mean, deviation]);
+                    }
                     continue;
-                }
-                let mean = reference.values.iter().sum::<f64>() / size;
-                let squares: f64 = reference.values.iter().map(|of| (of - mean).powi(2)).sum();
-                let deviation = (squares / (size - 1.0) * (1.0 + 1.0 / size)).sqrt();
+                };
                 if (value - mean).abs() > bound * deviation {
-                    reference.values.clear();
+                    *reference = Reference::default();
                     alarms.push(MethodAlarm {
                         method,
                         time: *time,

@@ -1,5 +1,5 @@
-//! [`BodyFit`]: one block of the gyro: what is left of its readings beside the model, as lines of the rotors and a jump from the block
-//! before.
+//! [`BodyFit`]: one block of the gyro: what is left of its readings beside the model, as lines of the rotors and a step within the
+//! last blocks.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,7 +8,8 @@ use precess_control::GyroOutput;
 use precess_dynamics::Angle;
 
 use super::model::{Signature, WatchedModel};
-use super::regression::{Estimated, Regression};
+use super::regression::Regression;
+use super::steps::{BINS, StepSearch, bin};
 use crate::scenario::Scenario;
 
 /// Parameters of the block itself: rates at its start and accelerations by torques from outside.
@@ -36,7 +37,7 @@ struct Line {
     signature: Option<Signature>,
     /// Whether static imbalance has a line of its own; known from the first block on.
     separate: Option<bool>,
-    /// Phases of the block before, rad, with their variances.
+    /// Phases of the last block that has one, rad, with their variances.
     before: [Option<[f64; 2]>; 2],
 }
 
@@ -52,8 +53,12 @@ pub(super) struct BodyFit {
     predicted: Vector3<f64>,
     /// Time since the reading before, s.
     interval: f64,
-    /// The block before: its estimate, length, s, and integral.
-    before: Option<(Estimated, f64, Vector3<f64>)>,
+    /// Steps about each axis.
+    steps: [StepSearch; 3],
+    /// Sums of the rows of each bin and axis.
+    sums: Vec<f64>,
+    /// Length of a block, s.
+    block: f64,
 }
 
 /// Amplitudes of static and dynamic imbalance and steps of their phases, with variances.
@@ -61,7 +66,7 @@ pub(super) type RotorValues = [Option<[f64; 2]>; 4];
 
 impl BodyFit {
     /// Of rotors of which each is turning where its tachometer is read.
-    pub(super) fn new(scenario: &Scenario, turning: Vec<bool>) -> Self {
+    pub(super) fn new(scenario: &Scenario, turning: Vec<bool>, block: f64) -> Self {
         let integrates = scenario.controllers.iter().find_map(|of| {
             let gyro = of.sensors.gyro.as_ref()?;
             (gyro.output == GyroOutput::Integrating).then(|| of.rate.recip())
@@ -83,13 +88,15 @@ impl BodyFit {
             row: vec![0.0; count],
             predicted: Vector3::zeros(),
             interval: 0.0,
-            before: None,
+            steps: Default::default(),
+            sums: vec![0.0; 3 * BINS * count],
+            block,
         }
     }
 
     /// Forgets what joins a block with the one before.
     pub(super) fn forget(&mut self) {
-        self.before = None;
+        self.steps.iter_mut().for_each(StepSearch::forget);
         for line in &mut self.lines {
             line.before = [None; 2];
             line.since = 0.0;
@@ -98,6 +105,7 @@ impl BodyFit {
 
     pub(super) fn start(&mut self, signatures: Vec<Signature>) {
         self.regression.clear();
+        self.sums.fill(0.0);
         self.predicted = Vector3::zeros();
         let mut signatures = signatures.into_iter();
         for line in &mut self.lines {
@@ -181,11 +189,19 @@ impl BodyFit {
                 *to = from[axis];
             }
             self.regression.add(&self.row, observed[axis]);
+            let share = elapsed / self.block;
+            if let Some(steps) = self.steps.get_mut(axis) {
+                steps.read(share, observed[axis]);
+            }
+            let (count, place) = (self.row.len(), 3 * bin(share) + axis);
+            for (sum, of) in self.sums.iter_mut().skip(place * count).zip(&self.row) {
+                *sum += of;
+            }
         }
     }
 
-    /// What the block says: of each rotor, and the jump of the gyro about each axis.
-    pub(super) fn end(&mut self, length: f64) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
+    /// What the block says: of each rotor, and the step of the gyro about each axis.
+    pub(super) fn end(&mut self) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
         let Some(found) = self.regression.solve() else {
             self.forget();
             return (Vec::new(), [None; 3]);
@@ -200,22 +216,21 @@ impl BodyFit {
                     let turned = now[0] - before[0];
                     [turned - TAU * ((turned + PI) / TAU).floor(), now[1] + before[1]]
                 });
-                line.before[kind] = phase;
+                // A line whose phase turns within the block is weak in it: the next one is compared with the block before.
+                line.before[kind] = phase.or(line.before[kind]);
             }
             values
         });
         let lines = lines.collect();
-        let jump = |axis: usize| {
-            let (before, length, predicted) = self.before.as_ref()?;
-            let (start, slope) = (before.of(axis)?, before.of(3 + axis)?);
-            let now = found.of(axis)?;
-            let common = before.covariance[(3 + axis, axis)];
-            let expected = start[0] + slope[0] * length + predicted[axis];
-            let variance = start[1] + length * (length * slope[1] + 2.0 * common) + now[1];
-            Some([now[0] - expected, variance])
-        };
-        let jumps = [0, 1, 2].map(jump);
-        self.before = Some((found, length, self.predicted));
+        let count = self.row.len();
+        let mut jumps = [None; 3];
+        for (axis, (steps, to)) in self.steps.iter_mut().zip(&mut jumps).enumerate() {
+            let of_lines = |bin: usize| {
+                let row = self.sums.iter().skip((3 * bin + axis) * count).take(count);
+                row.zip(found.values.iter()).skip(OWN).map(|(of, value)| of * value).sum()
+            };
+            *to = steps.end_with(found.noise, self.predicted[axis], of_lines);
+        }
         (lines, jumps)
     }
 }

@@ -1,17 +1,24 @@
 //! [`Detector`]: one quantity, block after block, against what it was at first: generalised likelihood ratio of a step, and
 //! cumulative sums.
+//!
+//! Two causes may change one series: its own quantity by the same amount in every block, and another by a signature that differs from block to
+//! block. The likelier one is named; later blocks may name the other.
 
 use std::collections::VecDeque;
-
-use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 use super::thresholds::{DRIFT, Thresholds};
 
 /// Half the width of an interval of 95 %, deviations.
 pub(super) const INTERVAL: f64 = 1.959_963_984_540_054;
 
-/// A scatter that pure noise exceeds once in a thousand references is not noise as stated.
-const SCATTER: f64 = 1e-3;
+/// Blocks after an alarm in which its cause is looked at again.
+const NAMING: usize = 30;
+
+/// Twice the logarithm of the likelihood ratio by which the other cause must be likelier: 100 to 1.
+const LIKELIER: f64 = 9.210_340_371_976_184;
+
+/// Ratios nearer than this are equal: then it is the quantity's own cause.
+const EQUAL: f64 = 1e-9;
 
 /// Which test raised an alarm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +36,7 @@ pub struct Shift {
     pub test: Test,
     /// From when on, s: the start of a block.
     pub onset: f64,
-    /// The reference.
+    /// The reference; zero of a torque constant, which is by that of the scenario.
     pub before: f64,
     /// The mean since the onset less the reference.
     pub change: f64,
@@ -37,149 +44,245 @@ pub struct Shift {
     pub half_width: f64,
 }
 
-/// An estimate of a block.
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    time: f64,
-    value: f64,
-    weight: f64,
+/// What changes the series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cause {
+    /// The quantity itself, by the same amount in each block.
+    Own,
+    /// Another quantity, by its signature.
+    Other,
 }
 
-/// Weighted sums.
+/// What is tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Steps at one of so many last blocks, and cumulative sums.
+    Level,
+    /// As a level; but a decrease in the last block only is looked at in the next one, too: a phase that turns within a block looks the
+    /// same.
+    Amplitude,
+    /// One estimate by itself.
+    Single,
+    /// As one, whose expectation is zero.
+    Centred,
+}
+
+/// An estimate of a block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// Start of the block, s.
+    pub(super) time: f64,
+    pub(super) value: f64,
+    pub(super) variance: f64,
+    /// By how much the other cause changes it, by one unit; zero without another cause.
+    pub(super) signature: f64,
+}
+
+/// Weighted sums since an onset.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
+    count: usize,
     weight: f64,
     value: f64,
+    /// With the signature.
+    signature: f64,
     square: f64,
-    count: usize,
+    moment: f64,
 }
 
 impl Sums {
-    fn add(&mut self, sample: &Sample) {
-        self.weight += sample.weight;
-        self.value += sample.weight * sample.value;
-        self.square += sample.weight * sample.value * sample.value;
+    fn add(&mut self, sample: &Sample, mean: f64) {
+        let weight = sample.variance.recip();
+        let (value, signature) = (sample.value - mean, sample.signature);
         self.count += 1;
+        self.weight += weight;
+        self.value += weight * value;
+        self.signature += weight * signature;
+        self.square += weight * signature * signature;
+        self.moment += weight * signature * value;
     }
 
-    fn mean(&self) -> f64 {
-        self.value / self.weight
+    /// Change by a cause, and its deviation.
+    fn estimate(&self, cause: Cause, reference: &Reference) -> Option<[f64; 2]> {
+        let variance = reference.scatter * correlated(self.count, reference.correlation);
+        match cause {
+            Cause::Own => {
+                let deviation = (variance / self.weight + reference.variance).sqrt();
+                Some([self.value / self.weight, deviation])
+            }
+            Cause::Other => (self.square > 0.0).then(|| {
+                let lever = self.signature / self.square;
+                let deviation = variance / self.square + lever * lever * reference.variance;
+                [self.moment / self.square, deviation.sqrt()]
+            }),
+        }
     }
+}
+
+/// Variance of a mean of so many values by that of uncorrelated ones; correlation falls off geometrically.
+fn correlated(count: usize, correlation: f64) -> f64 {
+    let (count, rest) = (crate::spectra::float(count), 1.0 - correlation);
+    (1.0 + correlation) / rest
+        - 2.0 * correlation * (1.0 - correlation.powf(count)) / (count * rest * rest)
+}
+
+/// Sums while the reference is taken, about its first value, so that squares do not cancel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Learning {
+    count: usize,
+    origin: f64,
+    weight: f64,
+    value: f64,
+    square: f64,
+    /// Weighted products of neighbours, and sums of what is first and second in them.
+    product: f64,
+    last: Option<[f64; 2]>,
 }
 
 /// What a quantity was while the reference was taken.
 #[derive(Clone, Copy, Debug)]
 struct Reference {
     mean: f64,
+    /// Of the mean.
     variance: f64,
+    /// Variance of estimates by the stated one.
+    scatter: f64,
+    /// Of neighbouring blocks.
+    correlation: f64,
+}
+
+/// An alarm whose cause is looked at again.
+#[derive(Clone, Copy, Debug)]
+struct Naming {
+    reference: Reference,
+    sums: Sums,
+    onset: f64,
+    cause: Cause,
+    left: usize,
 }
 
 /// The tests of one quantity. Its memory does not grow.
 #[derive(Clone, Debug)]
 pub(super) struct Detector {
+    kind: Kind,
     thresholds: Thresholds,
     /// Blocks of the reference, and onsets that are tried.
     counts: [usize; 2],
-    learnt: Sums,
-    /// About the first value, so that squares do not cancel.
-    origin: f64,
+    learnt: Learning,
     reference: Option<Reference>,
-    /// Variance of estimates by the stated one.
-    scatter: f64,
     window: VecDeque<Sample>,
     /// Cumulative sums upwards and downwards.
     cumulative: [f64; 2],
+    naming: Option<Naming>,
 }
 
 impl Detector {
-    pub(super) fn new(thresholds: Thresholds, counts: [usize; 2]) -> Self {
+    pub(super) fn new(kind: Kind, thresholds: Thresholds, counts: [usize; 2]) -> Self {
         Self {
+            kind,
             thresholds,
             counts,
-            learnt: Sums::default(),
-            origin: 0.0,
+            learnt: Learning::default(),
             reference: None,
-            scatter: 1.0,
             window: VecDeque::with_capacity(counts[1] + 1),
             cumulative: [0.0; 2],
+            naming: None,
         }
     }
 
     /// The reference and the scatter about it by the stated variance; none while it is taken.
     pub(super) fn reference(&self) -> Option<[f64; 2]> {
-        self.reference.map(|of| [of.mean, self.scatter])
+        self.reference.map(|of| [of.mean, of.scatter])
     }
 
-    /// Takes the estimate of the block that starts at a time. After an alarm a new reference is taken.
-    pub(super) fn take(&mut self, time: f64, value: f64, variance: f64) -> Option<Shift> {
-        let sound = value.is_finite() && variance.is_finite() && variance > 0.0;
+    /// Takes the estimate of a block. After an alarm a new reference is taken, and the cause is looked at again.
+    pub(super) fn take(&mut self, sample: Sample) -> Option<(Shift, Cause)> {
+        let sound = sample.value.is_finite()
+            && sample.signature.is_finite()
+            && sample.variance.is_finite()
+            && sample.variance > 0.0;
         if !sound {
             return None;
         }
         let Some(reference) = self.reference else {
-            self.learn(time, value, variance);
+            self.learn(&sample);
+            return self.named_otherwise(&sample);
+        };
+        let likeliest = self.likeliest(&reference, sample);
+        let above = self.is_above(&reference, &sample);
+        let (ratio, shift, cause) = likeliest?;
+        let sudden = shift.change < 0.0 && shift.onset.to_bits() == sample.time.to_bits();
+        if self.kind == Kind::Amplitude && sudden {
+            return None;
+        }
+        let test = if ratio > self.thresholds.ratio {
+            Test::LikelihoodRatio
+        } else if above {
+            Test::CumulativeSum
+        } else {
             return None;
         };
-        let sample = Sample { time, value, weight: 1.0 / (self.scatter * variance) };
-        let (ratio, likeliest) = self.likeliest(&reference, sample)?;
-        let test = if ratio > self.thresholds.ratio {
-            Some(Test::LikelihoodRatio)
-        } else if self.is_above(&reference, &sample) {
-            Some(Test::CumulativeSum)
-        } else {
-            None
-        };
-        let found = test.map(|test| Shift { test, ..likeliest });
-        if found.is_some() {
-            *self = Self::new(self.thresholds, self.counts);
+        let mut sums = Sums::default();
+        for sample in self.window.iter().filter(|of| of.time >= shift.onset) {
+            sums.add(sample, reference.mean);
         }
-        found
+        let naming = Naming { reference, sums, onset: shift.onset, cause, left: NAMING };
+        *self = Self::new(self.kind, self.thresholds, self.counts);
+        self.naming = Some(naming);
+        Some((Shift { test, ..shift }, cause))
     }
 
-    fn learn(&mut self, time: f64, value: f64, variance: f64) {
-        if self.learnt.count == 0 {
-            self.origin = value;
+    fn learn(&mut self, sample: &Sample) {
+        let learnt = &mut self.learnt;
+        if learnt.count == 0 && self.kind != Kind::Centred {
+            learnt.origin = sample.value;
         }
-        let value = value - self.origin;
-        self.learnt.add(&Sample { time, value, weight: 1.0 / variance });
+        let (value, weight) = (sample.value - learnt.origin, sample.variance.recip());
+        learnt.count += 1;
+        learnt.weight += weight;
+        learnt.value += weight * value;
+        learnt.square += weight * value * value;
+        if let Some([before, other]) = learnt.last {
+            let (both, mean) = ((weight * other).sqrt(), learnt.value / learnt.weight);
+            learnt.product += both * (value - mean) * (before - mean);
+        }
+        learnt.last = Some([value, weight]);
         let [blocks, _] = self.counts;
-        if self.learnt.count < blocks {
+        if learnt.count < blocks {
             return;
         }
-        let mean = self.learnt.mean();
-        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-        let freedom = (blocks - 1) as f64;
-        let squares = (self.learnt.square - self.learnt.weight * mean * mean).max(0.0);
-        let most =
-            ChiSquared::new(freedom).map_or(f64::INFINITY, |of| of.inverse_cdf(1.0 - SCATTER));
-        self.scatter = if squares > most { squares / freedom } else { 1.0 };
-        let variance = self.scatter / self.learnt.weight;
-        self.reference = Some(Reference { mean: self.origin + mean, variance });
+        let count = crate::spectra::float(blocks);
+        self.reference = Some(if self.kind == Kind::Centred {
+            let scatter = (learnt.square / count).max(1.0);
+            Reference { mean: 0.0, variance: 0.0, scatter, correlation: 0.0 }
+        } else {
+            let mean = learnt.value / learnt.weight;
+            let squares = (learnt.square - learnt.weight * mean * mean).max(0.0);
+            let scatter = (squares / (count - 1.0)).max(1.0);
+            let correlation =
+                if squares > 0.0 { (learnt.product / squares).clamp(0.0, 0.8) } else { 0.0 };
+            let variance = scatter * correlated(blocks, correlation) / learnt.weight;
+            Reference { mean: learnt.origin + mean, variance, scatter, correlation }
+        });
     }
 
-    /// The likeliest step at one of the last blocks, and the root of twice the logarithm of its likelihood ratio.
-    fn likeliest(&mut self, reference: &Reference, sample: Sample) -> Option<(f64, Shift)> {
+    /// The likeliest step at one of the last blocks, its cause, and the root of twice the logarithm of its likelihood ratio.
+    fn likeliest(&mut self, reference: &Reference, sample: Sample) -> Option<(f64, Shift, Cause)> {
         let [_, onsets] = self.counts;
         if self.window.len() == onsets {
             self.window.pop_front();
         }
         self.window.push_back(sample);
         let mut sums = Sums::default();
-        let mut best: Option<(f64, Shift)> = None;
+        let mut best: Option<(f64, Shift, Cause)> = None;
         for sample in self.window.iter().rev() {
-            sums.add(sample);
-            let deviation = (1.0 / sums.weight + reference.variance).sqrt();
-            let change = sums.mean() - reference.mean;
-            let ratio = change.abs() / deviation;
-            if best.as_ref().is_none_or(|(most, _)| ratio > *most) {
-                let shift = Shift {
-                    test: Test::LikelihoodRatio,
-                    onset: sample.time,
-                    before: reference.mean,
-                    change,
-                    half_width: INTERVAL * deviation,
-                };
-                best = Some((ratio, shift));
+            sums.add(sample, reference.mean);
+            for cause in [Cause::Own, Cause::Other] {
+                let Some(estimate) = sums.estimate(cause, reference) else { continue };
+                let ratio = estimate[0].abs() / estimate[1];
+                if best.as_ref().is_none_or(|(most, ..)| ratio > most * (1.0 + EQUAL)) {
+                    best = Some((ratio, shift(cause, sample.time, estimate, reference), cause));
+                }
             }
         }
         best
@@ -188,11 +291,42 @@ impl Detector {
     /// Whether a cumulative sum is above its bound.
     fn is_above(&mut self, reference: &Reference, sample: &Sample) -> bool {
         let Some(most) = self.thresholds.sum else { return false };
-        let deviation = (1.0 / sample.weight + reference.variance).sqrt();
-        let z = (sample.value - reference.mean) / deviation;
+        // A sum of many: as if each were as variable as their mean is.
+        let correlation = (1.0 + reference.correlation) / (1.0 - reference.correlation);
+        let variance = reference.scatter * correlation * sample.variance;
+        let z = (sample.value - reference.mean) / (variance + reference.variance).sqrt();
         for (sum, sign) in self.cumulative.iter_mut().zip([1.0, -1.0]) {
             *sum = (*sum + sign * z - DRIFT).max(0.0);
         }
         self.cumulative.iter().any(|sum| *sum > most)
     }
+
+    /// After an alarm: the other cause, where that has become likelier.
+    fn named_otherwise(&mut self, sample: &Sample) -> Option<(Shift, Cause)> {
+        let naming = self.naming.as_mut()?;
+        naming.sums.add(sample, naming.reference.mean);
+        naming.left -= 1;
+        let other = match naming.cause {
+            Cause::Own => Cause::Other,
+            Cause::Other => Cause::Own,
+        };
+        let of = |cause| naming.sums.estimate(cause, &naming.reference);
+        let (now, then) = of(naming.cause).zip(of(other))?;
+        let square = |[change, deviation]: [f64; 2]| (change / deviation).powi(2);
+        let found = (square(then) > square(now) + LIKELIER)
+            .then(|| (shift(other, naming.onset, then, &naming.reference), other));
+        if found.is_some() {
+            naming.cause = other;
+        }
+        if naming.left == 0 {
+            self.naming = None;
+        }
+        found
+    }
+}
+
+fn shift(cause: Cause, onset: f64, [change, deviation]: [f64; 2], reference: &Reference) -> Shift {
+    let before = if cause == Cause::Own { reference.mean } else { 0.0 };
+    let half_width = INTERVAL * deviation;
+    Shift { test: Test::LikelihoodRatio, onset, before, change, half_width }
 }

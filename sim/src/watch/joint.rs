@@ -1,6 +1,10 @@
 //! [`JointFit`]: one block of a joint: its measured rate against the model's, by torque.
 
 use super::regression::Regression;
+use super::steps::StepSearch;
+
+/// A rotor slower than this has no scale of its tachometer, rad/s.
+const SLOWEST: f64 = 1.0;
 
 /// Above this square of their correlation drag and torque constant have one effect: it is called drag.
 const ALIKE: f64 = 0.9;
@@ -20,14 +24,35 @@ pub(super) struct JointFit {
     by_torque: f64,
     /// The rate that was read last, rad/s.
     rate: f64,
+    /// Of a wheel.
+    steps: Option<StepSearch>,
+    /// Length of a block, and time since the start, s.
+    block: f64,
+    elapsed: f64,
+    /// Over the readings: their number, sums of what drag and the motor's torque make of the rate, and products of these.
+    shape: [f64; 5],
 }
 
-/// Drag torque beyond the model's, N m, and torque constant by the model's less one, each with its variance.
-pub(super) type JointValues = [Option<[f64; 2]>; 2];
+/// What a block says of a joint, each with its variance.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct JointValues {
+    /// Drag torque beyond the model's, N m.
+    pub(super) drag: Option<[f64; 2]>,
+    /// By how much a torque constant that is one more than the model's would change that, N m.
+    pub(super) signature: f64,
+    /// Torque constant by the model's less one; none where the block does not tell it from drag.
+    pub(super) torque: Option<[f64; 2]>,
+    /// Step of the reading by itself.
+    pub(super) scale: Option<[f64; 2]>,
+}
 
 impl JointFit {
-    pub(super) fn new(joint: usize) -> Self {
+    pub(super) fn new(joint: usize, wheel: bool, block: f64) -> Self {
         Self {
+            steps: wheel.then(StepSearch::default),
+            block,
+            elapsed: 0.0,
+            shape: [0.0; 5],
             joint,
             regressions: [Regression::new(3), Regression::new(2)],
             predicted: 0.0,
@@ -42,12 +67,26 @@ impl JointFit {
         self.regressions.iter_mut().for_each(Regression::clear);
         (self.predicted, self.torque, self.opposing) = (0.0, 0.0, 0.0);
         (self.by_torque, self.rate) = (by_torque, rate);
+        (self.elapsed, self.shape) = (0.0, [0.0; 5]);
+    }
+
+    /// Forgets what joins a block with the one before.
+    pub(super) fn forget(&mut self) {
+        if let Some(steps) = &mut self.steps {
+            *steps = StepSearch::default();
+        }
+    }
+
+    /// Whether it is a wheel, whose tachometer has a scale.
+    pub(super) fn is_wheel(&self) -> bool {
+        self.steps.is_some()
     }
 
     /// Moves on by a time with this acceleration and torque.
     pub(super) fn advance(&mut self, elapsed: f64, acceleration: f64, torque: f64) {
         self.predicted += acceleration * elapsed;
         self.torque += torque * elapsed;
+        self.elapsed += elapsed;
         self.opposing -= self.rate.signum() * elapsed;
     }
 
@@ -58,19 +97,34 @@ impl JointFit {
         let [both, of_drag] = &mut self.regressions;
         both.add(&[1.0, drag, torque], observed);
         of_drag.add(&[1.0, drag], observed);
+        for (sum, of) in self.shape.iter_mut().zip([1.0, drag, torque, drag * drag, drag * torque])
+        {
+            *sum += of;
+        }
+        if let Some(steps) = &mut self.steps {
+            steps.read(self.elapsed / self.block, observed);
+        }
         self.rate = rate;
     }
 
-    pub(super) fn estimate(&self) -> JointValues {
+    /// What the block says.
+    pub(super) fn end(&mut self) -> JointValues {
         let [both, of_drag] = &self.regressions;
-        if let Some(found) = both.solve()
-            && let (Some(drag), Some(torque)) = (found.of(1), found.of(2))
-        {
+        let drag = of_drag.solve();
+        let torque = both.solve().and_then(|found| {
+            let (drag, torque) = (found.of(1)?, found.of(2)?);
             let common = found.covariance[(2, 1)];
-            if common * common < ALIKE * drag[1] * torque[1] {
-                return [Some(drag), Some(torque)];
-            }
-        }
-        [of_drag.solve().and_then(|found| found.of(1)), None]
+            (common * common < ALIKE * drag[1] * torque[1]).then_some(torque)
+        });
+        let [count, drags, torques, square, product] = self.shape;
+        let spread = count * square - drags * drags;
+        let signature =
+            if spread > 0.0 { (count * product - drags * torques) / spread } else { 0.0 };
+        let noise = drag.as_ref().map_or(0.0, |found| found.noise);
+        let step = self.steps.as_mut().and_then(|steps| steps.end(noise, self.predicted));
+        let (rate, turning) = (self.rate, self.rate.abs() > SLOWEST);
+        let scale = step.filter(|_| turning);
+        let scale = scale.map(|[step, variance]| [step / rate, variance / (rate * rate)]);
+        JointValues { drag: drag.and_then(|found| found.of(1)), signature, torque, scale }
     }
 }

@@ -7,8 +7,8 @@
 //! Within a block the accelerations of the coupled equations, at measured rates and motor torques, are integrated. The gyro less that is a
 //! start, a constant torque from outside, noise, and a line of each rotor: linear in its static and dynamic imbalance, by exact
 //! derivatives, at the angle that its tachometer integrates to. Angles of rotors are not telemetered: phases are from block to
-//! block. A tachometer less that is a start, a drag torque and, of a gimbal, a torque constant. Quantities of blocks are compared
-//! with those of the first blocks, the reference. Memory does not grow with the length of the telemetry.
+//! block. A tachometer less that is a start, a drag torque and a torque constant. Quantities of blocks are compared with those of the first
+//! blocks, the reference; steps of gyro and tachometers are searched for within blocks. Memory does not grow with the length of the telemetry.
 //!
 //! Lines are those of a rigid hub. Blocks across a gap are left out.
 //!
@@ -17,6 +17,7 @@
 //! | `model` | accelerations and lines |
 //! | `body`, `joint` | the block of the gyro, that of a joint |
 //! | `regression` | least squares, what a block does not determine |
+//! | `steps` | steps within blocks |
 //! | `quantity` | names, units, what looks the same |
 //! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
 
@@ -27,6 +28,7 @@ mod joint;
 pub(crate) mod model;
 mod quantity;
 mod regression;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod thresholds;
@@ -40,8 +42,8 @@ pub use quantity::{Alarm, Watched};
 use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns};
 use body::BodyFit;
-use detector::Detector;
-use joint::JointFit;
+use detector::{Detector, Kind};
+use joint::{JointFit, JointValues};
 use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
 use thresholds::Thresholds;
@@ -51,6 +53,9 @@ const ONSETS: usize = 60;
 
 /// A time without readings that is longer than this share of a block ends the block.
 const GAP: f64 = 0.25;
+
+/// A step within a block of so many deviations, and its block has no other estimates of this sensor.
+const SPOILS: f64 = 4.0;
 
 /// Lengths and the rate of false alarms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +75,8 @@ pub struct Block {
     pub times: [f64; 2],
     /// Each quantity with its variance, in the order of [`Watch::quantities`]; none where the block does not determine it.
     pub values: Vec<Option<[f64; 2]>>,
+    /// How much of the other cause's unit is in each.
+    pub(crate) signatures: Vec<f64>,
     /// What was found at its end.
     pub alarms: Vec<Alarm>,
 }
@@ -118,11 +125,15 @@ impl Watch {
         let motors: Vec<usize> = (0..count).filter(|joint| has(Sensor::Motor(*joint))).collect();
         let model = WatchedModel::new(scenario, &motors)?;
         let own = |joint: &usize| has(Sensor::Tachometer(*joint)) && has(Sensor::Motor(*joint));
-        let joints: Vec<_> = (0..count).filter(own).map(JointFit::new).collect();
+        let is_wheel = |joint: usize| {
+            scenario.joints().nth(joint).is_some_and(|(.., info)| body_key(info) == "wheel")
+        };
+        let of_joint = |joint: usize| JointFit::new(joint, is_wheel(joint), block);
+        let joints: Vec<_> = (0..count).filter(own).map(of_joint).collect();
         let mut remarks = Vec::new();
         let turning: Vec<bool> =
             model.rotors().iter().map(|of| has(Sensor::Tachometer(of.joint))).collect();
-        let body = has(Sensor::Gyro).then(|| BodyFit::new(scenario, turning));
+        let body = has(Sensor::Gyro).then(|| BodyFit::new(scenario, turning, block));
         if body.is_none() && joints.is_empty() {
             return Err(WatchError::Nothing);
         }
@@ -144,7 +155,12 @@ impl Watch {
         }
         all.extend(joints.iter().flat_map(|of| {
             let name = joint_name(scenario, of.joint);
-            [(Watched::Drag, name.clone()), (Watched::TorqueConstant, name)]
+            let mut own =
+                vec![(Watched::Drag, name.clone()), (Watched::TorqueConstant, name.clone())];
+            if of.is_wheel() {
+                own.push((Watched::TachometerScale, name));
+            }
+            own
         }));
         Ok(Self {
             settings: *settings,
@@ -201,6 +217,7 @@ impl Watch {
                 if let Some(body) = &mut self.body {
                     body.forget();
                 }
+                self.joints.iter_mut().for_each(JointFit::forget);
                 self.start = None;
             } else {
                 self.advance(time)?;
@@ -288,7 +305,7 @@ impl Watch {
         let mut lines = Vec::new();
         let mut jumps = [None; 3];
         if let Some(body) = &mut self.body {
-            (lines, jumps) = body.end(times[1] - times[0]);
+            (lines, jumps) = body.end();
         }
         let rotors = self.model.rotors().len();
         let mut values = Vec::with_capacity(self.quantities.len());
@@ -299,13 +316,33 @@ impl Watch {
                 let of = |rotor: usize| lines.get(rotor).copied().unwrap_or([None; 4]);
                 values.extend((0..rotors).flat_map(of));
             }
+            if jumps.iter().flatten().any(|of| is_step(*of)) {
+                values.fill(None);
+            }
             values.extend(jumps);
         }
-        values.extend(self.joints.iter().flat_map(JointFit::estimate));
-        let own = self.quantities.iter_mut().zip(&values);
-        let alarms = own.filter_map(|(of, value)| of.take(times, (*value)?)).collect();
-        Block { times, values, alarms }
+        let mut signatures = vec![0.0; values.len()];
+        for joint in &mut self.joints {
+            let wheel = joint.is_wheel();
+            let JointValues { mut drag, signature, torque, scale } = joint.end();
+            // A step of the reading within the block is no drag.
+            if scale.is_some_and(is_step) {
+                drag = None;
+            }
+            values.extend([drag, torque].into_iter().chain(wheel.then_some(scale)));
+            signatures.extend([signature, 0.0].into_iter().chain(wheel.then_some(0.0)));
+        }
+        let own = self.quantities.iter_mut().zip(values.iter().zip(&signatures));
+        let alarms =
+            own.filter_map(|(of, (value, signature))| of.take(times, (*value)?, *signature));
+        let alarms = alarms.collect();
+        Block { times, values, signatures, alarms }
     }
+}
+
+/// Whether it is as far from zero as to spoil the other estimates of its block.
+fn is_step([value, variance]: [f64; 2]) -> bool {
+    value * value > SPOILS * SPOILS * variance
 }
 
 /// The device of a joint; with its body where the device has several: `rw1`, `cmg1.outer_gimbal`.
@@ -332,10 +369,10 @@ fn quantities_of(
     let at_once = Thresholds::new(alpha, 1, reference)?;
     let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
     let quantities = all.into_iter().map(|(watched, of)| {
-        let single =
-            matches!(watched, Watched::StaticPhase | Watched::DynamicPhase | Watched::GyroJump);
+        let kind = watched.kind();
+        let single = matches!(kind, Kind::Single | Kind::Centred);
         let (thresholds, onsets) = if single { (at_once, 1) } else { (over_onsets, ONSETS) };
-        Quantity::new(watched, &of, Detector::new(thresholds, [reference, onsets]))
+        Quantity::new(watched, &of, Detector::new(kind, thresholds, [reference, onsets]))
     });
     Ok(quantities.collect())
 }

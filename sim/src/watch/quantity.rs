@@ -1,6 +1,6 @@
 //! [`Quantity`]: what is watched: its name, unit and tests, and what else would look the same.
 
-use super::detector::{Detector, Shift};
+use super::detector::{Cause, Detector, Kind, Sample, Shift};
 
 /// What a quantity is.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,9 @@ pub enum Watched {
     Drag,
     /// Torque constant of the motor of a wheel or gimbal by that of the scenario, less one.
     TorqueConstant,
-    /// Jump of the gyro's reading between two blocks, about an axis, rad/s.
+    /// Step of the scale of a wheel's tachometer, by the scale before.
+    TachometerScale,
+    /// Step of the gyro's reading about an axis, rad/s.
     GyroJump,
 }
 
@@ -30,8 +32,18 @@ impl Watched {
             Self::DynamicImbalance => "kg m^2",
             Self::StaticPhase | Self::DynamicPhase => "rad",
             Self::Drag => "N m",
-            Self::TorqueConstant => "1",
+            Self::TorqueConstant | Self::TachometerScale => "1",
             Self::GyroJump => "rad/s",
+        }
+    }
+
+    /// How it is tested; a torque constant in the series of drag.
+    pub(super) fn kind(&self) -> Kind {
+        match self {
+            Self::StaticImbalance | Self::DynamicImbalance => Kind::Amplitude,
+            Self::StaticPhase | Self::DynamicPhase => Kind::Single,
+            Self::Drag | Self::TorqueConstant => Kind::Level,
+            Self::TachometerScale | Self::GyroJump => Kind::Centred,
         }
     }
 
@@ -44,6 +56,7 @@ impl Watched {
             Self::DynamicPhase => format!("phase step of the dynamic imbalance of {of}"),
             Self::Drag => format!("drag torque of {of}"),
             Self::TorqueConstant => format!("torque constant of {of}"),
+            Self::TachometerScale => format!("tachometer scale of {of}"),
             Self::GyroJump => format!("gyro bias about {of}"),
         }
     }
@@ -66,8 +79,12 @@ impl Watched {
                 "a torque from outside about its axis on the hub, by the share of the rotor in the inertia",
             ],
             Self::TorqueConstant => &[
+                "drag of {}, as long as its torque has not changed",
                 "friction or a cable of {} that grows with the torque",
                 "another scale of the telemetered torque",
+            ],
+            Self::TachometerScale => &[
+                "an impulse about the axis of {}, such as a touch, which does not turn phases from then on",
             ],
             Self::GyroJump => &[
                 "an angular impulse from outside about {}",
@@ -85,7 +102,8 @@ pub(crate) struct Quantity {
     pub(super) name: String,
     /// Of which joint, rotor or axis.
     pub(super) of: String,
-    detector: Detector,
+    /// None of a torque constant, which is found in the series of drag.
+    detector: Option<Detector>,
 }
 
 /// A change that a test has found.
@@ -105,6 +123,7 @@ pub struct Alarm {
 
 impl Quantity {
     pub(super) fn new(watched: Watched, of: &str, detector: Detector) -> Self {
+        let detector = (watched != Watched::TorqueConstant).then_some(detector);
         Self { name: watched.name(of), of: of.to_owned(), watched, detector }
     }
 
@@ -115,17 +134,23 @@ impl Quantity {
 
     /// The reference and the scatter about it by the stated variance; none while it is taken.
     pub(super) fn reference(&self) -> Option<[f64; 2]> {
-        self.detector.reference()
+        self.detector.as_ref().and_then(Detector::reference)
     }
 
-    /// Takes the estimate, with its variance, of a block.
+    /// Takes the estimate of a block, with its variance, and how much of another cause's unit is in it.
     pub(crate) fn take(
         &mut self,
         [start, end]: [f64; 2],
         [value, variance]: [f64; 2],
+        signature: f64,
     ) -> Option<Alarm> {
-        let shift = self.detector.take(start, value, variance)?;
-        let (name, watched) = (self.name.clone(), self.watched.clone());
-        Some(Alarm { name, watched, time: end, shift, alike: self.watched.alike(&self.of) })
+        let detector = self.detector.as_mut()?;
+        let (shift, cause) = detector.take(Sample { time: start, value, variance, signature })?;
+        let (watched, name) = match cause {
+            Cause::Own => (self.watched.clone(), self.name.clone()),
+            Cause::Other => (Watched::TorqueConstant, Watched::TorqueConstant.name(&self.of)),
+        };
+        let alike = watched.alike(&self.of);
+        Some(Alarm { name, watched, time: end, shift, alike })
     }
 }

@@ -24,6 +24,8 @@ pub(super) struct Estimated {
     pub(super) values: DVector<f64>,
     /// Of the errors; white noise of the deviation that the residuals have.
     pub(super) covariance: DMatrix<f64>,
+    /// Variance of the residuals.
+    pub(super) noise: f64,
     determined: Vec<bool>,
 }
 
@@ -87,7 +89,7 @@ impl Regression {
         #[expect(clippy::cast_precision_loss, reason = "samples of a block")]
         let freedom = (self.count - kept) as f64;
         let noise = (self.squares - values.dot(&self.moments)).max(0.0) / freedom;
-        Some(Estimated { values, covariance: unit * noise, determined })
+        Some(Estimated { values, covariance: unit * noise, noise, determined })
     }
 }
 

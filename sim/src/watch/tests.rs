@@ -3,7 +3,7 @@
 use precess_control::Noise;
 
 use super::ONSETS;
-use super::detector::Detector;
+use super::detector::{Detector, Kind, Sample, Shift};
 use super::thresholds::Thresholds;
 
 /// As by default: blocks of 10 s, 600 s of reference, one false alarm an hour; of twenty quantities.
@@ -31,7 +31,12 @@ impl Draws {
 fn detector() -> Detector {
     let alpha = 1.0 / f64::from(BLOCKS_AN_HOUR) / f64::from(QUANTITIES);
     let thresholds = Thresholds::new(alpha, ONSETS, REFERENCE).unwrap();
-    Detector::new(thresholds, [REFERENCE, ONSETS])
+    Detector::new(Kind::Level, thresholds, [REFERENCE, ONSETS])
+}
+
+fn take(detector: &mut Detector, k: u32, value: f64, signature: f64) -> Option<Shift> {
+    let sample = Sample { time: f64::from(k), value, variance: 1.0, signature };
+    detector.take(sample).map(|(shift, _)| shift)
 }
 
 /// Records of two hours after the reference, each quantity by itself: as many alarms as stated at most, and not so few that the bounds
@@ -44,7 +49,7 @@ fn false_alarms_are_no_more_than_stated() {
     for _ in 0..HOURS / 2 * QUANTITIES {
         let mut detector = detector();
         for k in 0..60 + 2 * BLOCKS_AN_HOUR {
-            alarms += u32::from(detector.take(f64::from(k), draws.draw(), 1.0).is_some());
+            alarms += u32::from(take(&mut detector, k, draws.draw(), 0.0).is_some());
         }
     }
     let rate = f64::from(alarms) / f64::from(HOURS);
@@ -66,7 +71,7 @@ fn steps_are_found_with_their_size() {
             let mut k = 0;
             let found = loop {
                 let change = if k < 80 { 0.0 } else { step };
-                if let Some(found) = detector.take(f64::from(k), draws.draw() + change, 1.0) {
+                if let Some(found) = take(&mut detector, k, draws.draw() + change, 0.0) {
                     break found;
                 }
                 k += 1;

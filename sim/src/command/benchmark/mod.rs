@@ -63,16 +63,16 @@ pub(super) struct HealthCommand {
     #[arg(long, value_name = "NUMBER", default_value_t = 1.0)]
     false_alarms: f64,
     /// Length of a block, with its unit.
-    #[arg(long, value_name = "TIME", value_parser = time, default_value = "5 s")]
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "2 s")]
     block: f64,
     /// How long the reference is taken, from the start.
-    #[arg(long, value_name = "TIME", value_parser = time, default_value = "100 s")]
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "200 s")]
     learn: f64,
     /// After which the fault begins, within a block.
-    #[arg(long, value_name = "TIME", value_parser = time, default_value = "130 s")]
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "230 s")]
     healthy: f64,
     /// Length of a record.
-    #[arg(long, value_name = "TIME", value_parser = time, default_value = "200 s")]
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "300 s")]
     duration: f64,
     /// Score these alarms (CSV) of another method, and write nothing.
     #[arg(long, value_name = "ALARMS")]

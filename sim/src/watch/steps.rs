@@ -1,0 +1,126 @@
+//! [`StepSearch`]: a step of a reading at any time within the last one and a half blocks, beside a parabola.
+//!
+//! Readings of a block, less the model, are averaged over eight bins. At the end of a block a parabola and a step are fitted to the bins of this
+//! block and the one before, at each of twelve times; what the model does not have grows slowly, and is in the parabola. The largest
+//! of twelve ratios z is taken as the normal one that is as rare by Bonferroni's bound, `sqrt(z² - 2 ln 12)`. Where a torque from then on, a
+//! change of slope, is likelier it is no step.
+
+use nalgebra::{Matrix4, Vector4};
+
+/// Bins of a block.
+pub(super) const BINS: usize = 8;
+
+/// Twice the logarithm of the number of times that are tried.
+const TRIED: f64 = 4.969_813_299_576_001;
+
+/// The ratio of what is no step.
+const NONE: f64 = 0.1;
+
+/// Readings of a bin.
+#[derive(Clone, Copy, Debug, Default)]
+struct Bin {
+    count: f64,
+    time: f64,
+    value: f64,
+}
+
+/// The search in one channel.
+#[derive(Clone, Debug, Default)]
+pub(super) struct StepSearch {
+    bins: [Bin; BINS],
+    /// Those of the block before, at times before this block.
+    before: Option<[Bin; BINS]>,
+}
+
+impl StepSearch {
+    /// Forgets the block before.
+    pub(super) fn forget(&mut self) {
+        self.before = None;
+    }
+
+    /// Takes a reading, less the model's integral since the start of the block, at this share of the block.
+    pub(super) fn read(&mut self, share: f64, value: f64) {
+        if let Some(bin) = self.bins.get_mut(bin(share)) {
+            bin.count += 1.0;
+            bin.time += share;
+            bin.value += value;
+        }
+    }
+
+    /// The likeliest step and its variance, of readings with this variance; none without a block before, or where bins are empty. The model's
+    /// integral over the block makes its readings those of the next one.
+    pub(super) fn end(&mut self, variance: f64, predicted: f64) -> Option<[f64; 2]> {
+        self.end_with(variance, predicted, |_| 0.0)
+    }
+
+    /// The same, less the mean over each bin of something that is known by now.
+    pub(super) fn end_with(
+        &mut self,
+        variance: f64,
+        predicted: f64,
+        known: impl Fn(usize) -> f64,
+    ) -> Option<[f64; 2]> {
+        for (index, bin) in self.bins.iter_mut().enumerate() {
+            bin.value -= known(index);
+        }
+        let found = self.before.and_then(|before| likeliest(&before, &self.bins, variance));
+        let moved = self.bins.map(|of| Bin {
+            count: of.count,
+            time: of.time - of.count,
+            value: of.value + predicted * of.count,
+        });
+        self.before = Some(moved);
+        self.bins = [Bin::default(); BINS];
+        found
+    }
+}
+
+/// The bin at this share of a block.
+pub(super) fn bin(share: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "from zero to eight"
+    )]
+    let index = (share.clamp(0.0, 1.0) * BINS as f64) as usize;
+    index.min(BINS - 1)
+}
+
+fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[f64; 2]> {
+    let all = || before.iter().chain(now);
+    if all().any(|of| of.count == 0.0) {
+        return None;
+    }
+    let mut best: Option<([f64; 2], f64, bool)> = None;
+    for split in BINS / 2..2 * BINS {
+        let fit = |shape: &dyn Fn(&Bin) -> f64| {
+            let (mut normal, mut moments) = (Matrix4::zeros(), Vector4::zeros());
+            for (index, bin) in all().enumerate() {
+                let (time, value) = (bin.time / bin.count, bin.value / bin.count);
+                let last = if index < split { 0.0 } else { shape(bin) };
+                let row = Vector4::new(1.0, time, time * time, last);
+                normal += row * row.transpose() * bin.count;
+                moments += row * (value * bin.count);
+            }
+            let inverse = normal.try_inverse()?;
+            let last = inverse.row(3);
+            let [change, square] = [(last * moments)[0], last[3]];
+            (square > 0.0).then(|| ([change, square * variance], change * change / square))
+        };
+        #[expect(clippy::cast_precision_loss, reason = "sixteen")]
+        let start = (split as f64 - BINS as f64) / BINS as f64;
+        let (step, slope) = (fit(&|_| 1.0), fit(&|bin| bin.time / bin.count - start));
+        let Some((step, gain)) = step else { continue };
+        let is_step = slope.is_none_or(|(_, other)| other < gain);
+        if best.as_ref().is_none_or(|(_, most, _)| gain > *most) {
+            best = Some((step, gain, is_step));
+        }
+    }
+    let ([change, deviation], _, is_step) =
+        best.map(|([change, variance], gain, is)| ([change, variance.sqrt()], gain, is))?;
+    let square = (change / deviation).powi(2) - TRIED;
+    let ratio = if is_step && square > NONE * NONE { square.sqrt() } else { NONE };
+    let deviation = change.abs() / ratio;
+    Some([change, deviation * deviation])
+}
