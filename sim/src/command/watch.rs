@@ -204,7 +204,7 @@ fn row(to: &mut Partial, block: &Block) -> std::io::Result<()> {
 /// A number of a quantity in the unit that people use.
 fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
     match watched {
-        Watched::StaticImbalance => (to_g_cm(value), "g cm"),
+        Watched::StaticImbalance | Watched::BearingStiffness => (to_g_cm(value), "g cm"),
         Watched::DynamicImbalance => (to_g_cm2(value), "g cm^2"),
         Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
         Watched::TorqueConstant | Watched::TachometerScale => (100.0 * value, "%"),

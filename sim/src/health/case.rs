@@ -59,11 +59,11 @@ pub struct TrueChange {
     pub case: String,
     /// The device or the axis; empty of the nominal case.
     pub place: String,
-    /// What has changed, as the watch calls it; empty of what it has no name for, and of the nominal case.
+    /// What has changed, as the watch calls it; empty of the nominal case.
     pub quantity: String,
     /// When, s; the end of the record of the nominal case.
     pub onset: f64,
-    /// By how much, SI units; NaN of what has no quantity.
+    /// By how much, SI units; NaN of a bearing's stiffness, whose size the watch does not say, and of the nominal case.
     pub change: f64,
 }
 

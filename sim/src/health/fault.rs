@@ -141,8 +141,8 @@ impl HealthCase {
             Fault::GyroBias => ("gyro bias about y".to_owned(), "y".to_owned(), change),
             Fault::Tachometer if bus => (format!("tachometer scale of {device}"), device, change),
             Fault::Tachometer => (format!("tachometer scale of {device}.wheel"), device, change),
-            // The watch has no name of its own for it.
-            Fault::Bearing => (String::new(), device, f64::NAN),
+            // The watch has the growth of a line, no stiffness.
+            Fault::Bearing => (format!("bearing stiffness of {device}"), device, f64::NAN),
         };
         TrueChange { case, place, quantity, onset, change }
     }

@@ -64,7 +64,7 @@ pub fn score<'a>(
     let named = after.iter().find(right);
     let own = after.iter().find(|alarm| is_at(&alarm.place, &truth.place));
     let size = named.and_then(|alarm| {
-        let [change, half] = alarm.change?;
+        let [change, half] = alarm.change.filter(|_| truth.change.is_finite())?;
         Some((change / truth.change - 1.0, (change - truth.change).abs() <= half))
     });
     let until = named.map_or(f64::INFINITY, |alarm| alarm.time);

@@ -37,6 +37,8 @@ struct Line {
     signature: Option<Signature>,
     /// Whether static imbalance has a line of its own; known from the first block on.
     separate: Option<bool>,
+    /// Rate in the first block, rad/s.
+    first: Option<f64>,
     /// Phases of the last block that has one, rad, with their variances.
     before: [Option<[f64; 2]>; 2],
 }
@@ -79,6 +81,7 @@ impl BodyFit {
             rate: 0.0,
             signature: None,
             separate: None,
+            first: None,
             before: [None; 2],
         };
         Self {
@@ -200,6 +203,14 @@ impl BodyFit {
         }
     }
 
+    /// Square of a rotor's rate, in the middle of the block, by that in its first one: softer bearings amplify its line as that, to first order.
+    pub(super) fn speed(&mut self, rotor: usize) -> f64 {
+        let Some(line) = self.lines.get_mut(rotor) else { return 0.0 };
+        let Some(signature) = &line.signature else { return 0.0 };
+        let rate = f64::midpoint(signature.rate, line.rate);
+        (rate / *line.first.get_or_insert(rate)).powi(2)
+    }
+
     /// What the block says: of each rotor, and the step of the gyro about each axis.
     pub(super) fn end(&mut self) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
         let Some(found) = self.regression.solve() else {
@@ -214,7 +225,11 @@ impl BodyFit {
                 values[kind] = of.map(|(amplitude, _)| amplitude);
                 values[2 + kind] = line.before[kind].zip(phase).map(|(before, now)| {
                     let turned = now[0] - before[0];
-                    [turned - TAU * ((turned + PI) / TAU).floor(), now[1] + before[1]]
+                    let step = turned - TAU * ((turned + PI) / TAU).floor();
+                    // Phases far off are likelier than those of a normal distribution; the chord is as rare as that.
+                    let chord = 2.0 * libm::sin(0.5 * step);
+                    let longer = if chord == 0.0 { 1.0 } else { (step / chord).powi(2) };
+                    [step, longer * (now[1] + before[1])]
                 });
                 // A line whose phase turns within the block is weak in it: the next one is compared with the block before.
                 line.before[kind] = phase.or(line.before[kind]);

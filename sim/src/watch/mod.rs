@@ -322,6 +322,13 @@ impl Watch {
             values.extend(jumps);
         }
         let mut signatures = vec![0.0; values.len()];
+        if let Some(body) = &mut self.body {
+            let of_rotors = self.quantities.iter().zip(&mut signatures);
+            let amplitudes = of_rotors.filter(|(of, _)| of.watched == Watched::StaticImbalance);
+            for (rotor, (_, signature)) in amplitudes.enumerate() {
+                *signature = body.speed(rotor);
+            }
+        }
         for joint in &mut self.joints {
             let wheel = joint.is_wheel();
             let JointValues { mut drag, signature, torque, scale } = joint.end();

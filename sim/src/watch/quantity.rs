@@ -17,6 +17,9 @@ pub enum Watched {
     Drag,
     /// Torque constant of the motor of a wheel or gimbal by that of the scenario, less one.
     TorqueConstant,
+    /// Stiffness of the bearings of a rotor: growth of its static imbalance in the body rate that is as the square of its rate, kg m at the rate at
+    /// first.
+    BearingStiffness,
     /// Step of the scale of a wheel's tachometer, by the scale before.
     TachometerScale,
     /// Step of the gyro's reading about an axis, rad/s.
@@ -28,7 +31,7 @@ impl Watched {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::StaticImbalance => "kg m",
+            Self::StaticImbalance | Self::BearingStiffness => "kg m",
             Self::DynamicImbalance => "kg m^2",
             Self::StaticPhase | Self::DynamicPhase => "rad",
             Self::Drag => "N m",
@@ -40,7 +43,9 @@ impl Watched {
     /// How it is tested; a torque constant in the series of drag.
     pub(super) fn kind(&self) -> Kind {
         match self {
-            Self::StaticImbalance | Self::DynamicImbalance => Kind::Amplitude,
+            Self::StaticImbalance | Self::DynamicImbalance | Self::BearingStiffness => {
+                Kind::Amplitude
+            }
             Self::StaticPhase | Self::DynamicPhase => Kind::Single,
             Self::Drag | Self::TorqueConstant => Kind::Level,
             Self::TachometerScale | Self::GyroJump => Kind::Centred,
@@ -56,6 +61,7 @@ impl Watched {
             Self::DynamicPhase => format!("phase step of the dynamic imbalance of {of}"),
             Self::Drag => format!("drag torque of {of}"),
             Self::TorqueConstant => format!("torque constant of {of}"),
+            Self::BearingStiffness => format!("bearing stiffness of {of}"),
             Self::TachometerScale => format!("tachometer scale of {of}"),
             Self::GyroJump => format!("gyro bias about {of}"),
         }
@@ -82,6 +88,10 @@ impl Watched {
                 "drag of {}, as long as its torque has not changed",
                 "friction or a cable of {} that grows with the torque",
                 "another scale of the telemetered torque",
+            ],
+            Self::BearingStiffness => &[
+                "static imbalance of {}, as long as its rate has not changed",
+                "a mode of the structure near its rotation frequency",
             ],
             Self::TachometerScale => &[
                 "an impulse about the axis of {}, such as a touch, which does not turn phases from then on",
@@ -148,7 +158,14 @@ impl Quantity {
         let (shift, cause) = detector.take(Sample { time: start, value, variance, signature })?;
         let (watched, name) = match cause {
             Cause::Own => (self.watched.clone(), self.name.clone()),
-            Cause::Other => (Watched::TorqueConstant, Watched::TorqueConstant.name(&self.of)),
+            Cause::Other => {
+                let other = match self.watched {
+                    Watched::StaticImbalance => Watched::BearingStiffness,
+                    _ => Watched::TorqueConstant,
+                };
+                let name = other.name(&self.of);
+                (other, name)
+            }
         };
         let alike = watched.alike(&self.of);
         Some(Alarm { name, watched, time: end, shift, alike })

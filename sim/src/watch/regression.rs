@@ -100,15 +100,15 @@ impl Estimated {
         determined.then(|| [self.values[parameter], self.covariance[(parameter, parameter)]])
     }
 
-    /// Amplitude and phase of two parameters, real and imaginary part, with their variances; the phase where the amplitude is ten
-    /// deviations or more: below, phases are not normally distributed.
+    /// Amplitude and phase of two parameters, real and imaginary part, with their variances; the phase where the amplitude is five
+    /// deviations or more.
     pub(super) fn line(&self, real: usize) -> Option<([f64; 2], Option<[f64; 2]>)> {
         let ([re, a], [im, b]) = (self.of(real)?, self.of(real + 1)?);
         let c = self.covariance[(real + 1, real)];
         // The larger eigenvalue: of a line that noise hides, no direction is its own.
         let largest = f64::midpoint(a, b) + (0.25 * (a - b).powi(2) + c * c).sqrt();
         let square = re * re + im * im;
-        if square < 100.0 * largest {
+        if square < 25.0 * largest {
             return Some(([square.sqrt(), largest], None));
         }
         let along = (re * re * a + 2.0 * re * im * c + im * im * b) / square;

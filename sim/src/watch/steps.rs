@@ -7,6 +7,8 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use crate::spectra::float;
+
 /// Bins of a block.
 pub(super) const BINS: usize = 8;
 
@@ -80,47 +82,57 @@ pub(super) fn bin(share: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
         reason = "from zero to eight"
     )]
-    let index = (share.clamp(0.0, 1.0) * BINS as f64) as usize;
+    let index = (share.clamp(0.0, 1.0) * float(BINS)) as usize;
     index.min(BINS - 1)
 }
 
+/// The last of the parameters of a parabola and a shape that begins after so many bins, its variance by that of a reading, and
+/// by how much it lessens the squares; some bins are left out.
+fn fit(
+    bins: &[Bin],
+    split: usize,
+    without: &[usize],
+    shape: impl Fn(f64) -> f64,
+) -> Option<([f64; 2], f64)> {
+    let (mut normal, mut moments) = (Matrix4::zeros(), Vector4::zeros());
+    for (index, bin) in bins.iter().enumerate().filter(|(index, _)| !without.contains(index)) {
+        let (time, value) = (bin.time / bin.count, bin.value / bin.count);
+        let last = if index < split { 0.0 } else { shape(time) };
+        let row = Vector4::new(1.0, time, time * time, last);
+        normal += row * row.transpose() * bin.count;
+        moments += row * (value * bin.count);
+    }
+    let inverse = normal.try_inverse()?;
+    let last = inverse.row(3);
+    let [change, square] = [(last * moments)[0], last[3]];
+    (square > 0.0).then(|| ([change, square], change * change / square))
+}
+
 fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[f64; 2]> {
-    let all = || before.iter().chain(now);
-    if all().any(|of| of.count == 0.0) {
+    let all: Vec<Bin> = before.iter().chain(now).copied().collect();
+    if all.iter().any(|of| of.count == 0.0) {
         return None;
     }
-    let mut best: Option<([f64; 2], f64, bool)> = None;
+    let mut best: Option<(f64, f64, usize, bool)> = None;
     for split in BINS / 2..2 * BINS {
-        let fit = |shape: &dyn Fn(&Bin) -> f64| {
-            let (mut normal, mut moments) = (Matrix4::zeros(), Vector4::zeros());
-            for (index, bin) in all().enumerate() {
-                let (time, value) = (bin.time / bin.count, bin.value / bin.count);
-                let last = if index < split { 0.0 } else { shape(bin) };
-                let row = Vector4::new(1.0, time, time * time, last);
-                normal += row * row.transpose() * bin.count;
-                moments += row * (value * bin.count);
-            }
-            let inverse = normal.try_inverse()?;
-            let last = inverse.row(3);
-            let [change, square] = [(last * moments)[0], last[3]];
-            (square > 0.0).then(|| ([change, square * variance], change * change / square))
-        };
-        #[expect(clippy::cast_precision_loss, reason = "sixteen")]
-        let start = (split as f64 - BINS as f64) / BINS as f64;
-        let (step, slope) = (fit(&|_| 1.0), fit(&|bin| bin.time / bin.count - start));
-        let Some((step, gain)) = step else { continue };
+        let start = float(split) / float(BINS) - 1.0;
+        let Some(([change, _], gain)) = fit(&all, split, &[], |_| 1.0) else { continue };
+        let slope = fit(&all, split, &[], |time| time - start);
         let is_step = slope.is_none_or(|(_, other)| other < gain);
-        if best.as_ref().is_none_or(|(_, most, _)| gain > *most) {
-            best = Some((step, gain, is_step));
+        if best.is_none_or(|(_, most, ..)| gain > most) {
+            best = Some((change, gain, split, is_step));
         }
     }
-    let ([change, deviation], _, is_step) =
-        best.map(|([change, variance], gain, is)| ([change, variance.sqrt()], gain, is))?;
-    let square = (change / deviation).powi(2) - TRIED;
+    let (change, gain, split, is_step) = best?;
+    let square = gain / variance - TRIED;
     let ratio = if is_step && square > NONE * NONE { square.sqrt() } else { NONE };
-    let deviation = change.abs() / ratio;
-    Some([change, deviation * deviation])
+    // The step may be in the middle of a bin: its size is that without those beside the split, where two are left after it.
+    let clear = (split + 3 <= 2 * BINS)
+        .then(|| fit(&all, split, &[split - 1, split], |_| 1.0))
+        .flatten()
+        .map_or(change, |([clear, _], _)| clear);
+    let deviation = clear.abs() / ratio;
+    Some([clear, deviation * deviation])
 }
