@@ -17,8 +17,8 @@ const NAMING: usize = 30;
 /// Twice the logarithm of the likelihood ratio by which the other cause must be likelier: 100 to 1.
 const LIKELIER: f64 = 9.210_340_371_976_184;
 
-/// Ratios nearer than this are equal: then it is the quantity's own cause.
-const EQUAL: f64 = 1e-9;
+/// Squares nearer than this are equal: then it is the quantity's own cause.
+const EQUAL: f64 = 1e-6;
 
 /// Which test raised an alarm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -274,18 +274,22 @@ impl Detector {
         }
         self.window.push_back(sample);
         let mut sums = Sums::default();
-        let mut best: Option<(f64, Shift, Cause)> = None;
+        let mut best: [Option<(f64, Shift, Cause)>; 2] = [None; 2];
         for sample in self.window.iter().rev() {
             sums.add(sample, reference.mean);
-            for cause in [Cause::Own, Cause::Other] {
+            for (best, cause) in best.iter_mut().zip([Cause::Own, Cause::Other]) {
                 let Some(estimate) = sums.estimate(cause, reference) else { continue };
                 let ratio = estimate[0].abs() / estimate[1];
-                if best.as_ref().is_none_or(|(most, ..)| ratio > most * (1.0 + EQUAL)) {
-                    best = Some((ratio, shift(cause, sample.time, estimate, reference), cause));
+                if best.is_none_or(|(most, ..)| ratio > most) {
+                    *best = Some((ratio, shift(cause, sample.time, estimate, reference), cause));
                 }
             }
         }
-        best
+        // Signatures of bearings hardly differ from block to block: an amplitude is its own unless the other is much likelier.
+        let more = if self.kind == Kind::Amplitude { LIKELIER } else { EQUAL };
+        let [own, other] = best;
+        let square = |of: Option<(f64, Shift, Cause)>| of.map_or(0.0, |(ratio, ..)| ratio * ratio);
+        if square(other) > square(own) + more { other } else { own }
     }
 
     /// Whether a cumulative sum is above its bound.

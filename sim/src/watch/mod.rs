@@ -54,8 +54,8 @@ const ONSETS: usize = 60;
 /// A time without readings that is longer than this share of a block ends the block.
 const GAP: f64 = 0.25;
 
-/// A step within a block of so many deviations, and its block has no other estimates of this sensor.
-const SPOILS: f64 = 4.0;
+/// A step within a block of so many deviations, and its block has no amplitudes, or no drag.
+const SPOILS: f64 = 6.0;
 
 /// Lengths and the rate of false alarms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -317,7 +317,9 @@ impl Watch {
                 values.extend((0..rotors).flat_map(of));
             }
             if jumps.iter().flatten().any(|of| is_step(*of)) {
-                values.fill(None);
+                let own = values.iter_mut().zip(&self.quantities);
+                own.filter(|(_, of)| of.watched.kind() == Kind::Amplitude)
+                    .for_each(|(value, _)| *value = None);
             }
             values.extend(jumps);
         }
