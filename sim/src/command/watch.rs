@@ -22,7 +22,7 @@ use crate::record::partial::{Partial, partial_name};
 use crate::record::{Decimate, Recorder as _};
 use crate::report::watch::{BUCKETS, WatchReport, WatchedQuantity, shown, test_name};
 use crate::telemetry::{Exclusion, TelemetryLayout, TelemetryRows};
-use crate::watch::{Alarm, Block, Watch, WatchSettings};
+use crate::watch::{Alarm, Block, Watch, WatchSettings, Watched};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -199,17 +199,6 @@ fn row(to: &mut Partial, block: &Block) -> std::io::Result<()> {
         }
     }
     writeln!(to, "{line},{}", block.alarms.len())
-}
-
-/// A number of a quantity in the unit that people use.
-fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
-    match watched {
-        Watched::StaticImbalance | Watched::BearingStiffness => (to_g_cm(value), "g cm"),
-        Watched::DynamicImbalance => (to_g_cm2(value), "g cm^2"),
-        Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
-        Watched::TorqueConstant | Watched::TachometerScale => (100.0 * value, "%"),
-        Watched::Drag | Watched::GyroJump => (value, watched.unit()),
-    }
 }
 
 impl Findings {

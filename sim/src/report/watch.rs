@@ -43,10 +43,10 @@ pub(crate) struct WatchReport<'a> {
 /// A number of a quantity in the unit that people use.
 pub(crate) fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
     match watched {
-        Watched::StaticImbalance => (to_g_cm(value), "g cm"),
+        Watched::StaticImbalance | Watched::BearingStiffness => (to_g_cm(value), "g cm"),
         Watched::DynamicImbalance => (to_g_cm2(value), "g cm^2"),
         Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
-        Watched::TorqueConstant => (100.0 * value, "%"),
+        Watched::TorqueConstant | Watched::TachometerScale => (100.0 * value, "%"),
         Watched::Drag | Watched::GyroJump => (value, watched.unit()),
     }
 }
@@ -165,6 +165,8 @@ impl WatchReport<'_> {
     }
 
     fn references(&self) -> Block {
+        // A torque constant is found in the series of drag.
+        let tested = self.quantities.iter().filter(|(_, of, _)| *of != Watched::TorqueConstant);
         let row = |(name, watched, reference): &WatchedQuantity| {
             let (state, mean, scatter) = match reference {
                 Some([mean, scatter]) => {
@@ -177,13 +179,13 @@ impl WatchReport<'_> {
         let columns =
             [("Quantity", ""), ("Mean", ""), ("Unit", ""), ("Scatter, of white noise's", "")];
         let caption = "Of the first blocks; bounds are as much wider as blocks scatter more than noise of the sensors";
-        table(caption, &columns, 1..2, self.quantities.iter().map(row))
+        table(caption, &columns, 1..2, tested.map(row))
     }
 
     /// Figures of what some block determines: first what has changed.
     fn figures(&self) -> Result<Vec<Block>, ReportError> {
-        let has_alarm = |(_, (name, ..)): &(usize, &WatchedQuantity)| {
-            self.alarms.iter().any(|alarm| alarm.name == *name)
+        let has_alarm = |(_, (name, watched, _)): &(usize, &WatchedQuantity)| {
+            self.alarms.iter().any(|alarm| is_of_series(alarm, name, watched))
         };
         let all = self.quantities.iter().enumerate();
         let (changed, others): (Vec<_>, Vec<_>) = all.partition(has_alarm);
@@ -236,6 +238,17 @@ impl WatchReport<'_> {
             limits,
         }
     }
+}
+
+/// Whether an alarm is of this quantity, or of another cause of what its blocks show.
+fn is_of_series(alarm: &Alarm, name: &str, watched: &Watched) -> bool {
+    let series = match alarm.watched {
+        Watched::BearingStiffness => &Watched::StaticImbalance,
+        Watched::TorqueConstant => &Watched::Drag,
+        _ => return alarm.name == name,
+    };
+    let place = |name: &str| name.rsplit_once(" of ").map(|(_, of)| of.to_owned());
+    watched == series && place(&alarm.name) == place(name)
 }
 
 /// What the page's script draws in the place of a figure.
