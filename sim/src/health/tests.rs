@@ -38,7 +38,7 @@ fn alarm(time: f64, name: &str, place: &str, change: f64) -> MethodAlarm {
 
 #[test]
 fn scores_are_of_the_first_alarm_of_the_right_name() {
-    let timing = Timing::default();
+    let timing = Timing { learn: 100.0, ..Timing::default() };
     let truth = TrueChange {
         case: "bus-open-drag-medium".to_owned(),
         place: "cmg1".to_owned(),

@@ -309,7 +309,7 @@ impl Detector {
     fn named_otherwise(&mut self, sample: &Sample) -> Option<(Shift, Cause)> {
         let naming = self.naming.as_mut()?;
         naming.sums.add(sample, naming.reference.mean);
-        naming.left -= 1;
+        naming.left = naming.left.saturating_sub(1);
         let other = match naming.cause {
             Cause::Own => Cause::Other,
             Cause::Other => Cause::Own,
