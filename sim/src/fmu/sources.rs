@@ -1,29 +1,33 @@
-//! The C files that are the same in every unit of a version: its face over the instance and the emitted solver, and the
-//! standard's headers.
+//! The C files that are the same in every unit of a version: its face over the instance, the instance over the emitted solver or
+//! over the simulator's engine, and the standard's headers.
 
 use super::FmiVersion;
 
 type File = (&'static str, &'static str);
 
-/// Names and texts of what both versions have.
-const SHARED: [File; 11] = [
-    ("precess_fmu.c", include_str!("c/precess_fmu.c")),
+/// Names and texts of what all units have.
+const SHARED: [File; 6] = [
     ("precess_fmu.h", include_str!("c/precess_fmu.h")),
-    ("precess_fmu_jvp.c", include_str!("c/precess_fmu_jvp.c")),
-    ("precess_fmu_message.c", include_str!("c/precess_fmu_message.c")),
-    ("precess_fmu_solver.c", include_str!("c/precess_fmu_solver.c")),
-    ("precess_fmu_solver.h", include_str!("c/precess_fmu_solver.h")),
     ("precess_instance.c", include_str!("c/precess_instance.c")),
     ("precess_instance.h", include_str!("c/precess_instance.h")),
     ("precess_instance_jvp.c", include_str!("c/precess_instance_jvp.c")),
     ("precess_instance_motion.c", include_str!("c/precess_instance_motion.c")),
     ("precess_instance_state.c", include_str!("c/precess_instance_state.c")),
 ];
-/// In the place of the solver's face: that of the engine.
+/// The instance over the emitted solver.
+const SOLVER: [File; 6] = [
+    ("precess_fmu.c", include_str!("c/solver/precess_fmu.c")),
+    ("precess_fmu_data.h", include_str!("c/solver/precess_fmu_data.h")),
+    ("precess_fmu_jvp.c", include_str!("c/solver/precess_fmu_jvp.c")),
+    ("precess_fmu_message.c", include_str!("c/solver/precess_fmu_message.c")),
+    ("precess_fmu_solver.c", include_str!("c/solver/precess_fmu_solver.c")),
+    ("precess_fmu_solver.h", include_str!("c/solver/precess_fmu_solver.h")),
+];
+/// That over the engine.
 const ENGINE: [File; 3] = [
     ("precess_engine.h", include_str!("c/engine/precess_engine.h")),
     ("precess_fmu.c", include_str!("c/engine/precess_fmu.c")),
-    ("precess_fmu.h", include_str!("c/engine/precess_fmu.h")),
+    ("precess_fmu_data.h", include_str!("c/engine/precess_fmu_data.h")),
 ];
 const FMI2: [File; 4] = [
     ("precess_fmi2.c", include_str!("c/precess_fmi2.c")),
@@ -57,7 +61,7 @@ pub(super) fn all(version: FmiVersion) -> Vec<(String, String)> {
         FmiVersion::Two => [&FMI2, &HEADERS2],
         FmiVersion::Three => [&FMI3, &[]],
     };
-    texts(SHARED.iter().chain(own.into_iter().flatten()))
+    texts(SHARED.iter().chain(&SOLVER).chain(own.into_iter().flatten()))
 }
 
 /// All of a version that are linked with the simulator's engine, the standard's headers among them.
@@ -66,8 +70,7 @@ pub(super) fn of_engine(version: FmiVersion) -> Vec<(String, String)> {
         FmiVersion::Two => (&FMI2, &HEADERS2),
         FmiVersion::Three => (&FMI3, &HEADERS3),
     };
-    let shared = SHARED.iter().filter(|(name, _)| !name.starts_with("precess_fmu"));
-    texts(shared.chain(&ENGINE).chain(own).chain(headers))
+    texts(SHARED.iter().chain(&ENGINE).chain(own).chain(headers))
 }
 
 /// The headers that a compiler needs beside a unit of a version, by their names: those of the standard, of FMI 3.0.

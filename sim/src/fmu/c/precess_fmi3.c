@@ -250,40 +250,25 @@ fmi3Status fmi3DeserializeFMUState(
     return precess_fmi3_answer(instance, precess_instance_read(instance, bytes, size, state));
 }
 
-fmi3Status fmi3GetDirectionalDerivative(
-    fmi3Instance instance,
-    const fmi3ValueReference unknowns[],
-    size_t unknown_count,
-    const fmi3ValueReference knowns[],
-    size_t known_count,
-    const fmi3Float64 seed[],
-    size_t seed_count,
-    fmi3Float64 sensitivity[],
-    size_t sensitivity_count)
-{
-    return precess_fmi3_answer(
-        instance,
-        seed_count == known_count && sensitivity_count == unknown_count
-            ? precess_instance_along(
-                instance, unknowns, unknown_count, knowns, known_count, seed, sensitivity)
-            : NOT_AS_MANY);
-}
+/* Of both derivatives the seed weighs the variables of one list, and there is one sensitivity for each of the other. */
+#define DERIVATIVES(name, compute, seeds, sensitivities)                                            \
+    fmi3Status name(                                                                                \
+        fmi3Instance instance,                                                                      \
+        const fmi3ValueReference unknowns[],                                                        \
+        size_t unknown_count,                                                                       \
+        const fmi3ValueReference knowns[],                                                          \
+        size_t known_count,                                                                         \
+        const fmi3Float64 seed[],                                                                   \
+        size_t seed_count,                                                                          \
+        fmi3Float64 sensitivity[],                                                                  \
+        size_t sensitivity_count)                                                                   \
+    {                                                                                               \
+        return precess_fmi3_answer(                                                                 \
+            instance,                                                                               \
+            seed_count == (seeds) && sensitivity_count == (sensitivities)                           \
+                ? compute(instance, unknowns, unknown_count, knowns, known_count, seed, sensitivity) \
+                : NOT_AS_MANY);                                                                     \
+    }
 
-fmi3Status fmi3GetAdjointDerivative(
-    fmi3Instance instance,
-    const fmi3ValueReference unknowns[],
-    size_t unknown_count,
-    const fmi3ValueReference knowns[],
-    size_t known_count,
-    const fmi3Float64 seed[],
-    size_t seed_count,
-    fmi3Float64 sensitivity[],
-    size_t sensitivity_count)
-{
-    return precess_fmi3_answer(
-        instance,
-        seed_count == unknown_count && sensitivity_count == known_count
-            ? precess_instance_gradient(
-                instance, unknowns, unknown_count, knowns, known_count, seed, sensitivity)
-            : NOT_AS_MANY);
-}
+DERIVATIVES(fmi3GetDirectionalDerivative, precess_instance_along, known_count, unknown_count)
+DERIVATIVES(fmi3GetAdjointDerivative, precess_instance_gradient, unknown_count, known_count)
