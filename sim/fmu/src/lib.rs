@@ -9,11 +9,10 @@
 
 use std::ffi::{c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::{ptr, slice};
 
 use precess::engine::CoupledRun;
-use precess::file::from_toml;
+use precess::file::from_filled;
 use precess::scenario::Scenario;
 
 /// A run in progress.
@@ -30,7 +29,7 @@ impl Engine {
     /// The run of a scenario.
     fn begin(text: &[u8]) -> Result<Self, String> {
         let text = str::from_utf8(text).map_err(|error| format!("the scenario: {error}"))?;
-        let read = from_toml("scenario", text, Path::new(""));
+        let read = from_filled("scenario", text);
         let (scenario, _) = read.map_err(|errors| format!("the scenario: {errors}"))?;
         let mut engine =
             Self { run: None, scenario: Box::into_raw(Box::new(scenario)), failed: None };
@@ -241,6 +240,13 @@ rate = "1 kHz"
     fn a_scenario_that_is_none_is_a_message_as_long_as_there_is_room() {
         let (engine, why) = begun("format = 1\n[hub]\nmass = \"90 m\"\n");
         assert!(engine.is_null() && why.starts_with("the scenario: ") && why.len() == 63, "{why}");
+    }
+
+    #[test]
+    fn a_start_that_is_to_be_completed_is_refused() {
+        let text = SCENARIO.replace("[run]", "[initial]\nsettled = true\n[run]");
+        let (engine, why) = begun(&text);
+        assert!(engine.is_null() && why.contains("is not complete"), "{why}");
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub use identification::{IdentificationFile, identification_from_toml};
 pub use load::{Override, Overrides};
 pub use measurement::{MeasurementFile, measurement_from_toml};
 pub use overrides::is_key;
-pub use read::{Tables, from_file, from_program, from_toml};
+pub use read::{Tables, from_file, from_filled, from_program, from_toml};
 pub use sample_errors::PlanPlaces;
 pub use structure::{StructureReadError, structure_from_file, structure_from_toml};
 pub use template::Template;

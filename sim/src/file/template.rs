@@ -48,6 +48,6 @@ impl Template {
         let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
         let path = self.path.display().to_string();
         let overrides = (overrides, Numbers::WithUnits);
-        scenario(self.node.clone(), &path, &stem, folder, overrides, self.reports.clone())
+        scenario(self.node.clone(), (&path, &stem, folder), overrides, self.reports.clone())
     }
 }

@@ -14,7 +14,9 @@ use super::FmiVersion;
 /// Those of the archive, such as a path that is there twice.
 pub fn archive<B: AsRef<[u8]>>(files: &[(String, B)]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Deflated);
+    let options = SimpleFileOptions::default()
+        .compression_method(zip::CompressionMethod::Deflated)
+        .compression_level(Some(9));
     for (path, bytes) in files {
         archive.start_file(path.as_str(), options)?;
         archive.write_all(bytes.as_ref())?;

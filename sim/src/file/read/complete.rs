@@ -12,6 +12,9 @@ use crate::units::{Plain, parse_quantity, parse_unit};
 /// The digits of a message after the first, as a part of a number.
 const ROUNDING: f64 = 1e-9;
 
+/// What is done with the initial state once the whole spacecraft is known.
+pub(super) type Completion = fn(&Node, &mut Scenario, &Reports);
+
 /// Completes the initial state; reports where that cannot be.
 pub(super) fn complete(node: &Node, scenario: &mut Scenario, reports: &Reports) {
     let Some(keys) = Keys::new(node, "", reports) else { return };

@@ -5,6 +5,7 @@ mod check;
 mod complete;
 mod controllers;
 pub(super) mod devices;
+mod filled;
 mod hub;
 mod output;
 mod override_errors;
@@ -21,8 +22,9 @@ use super::document::{Node, Value};
 use super::keys::{Keys, Reports};
 use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
-use complete::complete;
+use complete::{Completion, complete};
 pub(crate) use devices::device_bodies::{has_inertia, has_mass, has_origin};
+pub use filled::from_filled;
 
 use crate::names::NAME_MAX;
 use crate::scenario::{Scenario, Source};
@@ -57,12 +59,12 @@ fn file(path: &Path, overrides: (&[Override], Numbers)) -> Read {
 /// Reads a tree after overrides; errors that these cause name them.
 fn with_overrides(
     node: &Node,
-    (path, stem, folder): (&str, &str, &Path),
+    place: (&str, &str, &Path),
     overrides: (&[Override], Numbers),
     reports: &Diagnostics,
 ) -> Read {
     let read = |overrides: (&[Override], Numbers)| {
-        scenario(node.clone(), path, stem, folder, overrides, reports.clone())
+        scenario(node.clone(), place, overrides, reports.clone())
     };
     read(overrides).map_err(|errors| override_errors::name_overrides(errors, overrides, read))
 }
@@ -115,12 +117,20 @@ pub fn from_program(tables: Tables<'_>, overrides: &[Override]) -> Read {
 }
 
 pub(super) fn scenario(
+    node: Node,
+    place: (&str, &str, &Path),
+    overrides: (&[Override], Numbers),
+    reports: Diagnostics,
+) -> Read {
+    with_completion(node, place, overrides, reports, complete)
+}
+
+fn with_completion(
     mut node: Node,
-    path: &str,
-    stem: &str,
-    folder: &Path,
+    (path, stem, folder): (&str, &str, &Path),
     overrides: (&[Override], Numbers),
     mut reports: Diagnostics,
+    complete: Completion,
 ) -> Read {
     // Of what is not TOML only that is reported: its keys would be guesses.
     if reports.has_errors() {

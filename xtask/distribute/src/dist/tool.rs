@@ -17,6 +17,8 @@ pub(super) const GENERATOR: &str = "precess-bake";
 /// The engine for units of `export fmu --binary`, a static library, which it looks for in `../lib`.
 const ENGINE: &str = "precess-fmu";
 const ENGINE_FILE: &str = "libprecess_fmu.a";
+/// How it is compiled: a copy is in each unit.
+const ENGINE_PROFILE: &str = "unit";
 /// The workspace that they are of.
 pub(super) const MANIFEST: &str = "Cargo.toml";
 
@@ -46,9 +48,10 @@ pub(super) fn package(stage: &Stage, version: &str) -> Result<Package, String> {
     }
     if std::env::consts::OS == "linux" {
         let mut cargo = stage.cargo()?;
-        cargo.args(["build", "--release", "--quiet", "--locked", "--package", ENGINE]);
-        run_there(&mut cargo)?;
-        let content = Content::File { bytes: read(&release.join(ENGINE_FILE))?, executable: false };
+        cargo.args(["build", "--profile", ENGINE_PROFILE, "--quiet", "--locked"]);
+        run_there(cargo.args(["--package", ENGINE]))?;
+        let file = stage.target.join(ENGINE_PROFILE).join(ENGINE_FILE);
+        let content = Content::File { bytes: read(&file)?, executable: false };
         entries.push(Entry { path: format!("lib/{ENGINE_FILE}"), content });
     }
     entries.push(Entry::file("share/doc/precess/LICENSES-OF-OTHERS", others));

@@ -42,7 +42,7 @@ pub(super) fn of_engine(named: Option<&Path>) -> Result<PathBuf, CommandError> {
     let found = places.find_map(|path| fs::canonicalize(path).ok().filter(|path| path.is_file()));
     found.ok_or_else(|| {
         CommandError::Other(format!(
-            "the simulator's engine for units, `{ENGINE}`, is not there; build it with `cargo build --release \
+            "the simulator's engine for units, `{ENGINE}`, is not there; build it with `cargo build --profile unit \
              -p precess-fmu` in the sources of Precess and name it by `--engine`, or put it beside this program or into `../lib`"
         ))
     })
