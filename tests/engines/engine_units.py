@@ -7,20 +7,23 @@ from fmpy.validation import validate_fmu
 from importers import instance
 from recordings import SCENARIOS, ran, recorded
 
-# Name, step in s, samples per second, duration in s: of what the engine runs.
+# Name, step in s, samples per second, duration in s, other settings: of what the engine runs. Requirements are judged within
+# the duration.
 OF_ENGINE = (
-    ("wheels-on-isolator", "5e-4", 1000.0, 2.0),
-    ("gyro-pyramid-slew", "2e-3", 50.0, 10.0),
+    ("wheels-on-isolator", "5e-4", 1000.0, 2.0, ()),
+    ("gyro-pyramid-slew", "2e-3", 50.0, 10.0, ('requirement."pointing in the dwell".from=1 s',)),
+    ("imaging-satellite-flexible", "1e-4", 2000.0, 0.2, ("requirement.jitter.from=50 ms", "requirement.jitter.to=200 ms")),
+    ("flexible-slew", "2e-3", 50.0, 10.0, ('requirement."pointing in the dwell".from=1 s',)),
 )
 
 
 def of_engine(folder, programs, library, case, version):
     """A unit that runs the engine: bits of every column at every sample; its size, and how many numbers."""
-    name, step, rate, duration = case
+    name, step, rate, duration, others = case
     file = SCENARIOS / f"{name}.toml"
     archive = folder / f"{name}-{version}.fmu"
-    requirements = ("--set", 'requirement."pointing in the dwell".from=1 s') if "pyramid" in name else ()
-    settings = ("--set", f"run.duration={duration!r} s", *requirements)
+    others = [part for setting in others for part in ("--set", setting)]
+    settings = ("--set", f"run.duration={duration!r} s", *others)
     options = ("--step", f"{step} s", "--fmi", version, "--binary", "--engine", library, "--to", archive, "--force")
     ran(programs / "precess", "export", "fmu", file, *options, *settings)
     if findings := validate_fmu(str(archive)):
@@ -28,7 +31,7 @@ def of_engine(folder, programs, library, case, version):
     fmpy.extract(str(archive), unzipdir=str(archive.with_suffix("")))
     description = fmpy.read_model_description(str(archive.with_suffix("")))
     outputs = [v for v in description.modelVariables if v.causality == "output"]
-    columns, samples = recorded(folder, programs, file, step, duration, rate, requirements)
+    columns, samples = recorded(folder, programs, file, step, duration, rate, others)
     if len(columns) != len(outputs) + 1:
         sys.exit(f"{name}: {len(outputs)} outputs of {len(columns)} columns")
     both = [instance(description, archive.with_suffix(""), name=name) for name in ("one", "other")]

@@ -6,8 +6,8 @@ Of each scenario, with fixed steps, and of FMI 2.0 and FMI 3.0: FMPy validates t
 a warning; outputs of Co-Simulation have the bits of `precess run` at every sample, with inputs where the scenario varies them;
 Model Exchange by CVode agrees with Co-Simulation at short steps; every derivative depends on what the model structure lists, and
 on nothing else; derivatives along each state and input, and of weighed sums, agree with differences; a restored
-state, and one of bytes, repeats what followed it. Units that run the simulator's engine, of an isolated platform and of a
-controller, are validated, and their outputs have the bits of every column that the run records.
+state, and one of bytes, repeats what followed it. Units that run the simulator's engine, of an isolated platform, of flexible
+structures and of controllers, are validated, and their outputs have the bits of every column that the run records.
 
 Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
 requirements.txt.

@@ -28,12 +28,12 @@ pub use equations::run_quantities::RunQuantities;
 #[cfg(feature = "tool")]
 pub(crate) use error::device_of;
 pub(crate) use quantities::member_loads::MemberLoads;
-pub(crate) use runs::driven_by_program;
 pub use runs::{
     Advance, CoupledRun, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
     run_with_controllers,
 };
 pub(crate) use runs::{HardwareChange, run_with_change};
+pub(crate) use runs::{driven_by_program, hub_input_count};
 
 use crate::record::RunError;
 use crate::scenario::Scenario;

@@ -1,5 +1,5 @@
 //! [`EngineFmu`]: a scenario as a functional mock-up unit that runs the simulator's engine, for what cannot be C sources:
-//! platforms, controllers and the rest of what a run has.
+//! platforms, flexible structures, controllers and the rest of what a run has.
 //!
 //! Its library is linked from the C of [`EngineFmu::sources`] and the static library of the package `precess-fmu`. It takes
 //! the steps itself: Co-Simulation alone. Outputs are the columns that the scenario records.
@@ -9,14 +9,15 @@ use std::fmt::Write as _;
 use sha2::{Digest as _, Sha256};
 
 use super::error::FmuError;
-use super::layout::{HUB_INPUTS, Layout};
+use super::layout::Layout;
 use super::model::number;
 use super::names::{Names, identifier};
 use super::variables::{Role, Variable, hub_inputs, motor};
 use super::{FmiVersion, fmi2, fmi3, sources, token, xml};
-use crate::engine::driven_by_program;
+use crate::engine::{driven_by_program, hub_input_count};
 use crate::record::Columns;
 use crate::scenario::{ControlLaw, IntegratorChoice, Scenario};
+use crate::units::Plain;
 
 /// A unit that the engine runs.
 #[derive(Clone, Debug)]
@@ -36,15 +37,12 @@ impl EngineFmu {
     ///
     /// # Errors
     ///
-    /// [`FmuError`] with the name of what needs files or programs beside the scenario; of a scenario with a tolerance; of a
-    /// column that it has not.
+    /// [`FmuError`] with the name of a controller that is another program; of a scenario with a tolerance; of a column that it
+    /// has not.
     pub fn new(scenario: &Scenario) -> Result<Self, FmuError> {
         let IntegratorChoice::Rk4 { step } = scenario.settings.integrator else {
             return Err(FmuError::Tolerance);
         };
-        if scenario.structure.is_some() {
-            return Err(FmuError::File);
-        }
         let program =
             |of: &&crate::scenario::SampledController| matches!(of.law, ControlLaw::Program { .. });
         if let Some(of) = scenario.controllers.iter().find(program) {
@@ -76,11 +74,10 @@ impl EngineFmu {
         let layout = Layout::new(scenario);
         let first = variables.len();
         let joints = driven_by_program(scenario);
-        for of in hub_inputs(scenario, &layout, &mut names) {
-            if scenario.hub_mode == precess_dynamics::HubMode::Free {
-                let place = first + of.place - layout.input(0);
-                variables.push(Variable { place, ..of });
-            }
+        let on_hub = hub_input_count(scenario);
+        for of in hub_inputs(scenario, &layout, &mut names).into_iter().take(on_hub) {
+            let place = first + of.place - layout.input(0);
+            variables.push(Variable { place, ..of });
         }
         let mut notes = Vec::new();
         for (index, number) in joints.iter().enumerate() {
@@ -96,14 +93,22 @@ impl EngineFmu {
                     info.motor
                 ));
             }
-            let place = first + HUB_INPUTS + index;
+            if let Some(change) = scenario.changes.iter().find(|change| change.joint == *number) {
+                notes.push(format!(
+                    "the scenario changes the drive of {device}.{} at {} s: from then on the input {} does not act",
+                    info.coordinate,
+                    Plain(change.time),
+                    info.motor
+                ));
+            }
+            let place = first + on_hub + index;
             variables.extend(motor((device, info), drive, place, &mut names));
         }
         Ok(Self {
             name: identifier(&scenario.name),
             notes,
             outputs,
-            inputs: HUB_INPUTS + joints.len(),
+            inputs: on_hub + joints.len(),
             variables,
             description: xml::Header::new(scenario, &layout, step),
             scenario: scenario.source.filled.clone(),

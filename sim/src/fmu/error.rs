@@ -14,8 +14,6 @@ pub enum FmuError {
     NoDevice,
     /// Steps are chosen by a tolerance.
     Tolerance,
-    /// The structure of a file, which a unit has not beside it.
-    File,
     /// A controller that is another program, by its name.
     Program(String),
     /// A column that the scenario records and has not: why.
@@ -73,9 +71,6 @@ impl fmt::Display for FmuError {
             Self::Tolerance => f.write_str(
                 "steps of Co-Simulation are of one length, and this scenario has a tolerance; state the length by `--step`, \
                  or `integrator = \"rk4\"` and `step` in `[run]`",
-            ),
-            Self::File => f.write_str(
-                "the structure is in a file, which a unit has not beside it; remove `[structure]`"
             ),
             Self::Program(name) => write!(
                 f,

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use precess::engine::{self, CoupledRun};
+use precess::file::{from_filled, from_toml};
 use precess::fmu::{EngineFmu, FmiVersion, Fmu, FmuError};
 use precess::record::{RunError, Samples};
 use precess::scenario::Scenario;
@@ -15,15 +16,15 @@ use super::compiled::{FLAGS, compilers};
 use super::described::{elements, variables};
 use super::{UNIT, scenario};
 
-/// A scenario of the folder with another end of its text, by fixed steps.
+/// A scenario of the folder with parts of its text replaced.
 fn of_file(name: &str, changes: &[(&str, &str)]) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios").join(name);
-    let mut text = fs::read_to_string(path).expect("a scenario");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+    let mut text = fs::read_to_string(folder.join(name)).expect("a scenario");
     for (from, to) in changes {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    scenario(&text)
+    from_toml("bus-1", &text, &folder).unwrap_or_else(|errors| panic!("{errors}")).0
 }
 
 /// Four gyros under a controller, into the slew.
@@ -38,25 +39,63 @@ fn isolator() -> Scenario {
     of_file("wheels-on-isolator.toml", &[("duration = \"18 s\"", run), ("tolerance = 1e-10", "")])
 }
 
+/// Four gyros with locked gimbals on a structure of twenty modes, which are in a file.
+fn imaging() -> Scenario {
+    let run = "duration = \"60 ms\"\nintegrator = \"rk4\"\nstep = \"0.1 ms\"";
+    let window = "from = \"10 ms\"\nto = \"60 ms\"";
+    let changes =
+        [("duration = \"2 s\"\ntolerance = 1e-9", run), ("from = \"1 s\"\nto = \"2 s\"", window)];
+    of_file("imaging-satellite-flexible.toml", &changes)
+}
+
+/// Four wheels on a flexible structure under a controller, into the slew.
+fn flexible_slew() -> Scenario {
+    let run = "duration = \"3 s\"\nintegrator = \"rk4\"\nstep = \"2 ms\"";
+    of_file("flexible-slew.toml", &[("duration = \"80 s\"", run), ("\"70 s\"", "\"1 s\"")])
+}
+
+/// A wheel and a panel; the torque of the wheel's motor changes within the run.
+fn changed() -> Scenario {
+    scenario(
+        &(UNIT.to_owned()
+            + "[[at]]\ntime = \"30.5 ms\"\njoint = \"rw.wheel\"\ntorque = \"-50 mN m\"\n"),
+    )
+}
+
+/// The scenario that the unit's library reads.
+fn read_again(scenario: &Scenario) -> Scenario {
+    let read = from_filled("scenario", &scenario.source.filled);
+    read.unwrap_or_else(|errors| panic!("{errors}")).0
+}
+
 /// The inputs that the unit's description starts with.
 fn starts(scenario: &Scenario, run: &CoupledRun<'_>) -> Vec<f64> {
+    let on_hub = vec![0.0; run.input_count() - run.motors().len()];
     let motors = run.motors().iter().map(|joint| {
         let drive = &scenario.drives[*joint];
         drive.limits().clipped(drive.profile().expect("a torque").at(0.0, false))
     });
-    [0.0; 6].into_iter().chain(motors).collect()
+    on_hub.into_iter().chain(motors).collect()
 }
 
 #[test]
 fn outputs_of_a_coupled_run_have_the_bits_of_a_run() {
-    // Of the isolated platform the six axes, too.
-    for (scenario, motors) in [(pyramid(), 0), (isolator(), 10)] {
+    // Of the isolated platform the six axes, too; of gyros with locked gimbals the wheels. Nothing acts on the hub of a
+    // flexible structure.
+    for (scenario, on_hub, motors) in [
+        (pyramid(), 6, 0),
+        (isolator(), 6, 10),
+        (imaging(), 0, 4),
+        (flexible_slew(), 0, 0),
+        (changed(), 6, 2),
+    ] {
         let mut samples = Samples::default();
         let goes_on = &mut |_| ControlFlow::Continue(());
         engine::run(&scenario, &mut samples, goes_on).expect("a run");
+        let scenario = read_again(&scenario);
         let mut run = CoupledRun::new(&scenario).expect("a run");
         let inputs = starts(&scenario, &run);
-        assert_eq!((run.motors().len(), inputs.len()), (motors, 6 + motors));
+        assert_eq!((run.motors().len(), run.input_count()), (motors, on_hub + motors));
         assert_eq!(run.input_count(), inputs.len());
         assert!(samples.rows.len() > 100);
         for (index, row) in samples.rows.iter().enumerate() {
@@ -122,7 +161,7 @@ fn other_inputs_than_a_coupled_run_takes_are_refused() {
 
 #[test]
 fn a_unit_that_runs_the_engine_is_for_co_simulation_alone() {
-    for scenario in [pyramid(), isolator()] {
+    for scenario in [pyramid(), isolator(), imaging(), flexible_slew()] {
         let why = Fmu::new(&scenario).expect_err("it cannot be sources");
         assert!(!matches!(why, FmuError::Tolerance), "{why}");
         let unit = EngineFmu::new(&scenario).expect("a unit");
@@ -158,18 +197,25 @@ fn a_unit_that_runs_the_engine_is_for_co_simulation_alone() {
 fn what_an_engine_would_need_beside_the_scenario_is_refused() {
     let tolerance = scenario(&UNIT.replace("integrator = \"rk4\"\nstep = \"1 ms\"\n", ""));
     assert_eq!(EngineFmu::new(&tolerance).err(), Some(FmuError::Tolerance));
-    let path =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/imaging-satellite-flexible.toml");
-    let overrides = ["run.integrator='rk4'", "run.step='0.1 ms'"].map(str::to_owned);
-    let (flexible, _) =
-        precess::file::from_file(&path, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
-    assert_eq!(EngineFmu::new(&flexible).err(), Some(FmuError::File));
+    let law = "kind = \"eigen_axis\"\nfrequency = \"0.15 Hz\"\ndamping_ratio = 0.8";
+    let program = "kind = \"program\"\ncommand = [\"law\"]";
+    let run = "duration = \"80 s\"\nintegrator = \"rk4\"\nstep = \"2 ms\"";
+    let scenario = of_file("flexible-slew.toml", &[(law, program), ("duration = \"80 s\"", run)]);
+    assert_eq!(EngineFmu::new(&scenario).err(), Some(FmuError::Program("aocs".to_owned())));
+}
+
+#[test]
+fn a_change_of_a_drive_that_takes_the_place_of_an_input_is_noted() {
+    let notes = EngineFmu::new(&changed()).expect("a unit").notes().join("\n");
+    assert!(notes.contains("changes the drive of rw.theta at 0.0305 s"), "{notes}");
+    assert_eq!(EngineFmu::new(&scenario(UNIT)).expect("a unit").notes(), [""; 0]);
 }
 
 #[test]
 fn the_c_over_the_engine_has_no_warning() {
-    let unit = EngineFmu::new(&pyramid()).expect("a unit");
-    for version in FmiVersion::ALL {
+    // With inputs, and without.
+    let units = [pyramid(), flexible_slew()].map(|of| EngineFmu::new(&of).expect("a unit"));
+    for (unit, version) in units.iter().zip(FmiVersion::ALL) {
         for compiler in compilers() {
             let name = format!("engine_{compiler}_{}", version.text());
             let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);

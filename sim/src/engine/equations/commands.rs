@@ -1,5 +1,5 @@
-//! [`HeldCommands`]: what controllers command of joints and hold until they command anew, and what they computed at their
-//! last samples.
+//! [`HeldCommands`]: what controllers, and a program that is coupled to the run, command and hold until they command anew;
+//! and what controllers computed at their last samples.
 
 use nalgebra::Vector3;
 
@@ -8,10 +8,12 @@ use crate::scenario::{SampledController, Scenario};
 /// Commands in force.
 #[derive(Clone, Debug)]
 pub(crate) struct HeldCommands {
-    /// Of each joint; none where no controller commands it.
-    joints: Vec<Option<Held>>,
+    /// Of each joint.
+    joints: Vec<Held>,
     /// External torque of each controller that dumps momentum, B, N m.
     externals: Vec<Option<Vector3<f64>>>,
+    /// Force on the hub through B, N, and torque about B, N m, of a program; both expressed in B.
+    on_hub: [Vector3<f64>; 2],
     /// Of each controller.
     values: Vec<ControlValues>,
 }
@@ -19,9 +21,9 @@ pub(crate) struct HeldCommands {
 /// The command of a joint.
 #[derive(Clone, Copy, Debug)]
 struct Held {
-    /// Torque of its motor before clipping, N m.
-    torque: f64,
-    /// Whether a change, a brake or an end stop has taken the place of its controller.
+    /// Torque or force of its motor before clipping, N m or N; none where neither a controller nor a program commands it.
+    torque: Option<f64>,
+    /// Whether a change, a brake or an end stop has taken the place of what is commanded.
     replaced: bool,
     /// Torque of the motor by that which is commanded.
     factor: f64,
@@ -107,10 +109,11 @@ impl ControlValues {
 impl HeldCommands {
     /// No torques, and nothing computed.
     pub(crate) fn new(scenario: &Scenario) -> Self {
-        let mut joints = vec![None; scenario.joint_count()];
+        let free = Held { torque: None, replaced: false, factor: 1.0 };
+        let mut joints = vec![free; scenario.joint_count()];
         for of in scenario.controllers.iter().flat_map(|of| &of.joints) {
             if let Some(held) = joints.get_mut(of.joint) {
-                *held = Some(Held { torque: 0.0, replaced: false, factor: 1.0 });
+                held.torque = Some(0.0);
             }
         }
         let nothing = |of: &SampledController| ControlValues::nothing(of.joints.len());
@@ -118,6 +121,7 @@ impl HeldCommands {
         Self {
             joints,
             externals: scenario.controllers.iter().map(external).collect(),
+            on_hub: [Vector3::zeros(); 2],
             values: scenario.controllers.iter().map(nothing).collect(),
         }
     }
@@ -134,29 +138,39 @@ impl HeldCommands {
         }
     }
 
-    /// The torque of a joint's motor before clipping, N m; none where no controller commands it at present.
-    pub(crate) fn torque(&self, joint: usize) -> Option<f64> {
-        let held = self.joints.get(joint).copied().flatten()?;
-        (!held.replaced).then_some(held.factor * held.torque)
+    /// Force, N, and torque, N m, of a program on the hub; none where nothing acts.
+    pub(crate) fn on_hub(&self) -> Option<[Vector3<f64>; 2]> {
+        self.on_hub.iter().any(|of| *of != Vector3::zeros()).then_some(self.on_hub)
     }
 
-    /// Holds a torque of a joint that a controller commands; while another drive has its place it waits for its release.
+    /// Holds a force on the hub through B, N, and a torque about B, N m; both expressed in B.
+    pub(crate) fn hold_on_hub(&mut self, force: Vector3<f64>, torque: Vector3<f64>) {
+        self.on_hub = [force, torque];
+    }
+
+    /// The torque or force of a joint's motor before clipping, N m or N; none where nothing commands it at present.
+    pub(crate) fn torque(&self, joint: usize) -> Option<f64> {
+        let held = self.joints.get(joint).filter(|held| !held.replaced)?;
+        Some(held.factor * held.torque?)
+    }
+
+    /// Holds a torque or force of a joint's motor; while another drive has its place it waits for its release.
     pub(crate) fn hold(&mut self, joint: usize, torque: f64) {
-        if let Some(Some(held)) = self.joints.get_mut(joint) {
-            held.torque = torque;
+        if let Some(held) = self.joints.get_mut(joint) {
+            held.torque = Some(torque);
         }
     }
 
     /// Lets the motor of a joint exert this multiple of what is commanded from now on.
     pub(crate) fn set_factor(&mut self, joint: usize, factor: f64) {
-        if let Some(Some(held)) = self.joints.get_mut(joint) {
+        if let Some(held) = self.joints.get_mut(joint) {
             held.factor = factor;
         }
     }
 
-    /// Another drive takes the place of the controller, or it commands again.
+    /// Another drive takes the place of what is commanded, or that acts again.
     pub(crate) fn set_replaced(&mut self, joint: usize, replaced: bool) {
-        if let Some(Some(held)) = self.joints.get_mut(joint) {
+        if let Some(held) = self.joints.get_mut(joint) {
             held.replaced = replaced;
         }
     }

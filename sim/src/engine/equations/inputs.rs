@@ -10,7 +10,6 @@ use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wre
 use super::commands::HeldCommands;
 use super::disturbances::Disturbances;
 use super::friction::{Contact, Frictions};
-use super::given::GivenInputs;
 use super::kinematics::{Chain, axes};
 use super::motors::MotorState;
 use super::packing::JointPlace;
@@ -33,10 +32,8 @@ pub(crate) struct SegmentInputs<'a> {
     driven: Vec<bool>,
     /// Which limit each motor is at.
     motors: Vec<MotorState>,
-    /// What controllers command.
+    /// What controllers and a program command.
     pub(crate) held: HeldCommands,
-    /// What a program gives.
-    pub(crate) given: GivenInputs,
     wrenches: Vec<WrenchOnBody<'a>>,
     disturbances: Disturbances<'a>,
     pub(crate) friction: Frictions<'a>,
@@ -91,7 +88,6 @@ impl<'a> SegmentInputs<'a> {
             driven: joints.iter().map(|place| place.info.driven).collect(),
             motors: vec![MotorState::default(); joints.len()],
             held: HeldCommands::new(scenario),
-            given: GivenInputs::default(),
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
             disturbances: Disturbances::new(scenario, joints),
             friction: Frictions::new(scenario),
@@ -156,22 +152,17 @@ impl<'a> SegmentInputs<'a> {
         match self.drive(joint) {
             drive @ Drive::Torque { profile, .. } => {
                 let of_profile = || profile.at(time, time > self.start);
-                drive.limits().clipped(self.held_torque(joint).unwrap_or_else(of_profile))
+                drive.limits().clipped(self.held.torque(joint).unwrap_or_else(of_profile))
             }
             Drive::Acceleration(_) | Drive::Locked => 0.0,
         }
-    }
-
-    /// What a controller or a program holds of a joint's motor, N m or N; none where its profile gives it.
-    fn held_torque(&self, joint: usize) -> Option<f64> {
-        self.held.torque(joint).or_else(|| self.given.motor(joint))
     }
 
     /// The largest magnitude of that torque at any time, or a bound of it, N m or N.
     pub(crate) fn largest_torque(&self, joint: usize) -> f64 {
         let drive = self.drive(joint);
         let of_profile = drive.profile().map_or(0.0, Profile::bound);
-        let of_profile = self.held_torque(joint).map_or(of_profile, f64::abs);
+        let of_profile = self.held.torque(joint).map_or(of_profile, f64::abs);
         drive.limits().torque.map_or(of_profile, |limit| limit.abs().min(of_profile))
     }
 
@@ -192,10 +183,10 @@ impl<'a> SegmentInputs<'a> {
         &self.chains
     }
 
-    /// Whether a wrench, a disturbance or the torque of a controller acts from outside.
+    /// Whether a wrench, a disturbance, or what a controller or a program commands acts from outside.
     pub(crate) fn has_wrenches(&self) -> bool {
         let none = self.wrenches.is_empty() && self.disturbances.is_empty();
-        !none || self.held.external().is_some() || self.given.on_hub()
+        !none || self.held.external().is_some() || self.held.on_hub().is_some()
     }
 
     /// Whether one acts on the child body of a joint.
@@ -311,7 +302,7 @@ impl<'a> SegmentInputs<'a> {
                 continue;
             }
             let commanded =
-                |profile: &Profile| self.held_torque(joint).unwrap_or_else(|| at(profile));
+                |profile: &Profile| self.held.torque(joint).unwrap_or_else(|| at(profile));
             (*motor, *mode) = match drive {
                 Drive::Torque { profile, limit: None } => (commanded(profile), Mode::Driven),
                 Drive::Torque { profile, limit: Some(limits) } => {
@@ -334,9 +325,9 @@ impl<'a> SegmentInputs<'a> {
         }
         inputs.modal.forces.fill(0.0);
         inputs.modal.mounts.fill(Wrench::none());
-        if self.given.on_hub() {
-            inputs.force += self.given.force;
-            inputs.torque_b += self.given.torque;
+        if let Some([force, torque]) = self.held.on_hub() {
+            inputs.force += force;
+            inputs.torque_b += torque;
         }
         self.disturbances.add(time, from_below, state, inputs);
         for WrenchOnBody { wrench, on } in &self.wrenches {

@@ -4,7 +4,6 @@
 pub(super) mod commands;
 mod disturbances;
 pub(super) mod friction;
-pub(super) mod given;
 pub(super) mod inputs;
 pub(super) mod kinematics;
 pub(super) mod motors;

@@ -1,12 +1,13 @@
 //! [`CoupledRun`]: a run in a program that gives inputs and takes outputs at times of its own.
 //!
 //! Steps are those of the scenario, whatever the program's times are: outputs within a step are those that a recorder would
-//! have there. Inputs are held from the end of the step in which they are given.
+//! have there. Inputs are held from the end of the step in which they are given, as commands of a controller are: a change of
+//! a joint's drive, a brake or an end stop takes their place.
 
 use nalgebra::Vector3;
+use precess_dynamics::HubMode;
 
 use super::{Advance, Run};
-use crate::engine::equations::given::GivenInputs;
 use crate::engine::integration::Moment;
 use crate::engine::integration::dop853::same;
 use crate::engine::quantities::sample_values::SampleValues;
@@ -14,15 +15,14 @@ use crate::record::columns::Columns;
 use crate::record::{Column, RunError};
 use crate::scenario::{Drive, Scenario};
 
-/// Numbers of the hub's inputs: force and torque.
-const ON_HUB: usize = 6;
-
 /// A run that a program is coupled to.
 pub struct CoupledRun<'a> {
     run: Run<'a>,
     columns: Vec<Column>,
     /// The joints whose motors the program drives.
     motors: Vec<usize>,
+    /// The inputs that are held; NaN of motors until they are given.
+    inputs: Vec<f64>,
     values: SampleValues,
     moment: Moment,
     /// The time that the program has reached, s.
@@ -38,9 +38,13 @@ impl<'a> CoupledRun<'a> {
     pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
         let run = Run::new(scenario)?;
         let columns = Columns::from_scenario(scenario)?;
+        let motors = driven_by_program(scenario);
+        let mut inputs = vec![0.0; hub_input_count(scenario)];
+        inputs.resize(inputs.len() + motors.len(), f64::NAN);
         Ok(Self {
             columns: columns.as_slice().to_vec(),
-            motors: driven_by_program(scenario),
+            motors,
+            inputs,
             values: SampleValues::new(scenario, columns),
             moment: run.moment.clone(),
             time: 0.0,
@@ -54,11 +58,11 @@ impl<'a> CoupledRun<'a> {
         &self.columns
     }
 
-    /// How many inputs there are: force through B and torque about B on the hub, both expressed in B, N and N m; then the
-    /// torque or force of each motor that no controller commands, in the order of the joints, N m or N.
+    /// How many inputs there are: of a free rigid hub force through B and torque about B, both expressed in B, N and N m; then
+    /// the torque or force of each motor that no controller commands, in the order of the joints, N m or N.
     #[must_use]
     pub fn input_count(&self) -> usize {
-        ON_HUB + self.motors.len()
+        self.inputs.len()
     }
 
     /// The joints of these motors, by their numbers from 0.
@@ -113,23 +117,28 @@ impl<'a> CoupledRun<'a> {
         if inputs.len() != expected || !inputs.iter().all(|input| input.is_finite()) {
             return Err(RunError::Inputs { expected, found: inputs.len() });
         }
-        let (on_hub, motors) = inputs.split_at(ON_HUB);
-        let (force, torque) = on_hub.split_at(3);
-        let mut of_joints = vec![None; self.run.scenario.joint_count()];
+        if inputs == self.inputs {
+            return Ok(());
+        }
+        self.inputs.copy_from_slice(inputs);
+        let held = &mut self.run.system.acting.held;
+        let (on_hub, motors) = inputs.split_at(expected - self.motors.len());
+        if let [f_x, f_y, f_z, l_x, l_y, l_z] = *on_hub {
+            held.hold_on_hub(Vector3::new(f_x, f_y, f_z), Vector3::new(l_x, l_y, l_z));
+        }
         for (joint, torque) in self.motors.iter().zip(motors) {
-            if let Some(of_joint) = of_joints.get_mut(*joint) {
-                *of_joint = Some(*torque);
-            }
+            held.hold(*joint, *torque);
         }
-        let (force, torque) =
-            (Vector3::from_column_slice(force), Vector3::from_column_slice(torque));
-        let given = GivenInputs { force, torque, motors: of_joints };
-        if given != self.run.system.acting.given {
-            self.run.system.acting.given = given;
-            self.run.at_boundary = true;
-        }
+        self.run.at_boundary = true;
         Ok(())
     }
+}
+
+/// How many numbers a program gives for the hub: force and torque, of a free rigid one. A force on a flexible structure
+/// acts on one of its nodes.
+pub(crate) fn hub_input_count(scenario: &Scenario) -> usize {
+    let is_free = scenario.hub_mode == HubMode::Free && scenario.structure.is_none();
+    if is_free { 6 } else { 0 }
 }
 
 /// The joints with a motor that a profile drives and no controller commands.

@@ -17,7 +17,7 @@ mod side_by_side;
 use precess_dynamics::{About, JointStates, ModalState, State};
 
 pub use coupled::CoupledRun;
-pub(crate) use coupled::driven_by_program;
+pub(crate) use coupled::{driven_by_program, hub_input_count};
 use friction::Changed;
 #[cfg(feature = "cuda")]
 pub use gpu::Gpu;
