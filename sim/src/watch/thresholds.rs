@@ -94,7 +94,9 @@ fn scales(freedom: f64) -> Vec<[f64; 2]> {
     };
     let mut points: Vec<_> = (0..=POINTS).map(point).collect();
     let sum: f64 = points.iter().map(|[_, weight]| weight).sum();
-    points.iter_mut().for_each(|[_, weight]| *weight /= sum);
+    for [_, weight] in &mut points {
+        *weight /= sum;
+    }
     points
 }
 
