@@ -2,7 +2,7 @@
 //!
 //! Readings of a block, less the model, are averaged over eight bins. At the end of a block a parabola and a step are fitted to the bins of this
 //! block and the one before, at each of twelve times; what the model does not have grows slowly, and is in the parabola. The largest
-//! of twelve ratios z is taken as the normal one that is as rare by Bonferroni's bound, `sqrt(z² - 2 ln 12)`. Where a torque from then on, a
+//! of twelve ratios z is taken as the normal one that is as rare by Bonferroni's bound, `sqrt(z² - 2 ln 12)`. Where a torque from any of these times on, a
 //! change of slope, is likelier it is no step.
 
 use nalgebra::{Matrix4, Vector4};
@@ -88,51 +88,74 @@ pub(super) fn bin(share: f64) -> usize {
     index.min(BINS - 1)
 }
 
-/// The last of the parameters of a parabola and a shape that begins after so many bins, its variance by that of a reading, and
-/// by how much it lessens the squares; some bins are left out.
+/// A parabola and a shape that begins after so many bins.
+struct Fitted {
+    /// Of the shape, and its variance by that of a reading.
+    change: f64,
+    square: f64,
+    /// Weighted squares of what is left.
+    left: f64,
+}
+
+/// Fits it, without one of the bins where that is given.
 fn fit(
     bins: &[Bin],
     split: usize,
-    without: &[usize],
+    without: Option<usize>,
     shape: impl Fn(f64) -> f64,
-) -> Option<([f64; 2], f64)> {
-    let (mut normal, mut moments) = (Matrix4::zeros(), Vector4::zeros());
-    for (index, bin) in bins.iter().enumerate().filter(|(index, _)| !without.contains(index)) {
+) -> Option<Fitted> {
+    let (mut normal, mut moments, mut squares) = (Matrix4::zeros(), Vector4::zeros(), 0.0);
+    for (index, bin) in bins.iter().enumerate().filter(|(index, _)| without != Some(*index)) {
         let (time, value) = (bin.time / bin.count, bin.value / bin.count);
         let last = if index < split { 0.0 } else { shape(time) };
         let row = Vector4::new(1.0, time, time * time, last);
         normal += row * row.transpose() * bin.count;
         moments += row * (value * bin.count);
+        squares += value * value * bin.count;
     }
     let inverse = normal.try_inverse()?;
-    let last = inverse.row(3);
-    let [change, square] = [(last * moments)[0], last[3]];
-    (square > 0.0).then(|| ([change, square], change * change / square))
+    let found = inverse * moments;
+    let square = inverse[(3, 3)];
+    (square > 0.0).then(|| Fitted { change: found[3], square, left: squares - found.dot(&moments) })
+}
+
+/// The better one of two.
+fn better(one: Option<Fitted>, other: Option<Fitted>) -> Option<Fitted> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.left < one.left { other } else { one }),
+        (one, other) => one.or(other),
+    }
 }
 
 fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[f64; 2]> {
-    let all: Vec<Bin> = before.iter().chain(now).copied().collect();
+    let mut all: Vec<Bin> = before.iter().chain(now).copied().collect();
     if all.iter().any(|of| of.count == 0.0) {
         return None;
     }
-    let mut best: Option<(f64, f64, usize, bool)> = None;
+    // About their mean, so that squares do not cancel.
+    let count: f64 = all.iter().map(|of| of.count).sum();
+    let mean = all.iter().map(|of| of.value).sum::<f64>() / count;
+    all.iter_mut().for_each(|of| of.value -= mean * of.count);
+    let (mut best, mut slope): (Option<(f64, usize, f64)>, Option<Fitted>) = (None, None);
     for split in BINS / 2..2 * BINS {
         let start = float(split) / float(BINS) - 1.0;
-        let Some(([change, _], gain)) = fit(&all, split, &[], |_| 1.0) else { continue };
-        let slope = fit(&all, split, &[], |time| time - start);
-        let is_step = slope.is_none_or(|(_, other)| other < gain);
-        if best.is_none_or(|(_, most, ..)| gain > most) {
-            best = Some((change, gain, split, is_step));
+        slope = better(slope, fit(&all, split, None, |time| time - start));
+        let Some(Fitted { change, square, .. }) = fit(&all, split, None, |_| 1.0) else { continue };
+        let gain = change * change / square;
+        if best.is_none_or(|(most, ..)| gain > most) {
+            best = Some((gain, split, change));
         }
     }
-    let (change, gain, split, is_step) = best?;
+    let (gain, split, change) = best?;
+    // It is in the middle of a bin, the one before or after: without that bin, whose value is one more parameter, its size is the step's.
+    let step = |middle: usize| fit(&all, middle, Some(middle), |_| 1.0);
+    let step = better(step(split - 1), step(split));
+    // The next block tells of a step in the last bin.
+    let is_step = split + 1 < 2 * BINS
+        && step.as_ref().zip(slope).is_some_and(|(step, slope)| step.left + variance < slope.left);
     let square = gain / variance - TRIED;
     let ratio = if is_step && square > NONE * NONE { square.sqrt() } else { NONE };
-    // The step may be in the middle of a bin: its size is that without those beside the split, where two are left after it.
-    let clear = (split + 3 <= 2 * BINS)
-        .then(|| fit(&all, split, &[split - 1, split], |_| 1.0))
-        .flatten()
-        .map_or(change, |([clear, _], _)| clear);
-    let deviation = clear.abs() / ratio;
-    Some([clear, deviation * deviation])
+    let size = step.map_or(change, |of| of.change);
+    let deviation = size.abs() / ratio;
+    Some([size, deviation * deviation])
 }
