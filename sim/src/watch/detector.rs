@@ -15,7 +15,7 @@ pub(super) const INTERVAL: f64 = 1.959_963_984_540_054;
 const NAMING: usize = 30;
 
 /// Twice the logarithm of the likelihood ratio by which the other cause must be likelier: 100 to 1.
-const LIKELIER: f64 = 9.210_340_371_976_184;
+pub(super) const LIKELIER: f64 = 9.210_340_371_976_184;
 
 /// Squares nearer than this are equal: then it is the quantity's own cause.
 const EQUAL: f64 = 1e-6;
@@ -152,13 +152,43 @@ struct Reference {
 }
 
 /// An alarm whose cause is looked at again.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Naming {
     reference: Reference,
-    sums: Sums,
-    onset: f64,
+    /// Those of the alarm, and the blocks since then.
+    window: VecDeque<Sample>,
+    /// The block of the alarm, s: no onset is later.
+    latest: f64,
     cause: Cause,
     left: usize,
+}
+
+/// A cause, and the root of twice the logarithm of its likelihood ratio.
+type Found = (f64, Shift, Cause);
+
+/// The likeliest onset of each cause.
+fn search(window: &VecDeque<Sample>, latest: f64, reference: &Reference) -> [Option<Found>; 2] {
+    let mut sums = Sums::default();
+    let mut best: [Option<Found>; 2] = [None; 2];
+    for sample in window.iter().rev() {
+        sums.add(sample, reference.mean);
+        if sample.time > latest {
+            continue;
+        }
+        for (best, cause) in best.iter_mut().zip([Cause::Own, Cause::Other]) {
+            let Some(estimate) = sums.estimate(cause, reference) else { continue };
+            let ratio = estimate[0].abs() / estimate[1];
+            if best.is_none_or(|(most, ..)| ratio > most) {
+                *best = Some((ratio, shift(cause, sample.time, estimate, reference), cause));
+            }
+        }
+    }
+    best
+}
+
+/// Twice the logarithm of its likelihood ratio.
+fn square(of: Option<Found>) -> f64 {
+    of.map_or(0.0, |(ratio, ..)| ratio * ratio)
 }
 
 /// The tests of one quantity. Its memory does not grow.
@@ -206,7 +236,7 @@ impl Detector {
         }
         let Some(reference) = self.reference else {
             self.learn(&sample);
-            return self.named_otherwise(&sample);
+            return self.named_otherwise(sample);
         };
         let likeliest = self.likeliest(&reference, sample);
         let above = self.is_above(&reference, &sample);
@@ -222,11 +252,8 @@ impl Detector {
         } else {
             return None;
         };
-        let mut sums = Sums::default();
-        for sample in self.window.iter().filter(|of| of.time >= shift.onset) {
-            sums.add(sample, reference.mean);
-        }
-        let naming = Naming { reference, sums, onset: shift.onset, cause, left: NAMING };
+        let window = std::mem::take(&mut self.window);
+        let naming = Naming { reference, window, latest: sample.time, cause, left: NAMING };
         *self = Self::new(self.kind, self.thresholds, self.counts);
         self.naming = Some(naming);
         Some((Shift { test, ..shift }, cause))
@@ -267,28 +294,15 @@ impl Detector {
     }
 
     /// The likeliest step at one of the last blocks, its cause, and the root of twice the logarithm of its likelihood ratio.
-    fn likeliest(&mut self, reference: &Reference, sample: Sample) -> Option<(f64, Shift, Cause)> {
+    fn likeliest(&mut self, reference: &Reference, sample: Sample) -> Option<Found> {
         let [_, onsets] = self.counts;
         if self.window.len() == onsets {
             self.window.pop_front();
         }
         self.window.push_back(sample);
-        let mut sums = Sums::default();
-        let mut best: [Option<(f64, Shift, Cause)>; 2] = [None; 2];
-        for sample in self.window.iter().rev() {
-            sums.add(sample, reference.mean);
-            for (best, cause) in best.iter_mut().zip([Cause::Own, Cause::Other]) {
-                let Some(estimate) = sums.estimate(cause, reference) else { continue };
-                let ratio = estimate[0].abs() / estimate[1];
-                if best.is_none_or(|(most, ..)| ratio > most) {
-                    *best = Some((ratio, shift(cause, sample.time, estimate, reference), cause));
-                }
-            }
-        }
+        let [own, other] = search(&self.window, f64::INFINITY, reference);
         // Signatures of bearings hardly differ from block to block: an amplitude is its own unless the other is much likelier.
         let more = if self.kind == Kind::Amplitude { LIKELIER } else { EQUAL };
-        let [own, other] = best;
-        let square = |of: Option<(f64, Shift, Cause)>| of.map_or(0.0, |(ratio, ..)| ratio * ratio);
         if square(other) > square(own) + more { other } else { own }
     }
 
@@ -305,27 +319,21 @@ impl Detector {
         self.cumulative.iter().any(|sum| *sum > most)
     }
 
-    /// After an alarm: the other cause, where that has become likelier.
-    fn named_otherwise(&mut self, sample: &Sample) -> Option<(Shift, Cause)> {
+    /// After an alarm: the other cause with its own onset, where that has become likelier.
+    fn named_otherwise(&mut self, sample: Sample) -> Option<(Shift, Cause)> {
         let naming = self.naming.as_mut()?;
-        naming.sums.add(sample, naming.reference.mean);
+        naming.window.push_back(sample);
         naming.left = naming.left.saturating_sub(1);
-        let other = match naming.cause {
-            Cause::Own => Cause::Other,
-            Cause::Other => Cause::Own,
-        };
-        let of = |cause| naming.sums.estimate(cause, &naming.reference);
-        let (now, then) = of(naming.cause).zip(of(other))?;
-        let square = |[change, deviation]: [f64; 2]| (change / deviation).powi(2);
-        let found = (square(then) > square(now) + LIKELIER)
-            .then(|| (shift(other, naming.onset, then, &naming.reference), other));
-        if found.is_some() {
-            naming.cause = other;
+        let [own, other] = search(&naming.window, naming.latest, &naming.reference);
+        let [now, then] = if naming.cause == Cause::Own { [own, other] } else { [other, own] };
+        let found = then.filter(|_| square(then) > square(now) + LIKELIER);
+        if let Some((_, _, cause)) = found {
+            naming.cause = cause;
         }
         if naming.left == 0 {
             self.naming = None;
         }
-        found
+        found.map(|(_, shift, cause)| (shift, cause))
     }
 }
 
