@@ -135,7 +135,9 @@ fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[
     // About their mean, so that squares do not cancel.
     let count: f64 = all.iter().map(|of| of.count).sum();
     let mean = all.iter().map(|of| of.value).sum::<f64>() / count;
-    all.iter_mut().for_each(|of| of.value -= mean * of.count);
+    for bin in &mut all {
+        bin.value -= mean * bin.count;
+    }
     let (mut best, mut slope): (Option<(f64, usize, f64)>, Option<Fitted>) = (None, None);
     for split in BINS / 2..2 * BINS {
         let start = float(split) / float(BINS) - 1.0;
