@@ -29,6 +29,7 @@ pub struct Sample {
 
 impl Plan {
     /// The values of a sample with their labels, for a sentence: `device.rw.wheel.rate [rpm] = 600`.
+    #[cfg(feature = "tool")]
     #[must_use]
     pub(crate) fn shown(&self, sample: usize) -> String {
         let values = self.samples.get(sample).map_or(&[][..], |sample| &sample.values);
