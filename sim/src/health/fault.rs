@@ -91,10 +91,10 @@ impl Fault {
         let of = match self {
             Self::StaticImbalance if bus => [5e-7, 1.5e-6, 5e-6],
             Self::DynamicImbalance if bus => [1.5e-7, 5e-7, 1.5e-6],
-            Self::StaticImbalance | Self::DynamicImbalance => [1e-6, 3e-6, 1e-5],
+            Self::StaticImbalance | Self::DynamicImbalance => [3e-6, 1e-5, 3e-5],
             Self::ImbalancePhase => [0.3, 0.9, 2.4],
             Self::Drag if bus => [3e-5, 1e-4, 3e-4],
-            Self::Drag => [2e-4, 6e-4, 2e-3],
+            Self::Drag => [6e-4, 2e-3, 6e-3],
             Self::Bearing => [-0.25, -0.5, -0.7],
             Self::GimbalDrag => [5e-3, 15e-3, 50e-3],
             Self::TorqueConstant => [-0.02, -0.06, -0.2],
