@@ -4,7 +4,7 @@ sensitivities of a campaign.
     pip install jax casadi
     python python/benchmarks/derivatives.py
 
-Prints the table of docs/python.md for the package that is installed: an older wheel prints what it was before. The spacecraft is that
+Prints a table for the package that is installed: an older wheel prints what it was before. The spacecraft is that
 of `throughput.py`, four double-gimbal gyros, which is compared with what is stored first. Times are those of the processor in all
 threads of the process, the least of all turns: what else the machine does is not counted.
 """
