@@ -157,7 +157,7 @@ impl WatchCommand {
             further: found.further,
             exclusions: rows.exclusions(),
         };
-        let html = html.html().map_err(|error| other(&error))?;
+        let html = html.html().map_err(|error| other(&error).leaving(vec![path.clone()]))?;
         let files = [(alarms.clone(), &json), (page.clone(), &html)];
         let written = uninterrupted(|| outputs.write(&files));
         written.map_err(|error| error.leaving(vec![path.clone()]))?;
