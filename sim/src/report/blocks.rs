@@ -15,6 +15,16 @@ pub(super) struct Section {
     pub(super) blocks: Vec<Block>,
 }
 
+impl Section {
+    /// Those of these places, headings and blocks that hold something.
+    pub(super) fn filled(
+        all: impl IntoIterator<Item = (&'static str, &'static str, Vec<Block>)>,
+    ) -> Vec<Self> {
+        let filled = all.into_iter().filter(|(_, _, blocks)| !blocks.is_empty());
+        filled.map(|(id, title, blocks)| Self { id, title, blocks }).collect()
+    }
+}
+
 /// A part of a section.
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]

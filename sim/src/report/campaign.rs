@@ -84,10 +84,7 @@ impl CampaignPage<'_> {
         }
         let text = &self.scenario.source.text;
         sections.push(("scenario", "Scenario", vec![lines(text)]));
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let sections =
-            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
-        let sections: Vec<_> = sections.collect();
+        let sections = Section::filled(sections);
         let page = Page {
             subject: self.subject,
             title: &self.scenario.title,

@@ -28,18 +28,14 @@ pub(crate) struct IdentifyReport<'a> {
 impl IdentifyReport<'_> {
     /// The page.
     pub(crate) fn html(&self) -> Result<String, ReportError> {
-        let mut sections = vec![
+        let sections = Section::filled([
             ("parameters", "Numbers with 95 % intervals", self.numbers()),
             ("untold", "What the data do not tell", self.untold()),
             ("residuals", "Residuals", self.residuals()),
             ("correlations", "Correlations", self.correlations()),
             ("assumptions", "Assumptions", vec![assumptions(self.found)]),
             ("unknowns", "File of unknowns", vec![lines(self.text)]),
-        ];
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let sections =
-            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
-        let sections: Vec<_> = sections.collect();
+        ]);
         let page = Page {
             subject: "identification from telemetry",
             title: self.title,

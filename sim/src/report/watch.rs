@@ -62,14 +62,11 @@ pub(crate) fn test_name(test: Test) -> &'static str {
 impl WatchReport<'_> {
     /// The page.
     pub(crate) fn html(&self) -> Result<String, ReportError> {
-        let mut sections = vec![
+        let sections = Section::filled([
             ("alarms", "Alarms", self.alarms()),
             ("quantities", "Quantities over the time", self.figures()?),
             ("references", "References", vec![self.references()]),
-        ];
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let section = |(id, title, blocks)| Section { id, title, blocks };
-        let sections: Vec<_> = sections.into_iter().map(section).collect();
+        ]);
         let page = Page {
             subject: "what has changed, from telemetry",
             title: self.title,
@@ -242,13 +239,11 @@ impl WatchReport<'_> {
 
 /// Whether an alarm is of this quantity, or of another cause of what its blocks show.
 fn is_of_series(alarm: &Alarm, name: &str, watched: &Watched) -> bool {
-    let series = match alarm.watched {
-        Watched::BearingStiffness => &Watched::StaticImbalance,
-        Watched::TorqueConstant => &Watched::Drag,
-        _ => return alarm.name == name,
-    };
+    if alarm.name == name {
+        return true;
+    }
     let place = |name: &str| name.rsplit_once(" of ").map(|(_, of)| of.to_owned());
-    watched == series && place(&alarm.name) == place(name)
+    watched.other_cause().as_ref() == Some(&alarm.watched) && place(&alarm.name) == place(name)
 }
 
 /// What the page's script draws in the place of a figure.

@@ -40,6 +40,15 @@ impl Watched {
         }
     }
 
+    /// What else changes the same series of estimates, by a signature of its own.
+    pub(crate) fn other_cause(&self) -> Option<Self> {
+        match self {
+            Self::StaticImbalance => Some(Self::BearingStiffness),
+            Self::Drag => Some(Self::TorqueConstant),
+            _ => None,
+        }
+    }
+
     /// How it is tested; a torque constant in the series of drag.
     pub(super) fn kind(&self) -> Kind {
         match self {
@@ -156,17 +165,9 @@ impl Quantity {
     ) -> Option<Alarm> {
         let detector = self.detector.as_mut()?;
         let (shift, cause) = detector.take(Sample { time: start, value, variance, signature })?;
-        let (watched, name) = match cause {
-            Cause::Own => (self.watched.clone(), self.name.clone()),
-            Cause::Other => {
-                let other = match self.watched {
-                    Watched::StaticImbalance => Watched::BearingStiffness,
-                    _ => Watched::TorqueConstant,
-                };
-                let name = other.name(&self.of);
-                (other, name)
-            }
-        };
+        let other = self.watched.other_cause().filter(|_| cause == Cause::Other);
+        let watched = other.unwrap_or_else(|| self.watched.clone());
+        let name = watched.name(&self.of);
         let alike = watched.alike(&self.of);
         Some(Alarm { name, watched, time: end, shift, alike })
     }

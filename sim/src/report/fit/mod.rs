@@ -55,7 +55,7 @@ impl FitReport<'_> {
                 })
                 .collect()
         };
-        let mut sections = vec![
+        let sections = Section::filled([
             ("parameters", "Parameters with 95 % intervals", self.parameters()),
             ("lines", "Lines over the speed", of("lines")?),
             ("spectra", "Spectra with the fitted lines", of("spectrum")?),
@@ -63,11 +63,7 @@ impl FitReport<'_> {
             ("waterfalls", "Waterfalls", of("waterfall")?),
             ("assumptions", "Assumptions", vec![assumptions()]),
             ("measurement", "Measurement", vec![lines(self.text)]),
-        ];
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let sections =
-            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
-        let sections: Vec<_> = sections.collect();
+        ]);
         let page = Page {
             subject: "fit of a wheel",
             title: self.title,

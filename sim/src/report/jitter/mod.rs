@@ -115,10 +115,7 @@ impl JitterReport<'_> {
             sections.push(("warnings", "Warnings", vec![Block::List { style: "warnings", items }]));
         }
         sections.push(("budget", "Budget", vec![lines(self.text)]));
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let sections =
-            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
-        let sections: Vec<_> = sections.collect();
+        let sections = Section::filled(sections);
         let page = Page {
             subject: "jitter budget",
             title: &self.budget.title,

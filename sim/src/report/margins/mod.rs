@@ -85,9 +85,7 @@ impl MarginsReport<'_> {
         if !self.scenario.source.text.is_empty() {
             sections.push(("scenario", "Scenario", vec![lines(&self.scenario.source.text)]));
         }
-        sections.retain(|(_, _, blocks)| !blocks.is_empty());
-        let sections: Vec<_> =
-            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks }).collect();
+        let sections = Section::filled(sections);
         let page = Page {
             subject: "margins of a loop",
             title: &self.scenario.title,
