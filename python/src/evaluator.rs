@@ -49,19 +49,19 @@ impl NativeEvaluator {
     /// The joints in the order of the set.
     #[getter]
     fn joints(&self) -> Vec<JointFacts> {
-        let facts = |of: precess::evaluation::JointNames| {
+        let facts = |of: &precess::evaluation::JointNames| {
             (
-                of.body,
-                of.coordinate,
-                of.rate,
-                of.acceleration,
-                of.motor,
+                of.body.clone(),
+                of.coordinate.clone(),
+                of.rate.clone(),
+                of.acceleration.clone(),
+                of.motor.clone(),
                 of.units.into(),
                 of.slides,
                 of.driven,
             )
         };
-        self.evaluator.joints().into_iter().map(facts).collect()
+        self.evaluator.joints().iter().map(facts).collect()
     }
 
     /// The names of all accelerations.

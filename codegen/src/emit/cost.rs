@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use super::body::Counts;
-use super::functions::{Functions, functions};
+use super::functions::{Functions, functions, of_kernels};
 use super::parts::{kernel_body, prepare_body};
 use crate::derivation::chain::Chain;
 use crate::derivation::chain::passes::Passes;
 use crate::graph::Graph;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, elimination};
 use crate::kinds::Kind;
 
 /// One function's operations, as a table shows them.
@@ -33,8 +33,10 @@ pub(super) fn count(kind: &str, function: &str, counts: Counts) -> CountText {
 /// Operations of `eliminate` after each of [`Passes::EACH`] that leaves the functions as they are.
 pub(super) fn chain_passes(kind: &'static Kind) -> Vec<usize> {
     let after = |passes: &Passes| {
-        let counts = counted(kind, *passes).into_iter();
-        counts.filter(|(function, _)| function == "eliminate").map(|(_, count)| count).sum()
+        let graph = Graph::new();
+        let chain = Chain::after(&graph, kind, *passes);
+        let Functions { prepared, kernels } = of_kernels(&chain, vec![elimination(&chain)]);
+        kernels.iter().map(|kernel| kernel_body(&chain, kernel, &prepared).counts.total()).sum()
     };
     Passes::EACH.iter().filter(|passes| !passes.factor).map(after).collect()
 }

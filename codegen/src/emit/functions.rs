@@ -19,8 +19,12 @@ pub struct Functions<'g> {
 /// The functions of the chain's kind.
 #[must_use]
 pub fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
+    of_kernels(chain, kernels(chain))
+}
+
+/// Some of them, and what `prepare` computes for these.
+pub(super) fn of_kernels<'g>(chain: &Chain<'g>, mut kernels: Vec<Kernel<'g>>) -> Functions<'g> {
     let (graph, raw) = (chain.graph, parameters_of(chain));
-    let mut kernels = kernels(chain);
     if chain.passes.factor {
         for kernel in &mut kernels {
             let sections = std::mem::take(&mut kernel.sections);

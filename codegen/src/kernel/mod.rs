@@ -48,6 +48,11 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     list
 }
 
+/// `eliminate` of a chain by itself.
+pub(crate) fn elimination<'g>(chain: &Chain<'g>) -> Kernel<'g> {
+    eliminate::kernel(chain).0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

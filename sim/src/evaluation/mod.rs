@@ -60,6 +60,8 @@ pub struct Evaluator {
     craft: Craft,
     layout: Layout,
     chains: Vec<Chain>,
+    /// Names of the joints, in the order of the set.
+    joints: Vec<JointNames>,
     /// Every column of a load.
     loads: Vec<Column>,
 }
@@ -80,7 +82,8 @@ impl Evaluator {
         let columns = Columns::all(scenario).into_iter();
         let loads = columns.filter(|column| column.quantity.is_load()).collect();
         let chains = Chain::all(&scenario.devices);
-        Ok(Self { scenario: scenario.clone(), craft, layout, chains, loads })
+        let joints = JointNames::all(scenario);
+        Ok(Self { scenario: scenario.clone(), craft, layout, chains, joints, loads })
     }
 
     /// The scenario.

@@ -4,6 +4,7 @@ use precess_dynamics::{Axis, Output, Variable};
 
 use super::Evaluator;
 use crate::record::{Column, Columns};
+use crate::scenario::Scenario;
 
 /// The names of a joint: `cmg1.theta`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,12 +29,11 @@ pub struct JointNames {
     pub driven: bool,
 }
 
-impl Evaluator {
-    /// The joints in the order of the set.
-    #[must_use]
-    pub fn joints(&self) -> Vec<JointNames> {
-        let joints = self.scenario.joints();
-        let names = joints.map(|(device, name, info)| JointNames {
+impl JointNames {
+    /// Those of a scenario, in the order of the set.
+    pub(super) fn all(scenario: &Scenario) -> Vec<Self> {
+        let joints = scenario.joints();
+        let names = joints.map(|(device, name, info)| Self {
             device,
             body: format!("{name}.{}", info.body.replace(' ', "_")),
             coordinate: format!("{name}.{}", info.coordinate),
@@ -45,6 +45,14 @@ impl Evaluator {
             driven: info.driven,
         });
         names.collect()
+    }
+}
+
+impl Evaluator {
+    /// The joints in the order of the set.
+    #[must_use]
+    pub fn joints(&self) -> &[JointNames] {
+        &self.joints
     }
 
     /// The columns of a run that the numbers of a flat state are, in its order.
@@ -61,9 +69,8 @@ impl Evaluator {
     /// `attitude_x` is a small rotation about an axis of B.
     #[must_use]
     pub fn variable_name(&self, variable: Variable) -> String {
-        let joints = self.joints();
         let of = |joint: usize, name: fn(&JointNames) -> &String| {
-            joints.get(joint).map_or_else(String::new, |joint| name(joint).clone())
+            self.joints.get(joint).map_or_else(String::new, |joint| name(joint).clone())
         };
         let wrench = |joint: usize, what: &str, axis| {
             along(&format!("{}.{what}", of(joint, |joint| &joint.body)), axis)
@@ -104,9 +111,8 @@ impl Evaluator {
     /// `acceleration_b_x` is the inertial acceleration of B along an axis of B.
     #[must_use]
     pub fn output_name(&self, output: Output) -> String {
-        let joints = self.joints();
         let of = |joint: usize, name: fn(&JointNames) -> &String| {
-            joints.get(joint).map_or_else(String::new, |joint| name(joint).clone())
+            self.joints.get(joint).map_or_else(String::new, |joint| name(joint).clone())
         };
         let load = |joint: usize, what: &str, axis| {
             along(&format!("{}.load_{what}", of(joint, |joint| &joint.body)), axis)
@@ -132,7 +138,7 @@ impl Evaluator {
     pub fn acceleration_names(&self) -> Vec<String> {
         let hub = ["acceleration_b", "omega_dot"];
         let hub = hub.iter().flat_map(|base| Axis::ALL.map(|axis| along(base, axis)));
-        let joints = self.joints().into_iter().map(|joint| joint.acceleration);
+        let joints = self.joints.iter().map(|joint| joint.acceleration.clone());
         let modes = (0..self.layout.modes).map(|mode| format!("structure.eta_ddot_{}", mode + 1));
         hub.chain(joints).chain(modes).collect()
     }

@@ -148,6 +148,9 @@ impl Parameter {
         scenario: &Scenario,
         names: &[N],
     ) -> Result<Vec<Self>, EvaluationError> {
+        if names.is_empty() {
+            return Ok(Vec::new());
+        }
         let all = Self::all(scenario);
         let find = |name: &N| {
             let name = name.as_ref();

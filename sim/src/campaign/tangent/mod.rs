@@ -8,7 +8,7 @@
 //! | step | how | error |
 //! |---|---|---|
 //! | `dp/dkey` | the reader of files has no dual numbers: differences of its closed formulas, seven points (`parameters`) | 1e-11 of the parameter's own size over a standard deviation |
-//! | `dx/dp` | the exact derivatives of each step by the chain rule, all keys in one run (`chain`); in a central field, with lumped imbalance, and of keys that change gravity or move a fixed hub, equations and integrator over [`Dual`](precess_dynamics::Dual) numbers, six keys in a run (`dual`) | rounding: the derivative of the discrete run |
+//! | `dx/dp` | by up to twelve keys, in a central field, with lumped imbalance, and of keys that change gravity or move a fixed hub, equations and integrator over [`Dual`](precess_dynamics::Dual) numbers, six keys in a run (`dual`); of more keys the exact derivatives of each step by the chain rule, all in one run (`chain`) | rounding: the derivative of the discrete run |
 //! | `F'[x]` | of RMS values, also in bands and exposures, by polarisation of the quadratic form; of peaks at the sample that is largest (`statistic`) | rounding |
 //!
 //! So no step has to be chosen against the tolerance of a run. What this does not have, and says so: flexible structures,
