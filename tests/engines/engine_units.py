@@ -18,7 +18,7 @@ OF_ENGINE = (
 
 
 def of_engine(folder, programs, library, case, version):
-    """A unit that runs the engine: bits of every column at every sample; its size, and how many numbers."""
+    """A unit that runs the engine: bits of every column at every sample, also from a state; its size, and how many numbers."""
     name, step, rate, duration, others = case
     file = SCENARIOS / f"{name}.toml"
     archive = folder / f"{name}-{version}.fmu"
@@ -34,17 +34,38 @@ def of_engine(folder, programs, library, case, version):
     columns, samples = recorded(folder, programs, file, step, duration, rate, others)
     if len(columns) != len(outputs) + 1:
         sys.exit(f"{name}: {len(outputs)} outputs of {len(columns)} columns")
-    both = [instance(description, archive.with_suffix(""), name=name) for name in ("one", "other")]
-    for index, sample in enumerate(samples):
-        for one in both:
+    made = (instance(description, archive.with_suffix(""), name=name) for name in ("one", "other", "third"))
+    one, other, third = made
+    places = [v.valueReference for v in outputs]
+
+    def run(of, first, last):
+        for index in range(first, last):
             if index:
-                one.step((index - 1) / rate, index / rate - (index - 1) / rate)
-            mine = one.get([v.valueReference for v in outputs])
-            for output, value, stored in zip(outputs, mine, sample[1:], strict=True):
+                of.step((index - 1) / rate, index / rate - (index - 1) / rate)
+            for output, value, stored in zip(outputs, of.get(places), samples[index][1:], strict=True):
                 if value != float(stored) and not (value != value and stored == "nan"):
                     sys.exit(f"{name}, FMI {version}.0, sample {index}, {output.name}: {value!r} against {stored}")
-    for one in both:
-        one.close()
+
+    # Instances share nothing; a state goes on as the run does, in the instance that it is of and, by its bytes, in another.
+    saved, end = len(samples) // 3, len(samples)
+    for index in range(saved):
+        for of in (one, other):
+            run(of, index, index + 1)
+    state = one.state()
+    stored = one.to_bytes(state)
+    for index in range(saved, end):
+        for of in (one, other):
+            run(of, index, index + 1)
+    one.set_state(state)
+    of_bytes = third.of_bytes(stored)
+    third.set_state(of_bytes)
+    for index in range(saved, end):
+        for of in (one, third):
+            run(of, index, index + 1)
+    one.free_state(state)
+    third.free_state(of_bytes)
+    for of in (one, other, third):
+        of.close()
     return archive.stat().st_size, len(samples) * len(outputs)
 
 
@@ -56,6 +77,6 @@ def check(folder, programs):
             size, count = of_engine(folder, programs, library, case, version)
             print(
                 f"fmpy {fmpy.__version__}, {case[0]} by the engine, FMI {version}.0: {size / 1e6:.1f} MB, valid; {count} numbers of"
-                " Co-Simulation have the bits of the run",
+                " Co-Simulation have the bits of the run, also from a state and from its bytes",
                 flush=True,
             )

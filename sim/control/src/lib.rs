@@ -16,6 +16,7 @@
 //! - [`Mekf`]: attitude and gyro bias from a gyro and a star tracker;
 //! - [`LineTracker`], [`DragTracker`]: imbalance line and drag torque of a rotor, followed on board in fixed memory;
 //! - [`MomentumDumping`]: an external torque;
+//! - [`Checkpoint`]: what all of these keep from sample to sample, as bytes;
 //! - [`rotation`]: quaternions as turns one after another.
 //!
 //! A slew, as a controller samples it: sensors, estimator, reference, law.
@@ -88,6 +89,7 @@ extern crate std;
 
 extern crate alloc;
 
+mod checkpoint;
 mod estimator;
 mod filter;
 mod law;
@@ -96,6 +98,7 @@ mod model;
 mod reference;
 mod sensor;
 
+pub use checkpoint::Checkpoint;
 pub use estimator::covariance::Covariance;
 pub use estimator::mekf::{Estimate, Mekf, MekfParameters};
 pub use filter::analog::{AnalogSection, Discretisation};

@@ -23,6 +23,8 @@ pub struct Engine {
     scenario: *mut Scenario,
     /// Why it does not go on.
     failed: Option<String>,
+    /// The last bytes that were saved.
+    saved: Vec<u8>,
 }
 
 impl Engine {
@@ -31,12 +33,31 @@ impl Engine {
         let text = str::from_utf8(text).map_err(|error| format!("the scenario: {error}"))?;
         let read = from_filled("scenario", text);
         let (scenario, _) = read.map_err(|errors| format!("the scenario: {errors}"))?;
-        let mut engine =
-            Self { run: None, scenario: Box::into_raw(Box::new(scenario)), failed: None };
-        // SAFETY: it is what `Box::into_raw` has made, is not changed, and is freed after the run, which alone refers to it.
-        let scenario: &'static Scenario = unsafe { &*engine.scenario };
-        engine.run = Some(CoupledRun::new(scenario).map_err(|error| error.to_string())?);
+        let scenario = Box::into_raw(Box::new(scenario));
+        let mut engine = Self { run: None, scenario, failed: None, saved: Vec::new() };
+        engine.begin_again()?;
         Ok(engine)
+    }
+
+    /// The run anew.
+    fn begin_again(&mut self) -> Result<(), String> {
+        self.run = None;
+        // SAFETY: it is what `Box::into_raw` has made, is not changed, and is freed after the run, which alone refers to it.
+        let scenario: &'static Scenario = unsafe { &*self.scenario };
+        self.run = Some(CoupledRun::new(scenario).map_err(|error| error.to_string())?);
+        Ok(())
+    }
+
+    /// Goes on from a checkpoint, also once it has failed.
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        if self.failed.is_some() {
+            // What has failed may have left anything.
+            catch(|| self.begin_again())?;
+        }
+        let Some(run) = &mut self.run else { return Err("there is no run".to_owned()) };
+        catch(|| run.restore(bytes).map_err(|error| error.to_string()))?;
+        self.failed = None;
+        Ok(())
     }
 
     /// What a function makes of the run; once it has failed, why.
@@ -197,114 +218,55 @@ pub unsafe extern "C" fn precess_engine_outputs(
     unsafe { answer(found, why, room) }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A wheel that is driven, on a free hub.
-    const SCENARIO: &str = r#"format = 1
-[hub]
-mass = "90 kg"
-inertia = "20, 21, 22 kg m^2"
-[[device]]
-name = "rw"
-kind = "reaction_wheel"
-position = "20, 10, 0 cm"
-mount = { spin_axis = [0, 0, 1] }
-imbalance = { static = "1 g cm", dynamic = "20 g cm^2" }
-wheel = { mass = "4 kg", inertia = "288, 150, 150 kg cm^2" }
-[run]
-duration = "0.1 s"
-integrator = "rk4"
-step = "1 ms"
-[output]
-rate = "1 kHz"
-"#;
-
-    /// What a function writes of why.
-    fn said(why: &[c_char]) -> String {
-        let bytes: Vec<u8> =
-            why.iter().map(|of| of.cast_unsigned()).take_while(|of| *of != 0).collect();
-        String::from_utf8(bytes).expect("a text")
-    }
-
-    fn begun(text: &str) -> (*mut Engine, String) {
-        let mut why = [0; 64];
-        // SAFETY: so many bytes, both.
-        let engine =
-            unsafe { precess_engine_new(text.as_ptr(), text.len(), why.as_mut_ptr(), why.len()) };
-        (engine, said(&why))
-    }
-
-    #[test]
-    fn a_scenario_that_is_none_is_a_message_as_long_as_there_is_room() {
-        let (engine, why) = begun("format = 1\n[hub]\nmass = \"90 m\"\n");
-        assert!(engine.is_null() && why.starts_with("the scenario: ") && why.len() == 63, "{why}");
-    }
-
-    #[test]
-    fn a_start_that_is_to_be_completed_is_refused() {
-        let text = SCENARIO.replace("[run]", "[initial]\nsettled = true\n[run]");
-        let (engine, why) = begun(&text);
-        assert!(engine.is_null() && why.contains("is not complete"), "{why}");
-    }
-
-    #[test]
-    fn a_run_takes_inputs_and_ends_with_its_duration() {
-        let (engine, why) = begun(SCENARIO);
-        assert!(!engine.is_null(), "{why}");
-        let inputs = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5];
-        let (mut is_over, mut why) = (0, [0; 64]);
-        let mut outputs = vec![0.0; 35];
-        // SAFETY: of the function above, once; so many numbers.
-        unsafe {
-            for (time, over) in [(0.05, 0), (0.2, 1)] {
-                let is_well = precess_engine_advance(
-                    engine,
-                    inputs.as_ptr(),
-                    7,
-                    time,
-                    &raw mut is_over,
-                    why.as_mut_ptr(),
-                    64,
-                );
-                assert_eq!((is_well, is_over), (1, over), "{}", said(&why));
-            }
-            let is_well = precess_engine_outputs(
-                engine,
-                inputs.as_ptr(),
-                7,
-                outputs.as_mut_ptr(),
-                35,
-                why.as_mut_ptr(),
-                64,
-            );
-            assert_eq!(is_well, 1, "{}", said(&why));
-            precess_engine_free(engine);
+/// See `precess_engine.h`.
+///
+/// # Safety
+///
+/// `engine` is of [`precess_engine_new`]; `size` points to a number and `why` to `room` bytes, at least one.
+// SAFETY: no other symbol has the name.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_engine_save(
+    engine: *mut Engine,
+    size: *mut usize,
+    why: *mut c_char,
+    room: usize,
+) -> *const u8 {
+    // SAFETY: by contract.
+    let engine = unsafe { &mut *engine };
+    match engine.with(|run| run.checkpoint().map_err(|error| error.to_string())) {
+        Ok(bytes) => {
+            engine.saved = bytes;
+            // SAFETY: by contract.
+            unsafe { *size = engine.saved.len() };
+            engine.saved.as_ptr()
         }
-        assert!(outputs.iter().any(|of| *of != 0.0), "{outputs:?}");
-    }
-
-    #[test]
-    fn what_fails_once_fails_again() {
-        let (engine, _) = begun(SCENARIO);
-        let (mut is_over, mut why) = (0, [0; 64]);
-        // SAFETY: of the function above, once; so many numbers.
-        unsafe {
-            for inputs in [&[f64::NAN; 7], &[0.0; 7]] {
-                let is_well = precess_engine_advance(
-                    engine,
-                    inputs.as_ptr(),
-                    7,
-                    0.01,
-                    &raw mut is_over,
-                    why.as_mut_ptr(),
-                    64,
-                );
-                assert_eq!(is_well, 0);
-                assert!(said(&why).contains("inputs"), "{}", said(&why));
-            }
-            precess_engine_free(engine);
+        Err(message) => {
+            // SAFETY: by contract.
+            unsafe { answer(Err(message), why, room) };
+            ptr::null()
         }
     }
 }
+
+/// See `precess_engine.h`.
+///
+/// # Safety
+///
+/// `engine` is of [`precess_engine_new`]; `bytes` points to `size` bytes and `why` to `room`, at least one.
+// SAFETY: no other symbol has the name.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_engine_restore(
+    engine: *mut Engine,
+    bytes: *const u8,
+    size: usize,
+    why: *mut c_char,
+    room: usize,
+) -> c_int {
+    // SAFETY: by contract.
+    let (engine, bytes) = unsafe { (&mut *engine, slice::from_raw_parts(bytes, size)) };
+    // SAFETY: by contract.
+    unsafe { answer(engine.restore(bytes), why, room) }
+}
+
+#[cfg(test)]
+mod tests;

@@ -11,7 +11,7 @@ mod process;
 mod protocol;
 
 use nalgebra::Vector3;
-use precess_control::{Law, Sample};
+use precess_control::{Checkpoint, Law, Sample};
 
 pub use error::ControllerError;
 pub(crate) use identity::program_digests;
@@ -50,6 +50,11 @@ pub trait Controller: Send {
     ///
     /// Why it has none: the run ends there, its result complete up to the sample.
     fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError>;
+
+    /// Visits what it keeps from sample to sample; one that cannot, such as another process, refuses.
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.refuse();
+    }
 }
 
 /// A law as a controller.
@@ -58,5 +63,9 @@ pub struct LawController(pub Box<dyn Law + Send>);
 impl Controller for LawController {
     fn sample(&mut self, sample: &ControllerSample<'_>) -> Result<Command, ControllerError> {
         Ok(Command::Torque(self.0.torque(&sample.of)))
+    }
+
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.numbers(self.0.kept());
     }
 }

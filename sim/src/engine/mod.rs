@@ -29,8 +29,8 @@ pub use equations::run_quantities::RunQuantities;
 pub(crate) use error::device_of;
 pub(crate) use quantities::member_loads::MemberLoads;
 pub use runs::{
-    Advance, CoupledRun, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side, run_side_by_side_on,
-    run_with_controllers,
+    Advance, CheckpointError, CoupledRun, Gpu, Run, SIDE_BY_SIDE, run, run_side_by_side,
+    run_side_by_side_on, run_with_controllers,
 };
 pub(crate) use runs::{HardwareChange, run_with_change};
 pub(crate) use runs::{driven_by_program, hub_input_count};

@@ -20,10 +20,10 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let has = !of.is_run;
+    let derives = !of.is_run;
     let both = format!(
-        "canGetAndSetFMUstate=\"{has}\" canSerializeFMUstate=\"{has}\" \
-         canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"{has}\""
+        "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" \
+         canNotUseMemoryManagementFunctions=\"true\" providesDirectionalDerivative=\"{derives}\""
     );
     let own = [
         (

@@ -19,10 +19,10 @@ pub(super) fn description(header: &Header, of: &Contents<'_>) -> String {
         header.description(),
         Header::TOOL,
     );
-    let has = !of.is_run;
+    let derives = !of.is_run;
     let both = format!(
-        "needsExecutionTool=\"false\" canGetAndSetFMUState=\"{has}\" canSerializeFMUState=\"{has}\" \
-         providesDirectionalDerivatives=\"{has}\" providesAdjointDerivatives=\"{has}\""
+        "needsExecutionTool=\"false\" canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" \
+         providesDirectionalDerivatives=\"{derives}\" providesAdjointDerivatives=\"{derives}\""
     );
     let own = [
         ("ModelExchange", "needsCompletedIntegratorStep=\"true\""),

@@ -12,12 +12,12 @@ use precess::fmu::{EngineFmu, FmiVersion, Fmu, FmuError};
 use precess::record::{RunError, Samples};
 use precess::scenario::Scenario;
 
-use super::compiled::{FLAGS, compilers};
+use super::compiled::{FLAGS, compile, compilers, numbers};
 use super::described::{elements, variables};
 use super::{UNIT, scenario};
 
 /// A scenario of the folder with parts of its text replaced.
-fn of_file(name: &str, changes: &[(&str, &str)]) -> Scenario {
+pub(super) fn of_file(name: &str, changes: &[(&str, &str)]) -> Scenario {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
     let mut text = fs::read_to_string(folder.join(name)).expect("a scenario");
     for (from, to) in changes {
@@ -34,13 +34,13 @@ fn pyramid() -> Scenario {
 }
 
 /// Four wheels on an isolated platform.
-fn isolator() -> Scenario {
+pub(super) fn isolator() -> Scenario {
     let run = "duration = \"0.2 s\"\nintegrator = \"rk4\"\nstep = \"0.5 ms\"";
     of_file("wheels-on-isolator.toml", &[("duration = \"18 s\"", run), ("tolerance = 1e-10", "")])
 }
 
 /// Four gyros with locked gimbals on a structure of twenty modes, which are in a file.
-fn imaging() -> Scenario {
+pub(super) fn imaging() -> Scenario {
     let run = "duration = \"60 ms\"\nintegrator = \"rk4\"\nstep = \"0.1 ms\"";
     let window = "from = \"10 ms\"\nto = \"60 ms\"";
     let changes =
@@ -49,13 +49,13 @@ fn imaging() -> Scenario {
 }
 
 /// Four wheels on a flexible structure under a controller, into the slew.
-fn flexible_slew() -> Scenario {
+pub(super) fn flexible_slew() -> Scenario {
     let run = "duration = \"3 s\"\nintegrator = \"rk4\"\nstep = \"2 ms\"";
     of_file("flexible-slew.toml", &[("duration = \"80 s\"", run), ("\"70 s\"", "\"1 s\"")])
 }
 
 /// A wheel and a panel; the torque of the wheel's motor changes within the run.
-fn changed() -> Scenario {
+pub(super) fn changed() -> Scenario {
     scenario(
         &(UNIT.to_owned()
             + "[[at]]\ntime = \"30.5 ms\"\njoint = \"rw.wheel\"\ntorque = \"-50 mN m\"\n"),
@@ -63,13 +63,13 @@ fn changed() -> Scenario {
 }
 
 /// The scenario that the unit's library reads.
-fn read_again(scenario: &Scenario) -> Scenario {
+pub(super) fn read_again(scenario: &Scenario) -> Scenario {
     let read = from_filled("scenario", &scenario.source.filled);
     read.unwrap_or_else(|errors| panic!("{errors}")).0
 }
 
 /// The inputs that the unit's description starts with.
-fn starts(scenario: &Scenario, run: &CoupledRun<'_>) -> Vec<f64> {
+pub(super) fn starts(scenario: &Scenario, run: &CoupledRun<'_>) -> Vec<f64> {
     let on_hub = vec![0.0; run.input_count() - run.motors().len()];
     let motors = run.motors().iter().map(|joint| {
         let drive = &scenario.drives[*joint];
@@ -180,7 +180,7 @@ fn a_unit_that_runs_the_engine_is_for_co_simulation_alone() {
                 FmiVersion::Two => ("canGetAndSetFMUstate", "Unknown"),
                 FmiVersion::Three => ("canGetAndSetFMUState", "InitialUnknown"),
             };
-            assert_eq!(elements(&document, "CoSimulation")[0][saves], "false");
+            assert_eq!(elements(&document, "CoSimulation")[0][saves], "true");
             let times = if version == FmiVersion::Two { 2 } else { 1 };
             assert_eq!(elements(&document, unknown).len(), times * outputs);
             let spoken = elements(&document, "fmiModelDescription").remove(0);
@@ -211,6 +211,21 @@ fn a_change_of_a_drive_that_takes_the_place_of_an_input_is_noted() {
     assert_eq!(EngineFmu::new(&scenario(UNIT)).expect("a unit").notes(), [""; 0]);
 }
 
+/// A folder with the C over the engine, and the names of what is compiled.
+fn c_over_engine(name: &str, version: FmiVersion, unit: &EngineFmu) -> (PathBuf, Vec<String>) {
+    let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let mut compiled = Vec::new();
+    for (name, text) in unit.sources(version) {
+        fs::write(folder.join(&name), text).expect("a source");
+        if Path::new(&name).extension() == Some("c".as_ref()) {
+            compiled.push(name);
+        }
+    }
+    (folder, compiled)
+}
+
 #[test]
 fn the_c_over_the_engine_has_no_warning() {
     // With inputs, and without.
@@ -218,24 +233,33 @@ fn the_c_over_the_engine_has_no_warning() {
     for (unit, version) in units.iter().zip(FmiVersion::ALL) {
         for compiler in compilers() {
             let name = format!("engine_{compiler}_{}", version.text());
-            let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmu").join(name);
-            let _ = fs::remove_dir_all(&folder);
-            fs::create_dir_all(&folder).expect("a folder");
-            let mut compiled = Vec::new();
-            for (name, text) in unit.sources(version) {
-                fs::write(folder.join(&name), text).expect("a source");
-                if Path::new(&name).extension() == Some("c".as_ref()) {
-                    compiled.push(name);
-                }
-            }
-            let done = Command::new(compiler)
-                .current_dir(&folder)
-                .args(FLAGS)
-                .arg("-c")
-                .args(compiled)
-                .output()
-                .expect("the compiler starts");
+            let (folder, compiled) = c_over_engine(&name, version, unit);
+            let mut command = Command::new(compiler);
+            let command = command.current_dir(&folder).args(FLAGS).arg("-c").args(compiled);
+            let done = command.output().expect("the compiler starts");
             assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
         }
+    }
+}
+
+/// By a driver that has an engine of its own in the place of ours.
+#[test]
+fn the_c_over_the_engine_copies_states() {
+    let unit = EngineFmu::new(&changed()).expect("a unit");
+    for compiler in compilers() {
+        let name = format!("engine_states_{compiler}");
+        let (folder, mut compiled) = c_over_engine(&name, FmiVersion::Two, &unit);
+        fs::write(folder.join("driver_engine.c"), include_str!("driver_engine.c"))
+            .expect("written");
+        compiled.push("driver_engine.c".to_owned());
+        let sanitisers: &[_] = if compiler == "gcc" {
+            &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+        } else {
+            &["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
+        };
+        let arguments = [&FLAGS[..], sanitisers, &["-o", "driver"]].concat();
+        let done = compile(compiler, &folder, &arguments, &compiled);
+        assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+        assert_eq!(numbers(&folder, &[]), [0.0; 0], "{compiler}");
     }
 }

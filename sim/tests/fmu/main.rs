@@ -8,6 +8,7 @@ mod compiled;
 mod derivatives;
 mod described;
 mod engine;
+mod engine_state;
 mod refused;
 
 use std::path::Path;

@@ -40,6 +40,7 @@ const MOVED: &[(&str, &str)] = &[
         "sim/src/command/mod.rs an_override_needs_no_quotation_marks_of_its_own",
         "sim/src/command/options.rs an_override_needs_no_quotation_marks_of_its_own",
     ),
+    ("sim/fmu/src/lib.rs ", "sim/fmu/src/tests.rs "),
     ("sim/src/engine/checks/", "sim/src/engine/tests/"),
     ("sim/src/engine/clipping.rs ", "sim/src/engine/events/clipping.rs "),
     ("sim/src/engine/roots.rs ", "sim/src/engine/events/roots.rs "),

@@ -6,6 +6,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use precess_dynamics::Attitude as _;
 
+use crate::checkpoint::Checkpoint;
 use crate::model::jacobian::jacobian;
 use crate::model::rotation::from_vector;
 
@@ -74,6 +75,12 @@ impl Covariance {
         whole.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.cross.transpose());
         whole.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.bias);
         whole
+    }
+
+    /// Visits its numbers.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { attitude, cross, bias } = self;
+        checkpoint.numbers(attitude.iter_mut().chain(cross.iter_mut()).chain(bias.iter_mut()));
     }
 
     /// After a turn by a rotation vector in a period, s.

@@ -16,6 +16,7 @@ use alloc::collections::VecDeque;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Attitude as _, Quaternion};
 
+use crate::checkpoint::Checkpoint;
 use crate::estimator::covariance::{Covariance, ProcessNoise};
 use crate::model::error::{self, ControlError};
 use crate::model::motion::Motion;
@@ -164,6 +165,18 @@ impl Mekf {
         self.now =
             self.readings.iter().fold(self.past, |at, reading| self.propagated(&at, reading));
         Ok(innovation.dot(&(gains.information * innovation)))
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { readings, past, now, reading, .. } = self;
+        checkpoint.queue(readings, Vector3::zeros, |checkpoint, of| checkpoint.numbers(of));
+        for Estimate { attitude, bias, covariance } in [past, now] {
+            checkpoint.attitude(attitude);
+            checkpoint.numbers(bias);
+            covariance.visit(checkpoint);
+        }
+        checkpoint.optional_vector(reading);
     }
 
     /// Moves the past on by a sample.

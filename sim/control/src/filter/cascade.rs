@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::checkpoint::Checkpoint;
 use crate::filter::section::Section;
 
 /// Sections of second order, each filtering the output of the one before. Without sections the output is the input.
@@ -36,5 +37,12 @@ impl Filter {
     /// At rest.
     pub fn reset(&mut self) {
         self.sections.iter_mut().for_each(Section::reset);
+    }
+
+    /// Visits the states of its sections.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        for section in &mut self.sections {
+            section.visit(checkpoint);
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! [`Section`]: a discrete filter of second order with its state.
 
+use crate::checkpoint::Checkpoint;
 use crate::model::error::{self, ControlError};
 
 /// `(b0 + b1 / z + b2 / z²) / (1 + a1 / z + a2 / z²)` in the transposed direct form II.
@@ -67,5 +68,10 @@ impl Section {
     /// At rest.
     pub fn reset(&mut self) {
         self.state = [0.0; 2];
+    }
+
+    /// Visits its state.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.numbers(&mut self.state);
     }
 }

@@ -52,4 +52,9 @@ pub trait Law {
 
     /// Starts anew: integrals are zero.
     fn reset(&mut self);
+
+    /// The numbers that it keeps from sample to sample; none of a law that keeps nothing.
+    fn kept(&mut self) -> &mut [f64] {
+        &mut []
+    }
 }

@@ -122,4 +122,8 @@ impl Law for MrpFeedback {
     fn reset(&mut self) {
         self.integral = Vector3::zeros();
     }
+
+    fn kept(&mut self) -> &mut [f64] {
+        self.integral.as_mut_slice()
+    }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::checkpoint::Checkpoint;
 use crate::model::error::{self, ControlError};
 use crate::sensor::noise::Noise;
 use crate::sensor::quantum::Quantum;
@@ -62,5 +63,10 @@ impl Accelerometer {
         self.sample += 1;
         let noise = Vector3::new(n0, n1, n2) * self.deviation;
         self.quantum.read_each(&(specific_force + self.bias + noise))
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.count(&mut self.sample);
     }
 }

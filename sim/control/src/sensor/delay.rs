@@ -2,6 +2,7 @@
 
 use alloc::collections::VecDeque;
 
+use crate::checkpoint::Checkpoint;
 use crate::model::error::{self, ControlError};
 
 /// Of the period, by which times that are equal but for rounding may differ.
@@ -63,5 +64,19 @@ impl<T> DelayLine<T> {
             found = self.line.pop_front();
         }
         found
+    }
+
+    /// Visits the readings on their way, each read into a blank.
+    pub fn visit(
+        &mut self,
+        checkpoint: &mut Checkpoint<'_>,
+        blank: impl Fn() -> T,
+        mut each: impl FnMut(&mut Checkpoint<'_>, &mut T),
+    ) {
+        let blank = || (0.0, blank());
+        checkpoint.queue(&mut self.line, blank, |checkpoint, (measured, reading)| {
+            checkpoint.number(measured);
+            each(checkpoint, reading);
+        });
     }
 }

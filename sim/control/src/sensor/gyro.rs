@@ -13,6 +13,7 @@
 
 use nalgebra::Vector3;
 
+use crate::checkpoint::Checkpoint;
 use crate::model::error::{self, ControlError};
 use crate::sensor::noise::Noise;
 use crate::sensor::quantum::Quantum;
@@ -124,5 +125,12 @@ impl Gyro {
                 counted / self.period
             }
         }
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { sample, bias, rest, .. } = self;
+        checkpoint.count(sample);
+        checkpoint.numbers(bias.iter_mut().chain(rest.iter_mut()));
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Attitude as _, Quaternion};
 
+use crate::checkpoint::Checkpoint;
 use crate::model::error::{self, ControlError};
 use crate::model::rotation::{from_vector, product};
 use crate::sensor::noise::Noise;
@@ -51,5 +52,10 @@ impl StarTracker {
         self.sample += 1;
         let error = Vector3::new(n0, n1, n2).component_mul(&self.deviations);
         product(attitude, &from_vector(&(self.mount.dcm().transpose() * error)))
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.count(&mut self.sample);
     }
 }

@@ -10,6 +10,7 @@
 //! [`SteeringMatrix`].
 
 use nalgebra::Vector3;
+use precess_control::Checkpoint;
 use precess_craft::SteeringSums;
 use precess_dynamics::{
     Allocation, Dither, Inverse, KeepOut, Steered, SteeringError, SteeringLaw, SteeringMatrix,
@@ -74,6 +75,11 @@ pub(super) type Padded<T> = [T; COMMANDED_MAX];
 impl Allocator {
     pub(super) fn new(of: &SampledController) -> Self {
         Self { reference: of.allocation.reference }
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub(super) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.optional(&mut self.reference, || 0.0, Checkpoint::number);
     }
 
     /// Commands for a torque, N m, B, at a time and terms of the devices on the hub.

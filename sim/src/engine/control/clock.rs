@@ -1,5 +1,7 @@
 //! [`Clock`]: times that repeat at an even rate.
 
+use precess_control::Checkpoint;
+
 use crate::engine::integration::dop853::same;
 
 /// Times `offset + k / rate`, k from 0.
@@ -28,6 +30,11 @@ impl Clock {
         let due = reached(self.next(), time);
         self.next += u64::from(due);
         due
+    }
+
+    /// Visits how many times there were.
+    pub(super) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.count(&mut self.next);
     }
 }
 

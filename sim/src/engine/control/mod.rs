@@ -5,6 +5,7 @@
 //! is due at its own time. It is the same at the start of a run as at any other time.
 
 mod allocation;
+mod checkpoint;
 mod clock;
 mod limits;
 pub(crate) mod linear;

@@ -7,9 +7,11 @@
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
-use precess_control::{Filter, GyroOutput, Mekf, MomentumDumping, Motion, Noise, rotation};
+use precess_control::{
+    Checkpoint, Filter, GyroOutput, Mekf, MomentumDumping, Motion, Noise, rotation,
+};
 use precess_craft::CraftState;
-use precess_dynamics::{ListedModes, ModalPoint, Quaternion};
+use precess_dynamics::{Attitude as _, ListedModes, ModalPoint, Quaternion};
 
 use super::clock::Clock;
 use super::specific_force::{Place, specific_force};
@@ -91,6 +93,58 @@ impl Sensing {
     pub(super) fn add_gyro_bias(&mut self, jump: &Vector3<f64>) {
         if let Some(gyro) = &mut self.built.gyro {
             gyro.add_bias(jump);
+        }
+    }
+
+    /// Visits what it keeps from sample to sample.
+    pub(super) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { built, measures, samples, before, arrived, .. } = self;
+        let BuiltSensors { gyro, star_tracker, accelerometer, arriving, filters, .. } = built;
+        if let Some(gyro) = gyro {
+            gyro.visit(checkpoint);
+        }
+        if let Some(star_tracker) = star_tracker {
+            star_tracker.visit(checkpoint);
+        }
+        if let Some(accelerometer) = accelerometer {
+            accelerometer.visit(checkpoint);
+        }
+        if let Some(arriving) = arriving {
+            let blank = || (0, Quaternion::identity());
+            arriving.visit(checkpoint, blank, |checkpoint, (sample, attitude)| {
+                checkpoint.index(sample, usize::MAX);
+                checkpoint.attitude(attitude);
+            });
+        }
+        for filter in filters.as_flattened_mut() {
+            filter.visit(checkpoint);
+        }
+        if let Some(clock) = measures {
+            clock.visit(checkpoint);
+        }
+        checkpoint.index(samples, usize::MAX);
+        for attitude in [before, arrived] {
+            checkpoint.optional(attitude, Quaternion::identity, Checkpoint::attitude);
+        }
+        self.visit_estimator(checkpoint);
+    }
+
+    /// The estimator, which there is from the first sample on.
+    fn visit_estimator(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut is_there = self.mekf.is_some();
+        checkpoint.flag(&mut is_there);
+        if !is_there {
+            self.mekf = None;
+            return;
+        }
+        if let (None, Some((settings, _)), Some(parameters)) =
+            (&self.mekf, &self.estimator, &self.built.estimator)
+        {
+            self.mekf = Mekf::new(parameters, &settings.at(Quaternion::identity())).ok();
+        }
+        match &mut self.mekf {
+            Some(mekf) => mekf.visit(checkpoint),
+            None => checkpoint.refuse(),
         }
     }
 

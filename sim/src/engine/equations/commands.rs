@@ -2,6 +2,7 @@
 //! and what controllers computed at their last samples.
 
 use nalgebra::Vector3;
+use precess_control::Checkpoint;
 
 use crate::scenario::{SampledController, Scenario};
 
@@ -85,7 +86,28 @@ impl Default for MeasuredValues {
     }
 }
 
+impl MeasuredValues {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { gyro, gyro_bias, accelerometer, omega, attitude, error, .. } = self;
+        for vector in [gyro, gyro_bias, accelerometer, omega, error] {
+            checkpoint.numbers(vector);
+        }
+        checkpoint.numbers(attitude);
+        let Self { estimated_bias, deviation, .. } = self;
+        checkpoint.numbers(estimated_bias.iter_mut().chain(deviation));
+    }
+}
+
 impl ControlValues {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { torque, torque_error, commands, measure, limited, external, measured } = self;
+        for vector in [torque, torque_error, external] {
+            checkpoint.numbers(vector);
+        }
+        checkpoint.numbers(commands.iter_mut().chain([measure, limited]));
+        measured.visit(checkpoint);
+    }
+
     /// Those of a number of joints before anything is computed.
     fn nothing(joints: usize) -> Self {
         Self {
@@ -123,6 +145,22 @@ impl HeldCommands {
             externals: scenario.controllers.iter().map(external).collect(),
             on_hub: [Vector3::zeros(); 2],
             values: scenario.controllers.iter().map(nothing).collect(),
+        }
+    }
+
+    /// Visits all of it.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        for Held { torque, replaced, factor } in &mut self.joints {
+            checkpoint.optional(torque, || 0.0, Checkpoint::number);
+            checkpoint.flag(replaced);
+            checkpoint.number(factor);
+        }
+        for external in &mut self.externals {
+            checkpoint.optional_vector(external);
+        }
+        checkpoint.numbers(self.on_hub.iter_mut().flatten());
+        for values in &mut self.values {
+            values.visit(checkpoint);
         }
     }
 

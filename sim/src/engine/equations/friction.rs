@@ -3,6 +3,7 @@
 //! Within a segment a joint either sticks, and is locked, or slides, with a sign of its rate that stays. What ends
 //! either is an event; [`Run`](crate::engine::Run) then decides which of the two follows.
 
+use precess_control::Checkpoint;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode};
 
@@ -44,6 +45,18 @@ impl<'a> Frictions<'a> {
     pub(crate) fn set(&mut self, joint: usize, contact: Contact) {
         for (_, present) in self.all.iter_mut().filter(|(of, _)| of.joint == joint) {
             *present = contact;
+        }
+    }
+
+    /// Visits what each joint does.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        for (_, contact) in &mut self.all {
+            let mut sign = match contact {
+                Contact::Sticks => None,
+                Contact::Slides(sign) => Some(*sign),
+            };
+            checkpoint.optional(&mut sign, || 0.0, Checkpoint::number);
+            *contact = sign.map_or(Contact::Sticks, Contact::Slides);
         }
     }
 

@@ -3,7 +3,10 @@
 //! Between two changes no profile jumps, because a segment ends at each of its breaks. At the end
 //! of a segment a profile has its value before the jump, at the start the one after it.
 
+use std::{iter, ptr};
+
 use nalgebra::Vector3;
+use precess_control::Checkpoint;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
@@ -14,7 +17,9 @@ use super::kinematics::{Chain, axes};
 use super::motors::MotorState;
 use super::packing::JointPlace;
 use crate::disturbance::Six;
-use crate::scenario::{AppliedWrench, Drive, JointFriction, Profile, Scenario, Target, WrenchAxes};
+use crate::scenario::{
+    Action, AppliedWrench, Drive, JointFriction, Profile, Scenario, Target, WrenchAxes,
+};
 use precess_craft::{Craft, CraftInputs, CraftState};
 
 /// Steps in a cycle of the fastest profile while the state does not show it: each step is searched at five times.
@@ -107,6 +112,29 @@ impl<'a> SegmentInputs<'a> {
             inputs.bodies = Some(craft.no_wrenches());
         }
         inputs
+    }
+
+    /// Visits what changes from segment to segment. Turns of angles are those of an integration with a tolerance.
+    pub(crate) fn visit(&mut self, scenario: &'a Scenario, checkpoint: &mut Checkpoint<'_>) {
+        let changed = scenario.changes.iter().filter_map(|change| match &change.action {
+            Action::Drive(drive) => Some(drive),
+            Action::Brake | Action::Release => None,
+        });
+        let all: Vec<&'a Drive> =
+            iter::once(LOCKED).chain(&scenario.drives).chain(changed).collect();
+        for present in &mut self.drives {
+            // One that no file states is that of a brake or a stop, the first.
+            let found = all.iter().position(|of| ptr::eq(*of, *present));
+            let mut index = found.unwrap_or_default();
+            checkpoint.index(&mut index, all.len());
+            *present = all.get(index).copied().unwrap_or(LOCKED);
+        }
+        for motor in &mut self.motors {
+            motor.visit(checkpoint);
+        }
+        self.held.visit(checkpoint);
+        self.friction.visit(checkpoint);
+        checkpoint.numbers([&mut self.start, &mut self.end]);
     }
 
     /// Begins a segment.
@@ -312,12 +340,13 @@ impl<'a> SegmentInputs<'a> {
                 Drive::Locked => (0.0, Mode::Locked),
             };
         }
+        // Of a program, which may have acted on the hub before.
+        inputs.force = Vector3::zeros();
+        inputs.torque_b = self.held.external().unwrap_or_else(Vector3::zeros);
         if !self.has_wrenches() {
             return;
         }
         let bn = state.attitude.dcm();
-        inputs.force = Vector3::zeros();
-        inputs.torque_b = self.held.external().unwrap_or_else(Vector3::zeros);
         if let Some(bodies) = &mut inputs.bodies {
             for wrench in bodies.values_mut() {
                 *wrench = Wrench::none();

@@ -3,6 +3,7 @@
 //! Within a segment a motor stays in one state, so that its torque is a smooth function of time and rate; a step ends
 //! where the state changes (`engine::events::motors`).
 
+use precess_control::Checkpoint;
 use precess_dynamics::Mode;
 
 use crate::scenario::MotorLimits;
@@ -28,6 +29,24 @@ pub(crate) const POWER: f64 = 1e-9;
 const TORQUE_MAX: f64 = 2.0;
 
 impl MotorState {
+    /// Visits which limit it is.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let (mut limit, mut sign) = match *self {
+            Self::Commanded => (0, 0.0),
+            Self::LargestPower => (1, 0.0),
+            Self::LargestRate(sign) => (2, sign),
+            Self::Beyond(sign) => (3, sign),
+        };
+        checkpoint.index(&mut limit, 4);
+        checkpoint.number(&mut sign);
+        *self = match limit {
+            0 => Self::Commanded,
+            1 => Self::LargestPower,
+            2 => Self::LargestRate(sign),
+            _ => Self::Beyond(sign),
+        };
+    }
+
     /// Torque and mode of a joint at a rate, for the torque of a profile.
     pub(super) fn acting(self, profile: f64, limits: &MotorLimits, rate: f64) -> (f64, Mode) {
         let commanded = limits.clipped(profile);

@@ -7,6 +7,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use precess_control::Checkpoint;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
@@ -76,6 +77,12 @@ impl<'a> System<'a> {
     /// Counts evaluations that an integrator makes by itself.
     pub(crate) fn count(&self, evaluations: u64) {
         self.evaluations.set(self.evaluations.get() + evaluations);
+    }
+
+    /// Visits what changes in the course of a run.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.acting.visit(self.scenario, checkpoint);
+        checkpoint.count(self.evaluations.get_mut());
     }
 
     /// A joint's coordinate in the state that was evaluated last.

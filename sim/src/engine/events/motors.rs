@@ -11,6 +11,7 @@ use crate::engine::integration::Moment;
 use crate::engine::quantities::joint_torques::TorquesOnce;
 use crate::record::RunError;
 use crate::scenario::Drive;
+use precess_control::Checkpoint;
 use precess_craft::CraftState;
 use precess_dynamics::JointStates;
 
@@ -59,6 +60,12 @@ pub(super) fn possible(system: &System<'_>) -> Vec<MotorChange> {
 }
 
 impl MotorChange {
+    /// Visits it, of one of so many joints.
+    pub(crate) fn visit(&mut self, joints: usize, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.index(&mut self.joint, joints);
+        self.to.visit(checkpoint);
+    }
+
     /// How far the joint is from this change: below zero once it is due. W, rad/s or m/s, N m or N.
     pub(super) fn distance(
         &self,

@@ -3,6 +3,8 @@
 //! They are the breaks of all profiles and measured records, the times at which a source begins and ends, the times at which a profile reaches the limit of its motor
 //! ([`clipping`](super::clipping)), the changes, and the end of the run.
 
+use precess_control::Checkpoint;
+
 use super::clipping;
 use crate::disturbance::Model;
 use crate::scenario::{Action, Change, Profile, Scenario};
@@ -68,6 +70,13 @@ impl<'a> Segments<'a> {
         let passes = self.limited.iter().filter_map(|(of, limit)| clipping::next(of, *limit, time));
         self.end = passes.filter(|pass| *pass > time).fold(listed, f64::min);
         self.end
+    }
+
+    /// Visits where it is.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.index(&mut self.next, self.ends.len());
+        checkpoint.number(&mut self.end);
+        checkpoint.index(&mut self.due, self.changes.len() + 1);
     }
 
     /// The changes up to a time that have not been returned yet.

@@ -11,7 +11,9 @@ use crate::engine::equations::system::System;
 use crate::record::RunError;
 use crate::scenario::IntegratorChoice;
 use dop853::Dop853;
+use precess_control::Checkpoint;
 use precess_craft::CraftState;
+use precess_dynamics::JointStates as _;
 use rk4::Rk4;
 
 /// A state and both integrals.
@@ -20,6 +22,18 @@ pub(crate) struct Moment {
     pub(crate) state: CraftState,
     /// Work and throughput since the start, J.
     pub(crate) integrals: [f64; 2],
+}
+
+impl Moment {
+    /// Visits its numbers.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let CraftState { r_b_n, r_b_n_dot, attitude, omega, devices, modal } = &mut self.state;
+        checkpoint.numbers(r_b_n.iter_mut().chain(r_b_n_dot.iter_mut()).chain(omega.iter_mut()));
+        checkpoint.attitude(attitude);
+        checkpoint.numbers(devices.states_mut().flatten());
+        checkpoint.numbers(modal.eta.iter_mut().chain(&mut modal.eta_dot));
+        checkpoint.numbers(&mut self.integrals);
+    }
 }
 
 /// An integration in progress.
@@ -178,6 +192,15 @@ impl Stepper {
     /// Whether a state within a step costs next to nothing.
     pub(crate) fn is_dense(&self) -> bool {
         matches!(self.method, Method::Dop853(_))
+    }
+
+    /// Visits what changes from step to step; an integration with a tolerance refuses.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.number(&mut self.before);
+        match &mut self.method {
+            Method::Dop853(_) => checkpoint.refuse(),
+            Method::Rk4(method) => method.visit(checkpoint),
+        }
     }
 
     /// Steps accepted and rejected.

@@ -4,6 +4,7 @@
 //! between. Steps are counted from the start of a segment; the last one is shortened where the
 //! segment's length is no multiple.
 
+use precess_control::Checkpoint;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode, SolveError};
 
@@ -30,6 +31,17 @@ impl Rk4 {
     pub(crate) fn new(step: f64, moment: Moment) -> Self {
         let now = (0.0, moment);
         Self { step, start: 0.0, end: 0.0, count: 0, before: now.clone(), now, accepted: 0 }
+    }
+
+    /// Visits what changes from step to step.
+    pub(crate) fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.numbers([&mut self.start, &mut self.end]);
+        checkpoint.count(&mut self.count);
+        checkpoint.count(&mut self.accepted);
+        for (time, moment) in [&mut self.before, &mut self.now] {
+            checkpoint.number(time);
+            moment.visit(checkpoint);
+        }
     }
 
     /// Begins a segment.

@@ -5,15 +5,20 @@
 //! a joint's drive, a brake or an end stop takes their place.
 
 use nalgebra::Vector3;
+use precess_control::Checkpoint;
 use precess_dynamics::HubMode;
+use sha2::{Digest as _, Sha256};
 
-use super::{Advance, Run};
+use super::{Advance, CheckpointError, Run};
 use crate::engine::integration::Moment;
 use crate::engine::integration::dop853::same;
 use crate::engine::quantities::sample_values::SampleValues;
 use crate::record::columns::Columns;
 use crate::record::{Column, RunError};
 use crate::scenario::{Drive, Scenario};
+
+/// Bytes of a digest at the end of a checkpoint.
+const DIGEST: usize = 8;
 
 /// A run that a program is coupled to.
 pub struct CoupledRun<'a> {
@@ -27,6 +32,8 @@ pub struct CoupledRun<'a> {
     moment: Moment,
     /// The time that the program has reached, s.
     time: f64,
+    /// Of the scenario's text, with every default.
+    scenario: [u8; 32],
 }
 
 impl<'a> CoupledRun<'a> {
@@ -48,6 +55,7 @@ impl<'a> CoupledRun<'a> {
             values: SampleValues::new(scenario, columns),
             moment: run.moment.clone(),
             time: 0.0,
+            scenario: Sha256::digest(&scenario.source.filled).into(),
             run,
         })
     }
@@ -109,6 +117,52 @@ impl<'a> CoupledRun<'a> {
         let turns = run.stepper.turns();
         let filled = values.fill(&run.system, [*time, held_from], moment, turns, run.lost);
         filled.map_err(|source| RunError::solve(&run.system, *time, source))
+    }
+
+    /// All that its next steps and outputs depend on, as bytes: a run that takes them goes on with the same bits, on every host.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Kept`] of a run with a tolerance, or with a controller that is another program.
+    pub fn checkpoint(&mut self) -> Result<Vec<u8>, CheckpointError> {
+        let written = Checkpoint::written(|checkpoint| self.visit(checkpoint));
+        let mut bytes = written.ok_or(CheckpointError::Kept)?;
+        let digest = self.digest(&bytes);
+        bytes.extend(digest);
+        Ok(bytes)
+    }
+
+    /// Goes on from a checkpoint of a run of the same scenario.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Bytes`] of bytes that are none; the run then stays as it is.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        let (bytes, digest) = bytes.split_last_chunk::<DIGEST>().ok_or(CheckpointError::Bytes)?;
+        if *digest != self.digest(bytes) {
+            return Err(CheckpointError::Bytes);
+        }
+        let before = self.checkpoint()?;
+        if Checkpoint::read(bytes, |checkpoint| self.visit(checkpoint)) {
+            return Ok(());
+        }
+        let (before, _) = before.split_last_chunk::<DIGEST>().ok_or(CheckpointError::Bytes)?;
+        let _ = Checkpoint::read(before, |checkpoint| self.visit(checkpoint));
+        Err(CheckpointError::Bytes)
+    }
+
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.numbers(self.inputs.iter_mut().chain([&mut self.time]));
+        self.run.visit(checkpoint);
+    }
+
+    /// What tells bytes of this scenario from others.
+    fn digest(&self, bytes: &[u8]) -> [u8; DIGEST] {
+        let mut digest = Sha256::new();
+        digest.update(self.scenario);
+        digest.update(bytes);
+        let digest: [u8; 32] = digest.finalize().into();
+        std::array::from_fn(|index| digest.get(index).copied().unwrap_or_default())
     }
 
     /// Holds inputs. Others than those that are held begin a segment.

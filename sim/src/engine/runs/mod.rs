@@ -2,6 +2,7 @@
 //! ([`run_side_by_side`]).
 
 mod actions;
+mod checkpoint;
 mod coupled;
 mod friction;
 #[cfg(feature = "cuda")]
@@ -16,6 +17,7 @@ mod side_by_side;
 
 use precess_dynamics::{About, JointStates, ModalState, State};
 
+pub use checkpoint::CheckpointError;
 pub use coupled::CoupledRun;
 pub(crate) use coupled::{driven_by_program, hub_input_count};
 use friction::Changed;

@@ -21,8 +21,10 @@
 #define FMU_MESSAGE 512
 
 /* Of the solver or of the engine: FMU_STATES, FMU_DERIVATIVE, FMU_INPUTS, FMU_PARAMETERS, FMU_DEVICES; `struct precess_fmu`;
- * whether the importer may integrate, FMU_EXCHANGES, an instance's state may be copied, FMU_SAVES, and there are derivatives
- * along directions, FMU_DERIVES; why a step is discarded at the end, FMU_END; `enum precess_status`. */
+ * whether the importer may integrate, FMU_EXCHANGES, and there are derivatives along directions, FMU_DERIVES; why a step is
+ * discarded at the end, FMU_END; `enum precess_status`. */
+#include <stddef.h>
+
 #include "precess_fmu_data.h"
 
 /** The values of the scenario; what is computed is zero. */
@@ -36,8 +38,21 @@ void precess_fmu_reset(struct precess_fmu *fmu);
 /** A parameter has another value: what was computed from parameters is computed again. */
 void precess_fmu_forget(struct precess_fmu *fmu);
 
-/** Gives back what an instance holds but itself: the run of the engine. */
+/** Gives back what an instance, or a saved one, holds but itself: the run of the engine. */
 void precess_fmu_release(struct precess_fmu *fmu);
+
+/** Copies an instance to a saved one, which is all zero or was copied to before, and back. The message of a refusal is of
+ * `fmu`; nothing is changed then. */
+enum precess_status precess_fmu_save(struct precess_fmu *fmu, struct precess_fmu *saved);
+enum precess_status precess_fmu_restore(struct precess_fmu *fmu, const struct precess_fmu *saved);
+
+/** What a saved instance has beside its values, as bytes: how many, and these. */
+size_t precess_fmu_rest_size(const struct precess_fmu *saved);
+void precess_fmu_write_rest(const struct precess_fmu *saved, unsigned char *bytes);
+
+/** Reads it to a saved instance that has values only; whether values and bytes, of which there are so many or more, are those of
+ * an instance. */
+int precess_fmu_read_rest(struct precess_fmu *saved, const unsigned char *bytes, size_t size);
 
 /** Whether the solver takes parameters, states and inputs: a locked joint, and a hub that is fixed, have to be at rest. The
  * engine begins the run with the inputs: at 0 s. */

@@ -56,7 +56,6 @@ typedef unsigned int precess_reference;
 
 /* Messages of what a unit may not have. */
 #define NO_EXCHANGE "this unit is for Co-Simulation alone"
-#define NO_STATES "the state of this unit is not copied"
 
 /* Whether a text identifies these sources. */
 int precess_instance_is_token(const char *token);
@@ -125,7 +124,7 @@ const char *precess_instance_gradient(
     double sensitivity[]);
 
 /* The state of an instance: copied to one that is there or is made, restored, freed, and as bytes of this processor. */
-const char *precess_instance_save(const struct precess_instance *of, void **state);
+const char *precess_instance_save(struct precess_instance *of, void **state);
 const char *precess_instance_restore(struct precess_instance *of, const void *state);
 const char *precess_instance_free_state(const struct precess_instance *of, void **state);
 const char *precess_instance_size(const struct precess_instance *of, const void *state, size_t *size);

@@ -18,40 +18,52 @@ static int is_of_type(const struct precess_instance *of, enum precess_phase phas
                            : phase != PHASE_EVENT && phase != PHASE_CONTINUOUS;
 }
 
-const char *precess_instance_save(const struct precess_instance *of, void **state)
+/* Gives back a state. */
+static void discard(struct precess_saved *state)
 {
-    if (!FMU_SAVES) {
-        return NO_STATES;
-    }
+    precess_fmu_release(&state->fmu);
+    free(state);
+}
+
+const char *precess_instance_save(struct precess_instance *of, void **state)
+{
+    struct precess_saved *to;
+    const char *why;
+
     if (!of || !state) {
         return IS_NULL;
     }
-    if (!*state) {
-        *state = malloc(sizeof of->state);
-    }
-    if (!*state) {
+    to = *state ? *state : calloc(1, sizeof *to);
+    if (!to) {
         return NO_MEMORY;
     }
-    memcpy(*state, &of->state, sizeof of->state);
-    return NULL;
+    why = precess_instance_why(of, precess_fmu_save(&of->state.fmu, &to->fmu));
+    if (!why) {
+        to->phase = of->state.phase;
+        *state = to;
+    } else if (!*state) {
+        discard(to);
+    }
+    return why;
 }
 
 const char *precess_instance_restore(struct precess_instance *of, const void *state)
 {
     const struct precess_saved *const from = state;
+    const char *why;
 
-    if (!FMU_SAVES) {
-        return NO_STATES;
-    }
     if (!of || !from) {
         return IS_NULL;
     }
     if (!is_of_type(of, from->phase)) {
         return "the state is of the other type of simulation";
     }
-    of->state = *from;
-    of->is_stopped = 0;
-    return NULL;
+    why = precess_instance_why(of, precess_fmu_restore(&of->state.fmu, &from->fmu));
+    if (!why) {
+        of->state.phase = from->phase;
+        of->is_stopped = 0;
+    }
+    return why;
 }
 
 const char *precess_instance_free_state(const struct precess_instance *of, void **state)
@@ -59,23 +71,28 @@ const char *precess_instance_free_state(const struct precess_instance *of, void 
     if (!of || !state) {
         return IS_NULL;
     }
-    free(*state);
+    if (*state) {
+        discard(*state);
+    }
     *state = NULL;
     return NULL;
 }
 
-/* Token, phase, numbers. */
+/* Token, phase, numbers; then what there is beside them. */
 #define SERIALISED (sizeof TOKEN + 1 + FMU_VALUES * sizeof(double))
+
+/* How many bytes a state is. */
+static size_t size_of(const struct precess_saved *state)
+{
+    return SERIALISED + precess_fmu_rest_size(&state->fmu);
+}
 
 const char *precess_instance_size(const struct precess_instance *of, const void *state, size_t *size)
 {
-    if (!FMU_SAVES) {
-        return NO_STATES;
-    }
     if (!of || !state || !size) {
         return IS_NULL;
     }
-    *size = SERIALISED;
+    *size = size_of(state);
     return NULL;
 }
 
@@ -85,15 +102,13 @@ const char *precess_instance_write(
     const struct precess_saved *const from = state;
     unsigned char *const to = bytes;
 
-    if (!FMU_SAVES) {
-        return NO_STATES;
-    }
-    if (!of || !from || !to || size < SERIALISED) {
+    if (!of || !from || !to || size < size_of(from)) {
         return "an argument is null, or the bytes are too few";
     }
     memcpy(to, TOKEN, sizeof TOKEN);
     to[sizeof TOKEN] = (unsigned char)from->phase;
     memcpy(to + sizeof TOKEN + 1, from->fmu.values, sizeof from->fmu.values);
+    precess_fmu_write_rest(&from->fmu, to + SERIALISED);
     return NULL;
 }
 
@@ -104,9 +119,6 @@ const char *precess_instance_read(
     struct precess_saved *to;
     int phase;
 
-    if (!FMU_SAVES) {
-        return NO_STATES;
-    }
     if (!of || !from || !state) {
         return IS_NULL;
     }
@@ -117,19 +129,19 @@ const char *precess_instance_read(
     if (phase > (int)PHASE_TERMINATED || !is_of_type(of, (enum precess_phase)phase)) {
         return NOT_OF_THIS_UNIT;
     }
-    to = malloc(sizeof *to);
+    to = calloc(1, sizeof *to);
     if (!to) {
         return NO_MEMORY;
     }
-    memset(to, 0, sizeof *to);
     precess_fmu_reset(&to->fmu);
     to->phase = (enum precess_phase)phase;
     memcpy(to->fmu.values, from + sizeof TOKEN + 1, sizeof to->fmu.values);
-    if (!precess_are_finite(to->fmu.values, FMU_VALUES)) {
-        free(to);
+    if (!precess_fmu_read_rest(&to->fmu, from + SERIALISED, size - SERIALISED)) {
+        discard(to);
         return NOT_OF_THIS_UNIT;
     }
     if (*state) {
+        precess_fmu_release(&((struct precess_saved *)*state)->fmu);
         memcpy(*state, to, sizeof *to);
         free(to);
     } else {

@@ -41,4 +41,13 @@ int precess_engine_outputs(
     char *why,
     size_t room);
 
+/** All that a run depends on: bytes that it holds until the next call of this, and how many; null where it is refused. */
+const unsigned char *precess_engine_save(
+    struct precess_engine *engine, size_t *size, char *why, size_t room);
+
+/** Goes on from such bytes, of a run of the same scenario; one that has failed goes on, too. Where it is refused nothing is
+ * changed. */
+int precess_engine_restore(
+    struct precess_engine *engine, const unsigned char *bytes, size_t size, char *why, size_t room);
+
 #endif

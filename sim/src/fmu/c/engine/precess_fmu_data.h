@@ -18,9 +18,8 @@
 #define FMU_PARAMETERS 0
 #define FMU_DEVICES 0
 
-/* The engine takes the steps, and its state is not copied. */
+/* The engine takes the steps. */
 #define FMU_EXCHANGES 0
-#define FMU_SAVES 0
 #define FMU_DERIVES 0
 #define FMU_END "the run has ended: the scenario's duration, an end stop or a crossing"
 
@@ -39,6 +38,9 @@ struct precess_fmu {
     double values[FMU_VALUES];
     /** The run, once it is needed. */
     struct precess_engine *engine;
+    /** Of a saved instance in the place of its run: what that depends on, in so many bytes; null where none had begun. */
+    unsigned char *saved;
+    size_t saved_size;
     /** Whether the run has ended before the time that was asked for. */
     int is_over;
     /** Why the last function refused. */

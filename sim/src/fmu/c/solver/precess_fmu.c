@@ -29,6 +29,37 @@ void precess_fmu_release(struct precess_fmu *fmu)
     (void)fmu;
 }
 
+enum precess_status precess_fmu_save(struct precess_fmu *fmu, struct precess_fmu *saved)
+{
+    *saved = *fmu;
+    return PRECESS_OK;
+}
+
+enum precess_status precess_fmu_restore(struct precess_fmu *fmu, const struct precess_fmu *saved)
+{
+    *fmu = *saved;
+    return PRECESS_OK;
+}
+
+size_t precess_fmu_rest_size(const struct precess_fmu *saved)
+{
+    (void)saved;
+    return 0;
+}
+
+void precess_fmu_write_rest(const struct precess_fmu *saved, unsigned char *bytes)
+{
+    (void)saved;
+    (void)bytes;
+}
+
+int precess_fmu_read_rest(struct precess_fmu *saved, const unsigned char *bytes, size_t size)
+{
+    (void)bytes;
+    (void)size;
+    return precess_are_finite(saved->values, FMU_VALUES);
+}
+
 static void set_state(struct precess_fmu *fmu, const struct FMU_SOLVER_STATE *state)
 {
     double *const to = fmu->values + FMU_STATE;

@@ -22,7 +22,6 @@
 #define FMU_LARGE_ANGLE 8388608.0
 
 #define FMU_EXCHANGES 1
-#define FMU_SAVES 1
 #define FMU_DERIVES 1
 #define FMU_END "a joint is beyond an end stop; the scenario ends there"
 
