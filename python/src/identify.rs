@@ -74,9 +74,7 @@ impl NativeIdentified {
     #[getter]
     fn residuals(&self) -> Vec<ResidualFacts> {
         let residuals = self.found.residuals.iter();
-        residuals
-            .map(|of| (of.sensor, of.count, of.mean_square, of.outliers, of.holds))
-            .collect()
+        residuals.map(|of| (of.sensor, of.count, of.mean_square, of.outliers, of.holds)).collect()
     }
 
     /// What was left out, in sentences.
@@ -116,10 +114,8 @@ impl NativeIdentified {
         py: Python<'_>,
         manoeuvres: Vec<(String, PyRef<'_, NativeScenario>)>,
     ) -> PyResult<DesignFacts> {
-        let flown: Vec<(String, Arc<Scenario>)> = manoeuvres
-            .into_iter()
-            .map(|(name, of)| (name, Arc::clone(&of.scenario)))
-            .collect();
+        let flown: Vec<(String, Arc<Scenario>)> =
+            manoeuvres.into_iter().map(|(name, of)| (name, Arc::clone(&of.scenario))).collect();
         let of = py.detach(|| {
             let manoeuvres: Vec<_> =
                 flown.iter().map(|(name, scenario)| Manoeuvre { name, scenario }).collect();

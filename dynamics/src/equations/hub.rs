@@ -6,9 +6,9 @@ use crate::equations::gravity::second_moment;
 use crate::equations::system::System;
 use crate::model::parameters::Hub;
 use crate::model::wrench::Wrench;
-use crate::numbers::real::{Real, Scalar, half};
+use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Columns, Vec3, add, components, cross, dot, scale, sub};
+use crate::numbers::vec3::{Columns, Vec3, add, components, cross, dot, scale, sub, zeros};
 
 /// Constants of the hub, all expressed in B. In this order two copies bring them into the sums of an
 /// evaluation, which have the first moment before the inertia: one of both would be a call.
@@ -86,6 +86,11 @@ impl<T: Real> HubConstants<T> {
 }
 
 impl<T: Scalar> HubConstants<T> {
+    /// Of no hub.
+    pub(crate) fn nothing() -> Self {
+        Self { m_b: zero(), first_moment: zeros(), i_b_b: Symmetric::zero() }
+    }
+
     pub(crate) fn new(hub: &Hub<T>) -> Self {
         let r_bc_b = components(&hub.r_bc_b);
         Self {

@@ -6,7 +6,6 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
-use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::numbers::each::Each;
@@ -14,7 +13,7 @@ use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, components, finite, vector, zeros};
 use crate::results::momentum::first_moments;
-use crate::sets::devices::{ConstantShares, Devices};
+use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::diagnosis::overflow;
 use crate::solve::elimination::back_substitute;
@@ -133,9 +132,7 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<DeviceContributions<D::Scalar>, SolveError<D::Scalar>> {
         let omega = components(&state.omega);
         let environment = Environment { omega, central: None, impulse: false, reduction: None };
-        let nothing = HubConstants { m_b: zero(), first_moment: zeros(), i_b_b: Symmetric::zero() };
-        let constant = nothing.with_constant_shares(D::list::<ConstantShares>(&self.devices));
-        let mut assembly = Assembly::new(&constant, zeros(), zeros());
+        let mut assembly = Assembly::new(&self.shares, zeros(), zeros());
         let (given, by) = (inputs.of_joints(), self.arithmetic);
         self.eliminate_devices(by, state, given, &environment, &mut assembly, gains)?;
         let (body, system) = (assembly.body(), assembly.system(omega));

@@ -16,6 +16,8 @@ pub struct Spacecraft<D: Devices, S: StructureData = Rigid> {
     pub(crate) hub: HubConstants<D::Scalar>,
     /// The hub with the constant shares of its devices.
     pub(crate) body: HubConstants<D::Scalar>,
+    /// The constant shares of the devices by themselves.
+    pub(crate) shares: HubConstants<D::Scalar>,
     pub(crate) devices: D::Prepared,
     /// Whether a joint has a spring, a damper or dry friction.
     pub(crate) passive: bool,
@@ -69,10 +71,12 @@ impl<D: Devices> Spacecraft<D> {
 
     fn of_prepared(hub: &Hub<D::Scalar>, devices: D::Prepared, hub_excess: D::Scalar) -> Self {
         let hub = HubConstants::new(hub);
-        let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
+        let constant = || D::list::<ConstantShares>(&devices);
+        let body = hub.with_constant_shares(constant());
+        let shares = HubConstants::nothing().with_constant_shares(constant());
         let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());
         let arithmetic = Arithmetic::detected();
-        Self { hub, body, devices, passive, hub_excess, arithmetic, structure: () }
+        Self { hub, body, shares, devices, passive, hub_excess, arithmetic, structure: () }
     }
 }
 
@@ -82,8 +86,8 @@ impl<D: Devices, S: StructureEquations> Spacecraft<D, S> {
         self,
         structure: R::Constants<D>,
     ) -> Spacecraft<D, R> {
-        let Self { hub, body, devices, passive, hub_excess, arithmetic, .. } = self;
-        Spacecraft { hub, body, devices, passive, hub_excess, arithmetic, structure }
+        let Self { hub, body, shares, devices, passive, hub_excess, arithmetic, .. } = self;
+        Spacecraft { hub, body, shares, devices, passive, hub_excess, arithmetic, structure }
     }
 
     /// Unusual parameters that are accepted; see [`Warning`].

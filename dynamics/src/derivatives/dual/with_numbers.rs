@@ -24,6 +24,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         Spacecraft {
             hub: self.hub.map(number),
             body: self.body.map(number),
+            shares: self.shares.map(number),
             devices,
             passive: self.passive,
             hub_excess: number(self.hub_excess),
