@@ -93,6 +93,7 @@ impl Run<'_> {
             let names = names.collect::<Vec<_>>().join(", ");
             self.note(self.time, format!("{names}: braked, {lost} J lost"));
         }
+        self.slide_what_moves();
         self.controls.act(&mut self.system, self.time, &self.moment)?;
         self.settle_motors()
     }

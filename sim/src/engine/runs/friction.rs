@@ -75,6 +75,27 @@ impl Run<'_> {
         })
     }
 
+    /// Lets joints slide that stuck and now have a rate, by the impulse of a brake on another or since they are driven by a
+    /// torque again: what evaluates before friction is decided would hold them.
+    pub(super) fn slide_what_moves(&mut self) {
+        let rates: Vec<_> = self.moment.state.devices.states().map(|[_, rate]| rate).collect();
+        let sticking = self.system.acting.friction.dry();
+        let sticking = sticking.filter(|(_, contact)| *contact == Contact::Sticks);
+        let joints: Vec<usize> = sticking.map(|(of, _)| of.joint).collect();
+        for joint in joints {
+            let rate = rates.get(joint).copied().unwrap_or_default();
+            if rate == 0.0 {
+                continue;
+            }
+            self.system.acting.friction.set(joint, Contact::Slides(rate.signum()));
+            if self.system.acting.motor(joint, self.time).is_some() {
+                let name = self.system.layout.joints.get(joint).map_or("", |place| &place.name);
+                let text = format!("{name}: slides");
+                self.note(self.time, text);
+            }
+        }
+    }
+
     /// Decides of each joint with dry friction whether it sticks or slides; the one that an event has released slides.
     pub(super) fn decide_friction(&mut self, released: Option<usize>) -> Result<(), RunError> {
         let before: Vec<_> = self.system.acting.friction.dry().collect();

@@ -7,7 +7,8 @@ use super::{DOP853, column, last, recorded, scenario, set_joint, turning_panel, 
 use crate::engine::Run;
 use crate::record::{End, Outcome};
 use crate::scenario::{
-    Action, Change, Drive, DryFriction, IntegratorChoice, JointFriction, Profile, Scenario,
+    Action, Change, Drive, DryFriction, IntegratorChoice, JointFriction, MotorLimits, Profile,
+    Scenario,
 };
 
 const RK4: IntegratorChoice = IntegratorChoice::Rk4 { step: 0.003 };
@@ -267,14 +268,23 @@ fn friction_holds_a_gimbal_against_its_gyroscopic_torque() {
     }
 }
 
-/// A brake has an impulse, which dry friction has not: a joint that sticks gives way to that of another.
+/// A brake has an impulse, which dry friction has not: a joint that sticks gives way to that of another, also one whose motor
+/// has a largest rate, which is looked at before friction is.
 #[test]
 fn a_joint_that_sticks_gives_way_to_a_brake() {
     let mut scenario = scenario(&["a", "b"], vec![wheel().into(), wheel().into()], 1.0);
     set_joint(&mut scenario, 1, [0.0, 20.0]);
     scenario.friction = dry(5.0, 4.0, 0.0);
     scenario.changes = vec![Change { time: 0.5, joint: 1, action: Action::Brake }];
-    let (outcome, _) = recorded(&scenario);
+    gives_way(&scenario);
+    let limits = MotorLimits { torque: Some(1.0), rate: Some(50.0), ..MotorLimits::default() };
+    let limited = Drive::Torque { profile: Profile::Constant(0.0), limit: Some(limits) };
+    scenario.drives = vec![limited, torque(Profile::Constant(0.0))];
+    gives_way(&scenario);
+}
+
+fn gives_way(scenario: &Scenario) {
+    let (outcome, _) = recorded(scenario);
     let found: Vec<_> = outcome.events.iter().map(|event| event.text.as_str()).collect();
     assert!(
         found[0].starts_with("b.theta: braked, ") && found[1] == "a.theta: slides",
