@@ -80,11 +80,14 @@ impl<T: Scalar> Gains<'_, T> {
         let (copies, last_copy) = copy.as_chunks_mut::<TOGETHER>();
         let (cleared, last_zeros) = zeros.as_chunks_mut::<TOGETHER>();
         let whole = fours.iter_mut().zip(copies).zip(cleared);
+        // Of this list: a sum over lists would be kept in memory.
+        let mut seen = Finiteness::of_none();
         for (((to, copy), zeros), block) in whole.zip(self.blocks) {
             let found = own(followed(block, base), block);
             (*to, *copy, *zeros) = (found, found, [zero(); TOGETHER]);
-            finite.see(&found);
+            seen.see(&found);
         }
+        finite.see_all(&seen);
         if let (Some(block), false) = (self.blocks.last(), last.is_empty()) {
             let found = own(followed(block, base), block);
             finite.see(&found);
@@ -105,10 +108,12 @@ impl<T: Scalar> Gains<'_, T> {
         finite: &mut Finiteness<T>,
     ) {
         let (fours, last) = out.as_chunks_mut::<TOGETHER>();
+        let mut seen = Finiteness::of_none();
         for (to, block) in fours.iter_mut().zip(self.blocks) {
             *to = own(followed(block, base), block);
-            finite.see(to);
+            seen.see(to);
         }
+        finite.see_all(&seen);
         if let (Some(block), false) = (self.blocks.last(), last.is_empty()) {
             let found = own(followed(block, base), block);
             finite.see(&found);

@@ -121,6 +121,13 @@ impl<T: Scalar> Finiteness<T> {
         }
     }
 
+    /// What another has seen.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn see_all(&mut self, Self { sums }: &Self) {
+        self.see(sums);
+    }
+
     /// Fewer numbers.
     #[inline(always)]
     pub(crate) fn see_each(&mut self, numbers: &[T]) {
