@@ -225,6 +225,24 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
         of_hub.chain(of_joints).chain(on_bodies).chain(on_modes).chain(on_mounts)
     }
 
+    /// How many [states](Self::state_variables) and [inputs](Self::input_variables) there are.
+    pub(crate) fn variable_counts(&self, inputs: &Inputs<D, S>) -> [usize; 2] {
+        let (mut moving, mut acting) = (0_usize, 0_usize);
+        let mut infos = self.joints();
+        for mode in inputs.modes.values() {
+            let driven = infos.next().is_some_and(|(_, info)| info.driven);
+            moving = moving.wrapping_add(usize::from(mode != Mode::Locked));
+            let acts = mode == Mode::Driven || driven && matches!(mode, Mode::Prescribed(_));
+            acting = acting.wrapping_add(usize::from(acts));
+        }
+        let bodies = inputs.bodies.iter().flat_map(Each::values).count();
+        let (modes, mounts) = (S::modes(self), S::mounts(self));
+        let of_bodies = bodies.saturating_add(mounts).saturating_mul(6).saturating_add(modes);
+        let (of_hub, on_hub) = (hub_states(&inputs.hub).len(), hub_inputs(&inputs.hub).len());
+        let states = moving.saturating_add(modes).saturating_mul(2).saturating_add(of_hub);
+        [states, acting.saturating_add(of_bodies).saturating_add(on_hub)]
+    }
+
     /// The name of a variable, by the fields of [`State`](crate::State) and [`Inputs`].
     #[must_use]
     pub fn variable_name(&self, variable: Variable) -> VariableName {

@@ -87,6 +87,13 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
         let half = of_joints.len() / 2;
         let (coordinates, rates) = of_joints.split_at_mut_checked(half).unwrap_or_default();
         let mut moving = coordinates.iter_mut().zip(rates);
+        if all_driven(inputs) {
+            moving.zip(joints.states()).for_each(|((q, q_dot), [coordinate, rate])| {
+                (*q, *q_dot) = (coordinate, rate);
+            });
+            of_motors.iter_mut().zip(driven.values()).for_each(|(motor, driven)| *motor = driven);
+            return;
+        }
         let mut motors = of_motors.iter_mut();
         let modes = inputs.modes.values().zip(self.joints());
         let each = joints.states().zip(driven.values()).zip(modes);
@@ -103,6 +110,11 @@ impl<D: Devices, S: StructureDerivatives> Spacecraft<D, S> {
             }
         }
     }
+}
+
+/// Whether every joint is driven: two states and an input.
+pub(crate) fn all_driven<D: Devices, S: StructureDerivatives>(inputs: &Inputs<D, S>) -> bool {
+    inputs.modes.values().all(|mode| mode == Mode::Driven)
 }
 
 /// How many of the states, and of the inputs, are the hub's.

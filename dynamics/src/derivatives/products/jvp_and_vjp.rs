@@ -16,7 +16,8 @@ use crate::derivatives::dual::point::{Number, Point};
 use crate::derivatives::error::DerivativeError;
 #[cfg(feature = "alloc")]
 use crate::derivatives::linearization::columns_of;
-use crate::derivatives::products::joint_order::{HubDirection, HubGradient};
+use crate::derivatives::loads::side_by_side::are_finite;
+use crate::derivatives::products::joint_order::{HubDirection, HubGradient, all_driven};
 use crate::derivatives::products::load_products::{
     AlongDirection, ByWeights, Directed, HubMotion, Weighed,
 };
@@ -93,9 +94,10 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         direction: (&[D::Scalar], &[D::Scalar]),
     ) -> Result<Along<D, S>, DerivativeError<D::Scalar>> {
         let accelerations = self.accelerations(state, inputs)?;
-        same_length(self.state_variables(inputs).count(), direction.0.len())?;
-        same_length(self.input_variables(inputs).count(), direction.1.len())?;
-        check_finite(direction.0.iter().chain(direction.1).copied())?;
+        let [states, by_inputs] = self.variable_counts(inputs);
+        same_length(states, direction.0.len())?;
+        same_length(by_inputs, direction.1.len())?;
+        check_lists([direction.0, direction.1])?;
         let along = match self.jvp_by_loads(state, inputs, &accelerations, direction) {
             Some(along) => along,
             None => self.jvp_by_dual_numbers(state, inputs, direction)?,
@@ -124,8 +126,9 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
     ) -> Result<Accelerations<D, S>, DerivativeError<D::Scalar>> {
         let accelerations = self.accelerations(state, inputs)?;
         let (by_states, by_inputs) = gradient;
-        same_length(self.state_variables(inputs).count(), by_states.len())?;
-        same_length(self.input_variables(inputs).count(), by_inputs.len())?;
+        let [states, inputs_of] = self.variable_counts(inputs);
+        same_length(states, by_states.len())?;
+        same_length(inputs_of, by_inputs.len())?;
         same_length(rows(&accelerations).count(), rows(weights).count())?;
         check_finite(rows(weights))?;
         let gradient = (&mut *by_states, &mut *by_inputs);
@@ -133,7 +136,7 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
             let gradient = (&mut *by_states, &mut *by_inputs);
             self.vjp_by_columns(state, inputs, &accelerations, weights, gradient)?;
         }
-        check_finite(by_states.iter().chain(&*by_inputs).copied())?;
+        check_lists([by_states, by_inputs])?;
         Ok(accelerations)
     }
 
@@ -261,10 +264,13 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let of_hub = [components(&weights.r_b_n_ddot), components(&weights.omega_dot)];
         let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
         let mut loads = weights.devices.clone();
-        // A joint whose acceleration is given follows no weight.
-        for (load, mode) in loads.values_mut().zip(inputs.modes.values()) {
-            if mode != Mode::Driven {
-                *load = zero();
+        let driven = all_driven(inputs);
+        if !driven {
+            // A joint whose acceleration is given follows no weight.
+            for (load, mode) in loads.values_mut().zip(inputs.modes.values()) {
+                if mode != Mode::Driven {
+                    *load = zero();
+                }
             }
         }
         let at = (&state.devices, inputs);
@@ -277,11 +283,12 @@ impl<D: WithNumbers, S: StructureDerivatives> Spacecraft<D, S> {
         let data =
             (&state.devices, inputs.of_joints(), &accelerations.devices, &mut loads, &mut joints);
         D::visit::<Weighed, _>(&self.devices, data, &mut visitor).ok()?;
-        for ((load, weight), mode) in
-            loads.values_mut().zip(weights.devices.values()).zip(inputs.modes.values())
-        {
-            if mode != Mode::Driven {
-                *load = *load + weight;
+        if !driven {
+            let weights = weights.devices.values().zip(inputs.modes.values());
+            for (load, (weight, mode)) in loads.values_mut().zip(weights) {
+                if mode != Mode::Driven {
+                    *load = *load + weight;
+                }
             }
         }
         let [on_b, _] = of_hub;
@@ -328,6 +335,11 @@ fn rows<D: Devices, S: StructureDerivatives>(
 
 fn same_length<T>(expected: usize, found: usize) -> Result<(), DerivativeError<T>> {
     if found == expected { Ok(()) } else { Err(DerivativeError::Length { expected, found }) }
+}
+
+/// As [`check_finite`], several numbers at a time.
+fn check_lists<T: Scalar>(lists: [&[T]; 2]) -> Result<(), DerivativeError<T>> {
+    if lists.into_iter().all(are_finite) { Ok(()) } else { Err(DerivativeError::NotFiniteProduct) }
 }
 
 fn check_finite<T: Scalar>(mut numbers: impl Iterator<Item = T>) -> Result<(), DerivativeError<T>> {
