@@ -262,6 +262,13 @@ impl<T: Scalar, const P: usize> ByLoads<'_, T, P> {
         Some(Change { base, field: None, own: Own::None })
     }
 
+    /// Whether there is a uniform field.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_field(&self) -> bool {
+        self.gravity.iter().any(|field| !field.vanishes())
+    }
+
     /// The hub's accelerations by its inputs: by force and torque, by themselves where they are given.
     #[cfg(feature = "alloc")]
     #[inline(always)]

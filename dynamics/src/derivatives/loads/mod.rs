@@ -14,7 +14,7 @@ pub(crate) mod joint_elimination;
 pub(crate) mod kernel;
 #[cfg(feature = "lanes")]
 pub(crate) mod kernel_in_lanes;
-mod kernel_loads;
+pub(crate) mod kernel_loads;
 pub(crate) mod load_columns;
 #[cfg(all(test, feature = "lanes"))]
 mod load_columns_tests;

@@ -94,7 +94,8 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
             Ok(written.unwrap_or_default())
         };
         let into = ([&mut none, &mut after], &mut ChainWorkspace::new());
-        let next = self.chained((state, inputs), (dt, Some(changes)), into, &mut derivatives)?;
+        let (next, stages) = self.step_stages(state, inputs, dt)?;
+        self.chained(inputs, (&stages, Some(changes)), into, &mut derivatives)?;
         Ok(supported.then_some((next, after)))
     }
 }

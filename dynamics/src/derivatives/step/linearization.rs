@@ -14,7 +14,7 @@ use crate::derivatives::linearization::{IntoColumns, columns_of, set_size};
 use crate::derivatives::loads::side_by_side::are_finite;
 use crate::derivatives::parameters::columns::ParameterVariable;
 use crate::derivatives::slopes::Slopes;
-use crate::derivatives::step::stage_chain::{StageDerivatives, numbers};
+use crate::derivatives::step::stage_chain::{Numbers, StageDerivatives, numbers};
 use crate::derivatives::step::workspace::{ChainWorkspace, StepWorkspace};
 use crate::derivatives::structure::StructureDerivatives;
 use crate::derivatives::variable::Variable;
@@ -22,6 +22,7 @@ use crate::derivatives::workspace::Workspace;
 use crate::model::mode::HubMode;
 use crate::model::parameters::Hub;
 use crate::numbers::vec3::components;
+use crate::sets::devices::Devices;
 use crate::sets::with_numbers::WithNumbers;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -64,6 +65,13 @@ type ByHeld<'a, D, S> = &'a mut dyn FnMut(
     &Accelerations<D, S>,
     IntoColumns<'_, f64>,
 ) -> Result<bool, DerivativeError<f64>>;
+
+/// A stage: what its slopes count, and the offset from the start to the next stage, both in s; the state, and the
+/// accelerations.
+pub(crate) type StepStage<D, S> = ([f64; 2], State<D, Quaternion, S>, Accelerations<D, S>);
+
+/// The state after a step, and its stages.
+type WithStages<D, S> = (State<D, Quaternion, S>, Vec<StepStage<D, S>>);
 
 impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
     /// The step of [`Self::step`] linearised about a state and inputs.
@@ -120,37 +128,51 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
         into: &mut StepLinearization<D, S>,
     ) -> Result<(), DerivativeError<f64>> {
         let StepLinearization { state: next, states, inputs: by_inputs, a, b, workspace } = into;
-        states.clear();
-        states.extend(self.state_variables(inputs));
-        by_inputs.clear();
-        by_inputs.extend(self.input_variables(inputs));
+        let StepWorkspace { of_stage, chain, devices } = workspace;
+        self.list_variables(inputs, &mut of_stage.moving, [states, by_inputs]);
         set_size(a, states.len(), states.len());
         set_size(b, states.len(), by_inputs.len());
         let lists = (states.as_slice(), by_inputs.as_slice());
-        let StepWorkspace { of_stage, chain } = workspace;
+        let stages;
+        (*next, stages) = self.step_stages(state, inputs, dt)?;
+        let into = [&mut *a, &mut *b];
+        if self.step_by_devices(inputs, &stages, into, (devices, of_stage)).is_some() {
+            return Ok(());
+        }
         let mut derivatives = |stage: &_, found: &_, into: IntoColumns<'_, f64>| {
             self.acceleration_columns((stage, inputs), found, lists, into, of_stage)
         };
-        let to = ([a, b], chain);
-        *next = self.chained((state, inputs), (dt, None), to, &mut derivatives)?;
-        Ok(())
+        self.chained(inputs, (&stages, None), ([a, b], chain), &mut derivatives)
     }
 
-    /// The state after a step; its derivatives by the state before it, where those have columns, and by what is
-    /// held are written. Where the state before the step changes with what is held, so: of its changes, by columns.
-    pub(crate) fn chained(
+    /// The state after a step, and its stages.
+    pub(crate) fn step_stages(
         &self,
-        (state, inputs): (&State<D, Quaternion, S>, &Inputs<D, S>),
-        (dt, changes): (f64, Option<&DMatrix<f64>>),
-        ([a, b], workspace): ([&mut DMatrix<f64>; 2], &mut ChainWorkspace),
-        derivatives: ByHeld<'_, D, S>,
-    ) -> Result<State<D, Quaternion, S>, DerivativeError<f64>> {
+        state: &State<D, Quaternion, S>,
+        inputs: &Inputs<D, S>,
+        dt: f64,
+    ) -> Result<WithStages<D, S>, DerivativeError<f64>> {
         let mut stages = Vec::with_capacity(4);
+        // The last stage leads to no other.
+        let mut offsets = [0.5 * dt, 0.5 * dt, dt, 0.0].into_iter();
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)?;
-            stages.push((weight, stage.clone(), found.clone()));
+            let times = [weight, offsets.next().unwrap_or_default()];
+            stages.push((times, stage.clone(), found.clone()));
             Ok(())
         })?;
+        Ok((next, stages))
+    }
+
+    /// Writes the derivatives of the state after a step of these stages by the state before it, where those have columns, and
+    /// by what is held. Where the state before the step changes with what is held, so: of its changes, by columns.
+    pub(crate) fn chained(
+        &self,
+        inputs: &Inputs<D, S>,
+        (stages, changes): (&[StepStage<D, S>], Option<&DMatrix<f64>>),
+        ([a, b], workspace): ([&mut DMatrix<f64>; 2], &mut ChainWorkspace),
+        derivatives: ByHeld<'_, D, S>,
+    ) -> Result<(), DerivativeError<f64>> {
         let accelerations = self.joints().count().saturating_add(S::modes(self)).saturating_add(6);
         let ChainWorkspace { chain, by_states, by_held, moving } = workspace;
         moving.clear();
@@ -165,9 +187,7 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
             Some(changes) => chain.begin_changes(changes, first, hub),
             None => chain.begin_step([b.nrows(), a.ncols(), b.ncols()], first, hub),
         }
-        // The last stage leads to no other.
-        let offsets = [0.5 * dt, 0.5 * dt, dt, 0.0];
-        for ((weight, stage, found), offset) in stages.iter().zip(offsets) {
+        for (times, stage, found) in stages {
             let slopes = Slopes::new(self, stage, inputs, found, moving);
             chain.begin_stage(stage.attitude, &slopes, accelerations);
             let into = (chain.rows(), [&mut *by_states, &mut *by_held]);
@@ -178,17 +198,26 @@ impl<D: WithNumbers<Scalar = f64>, S: StructureDerivatives> Spacecraft<D, S> {
                 by_states: (!written).then_some(&*by_states),
                 by_held: &*by_held,
             };
-            chain.stage(&at, [*weight, offset]);
-            let turns = rate(numbers(stage.attitude), components(&stage.omega));
-            last.iter_mut().zip(turns).for_each(|(to, from)| *to += weight * from);
+            chain.stage(&at, *times);
+            turn(&mut last, times, stage);
         }
         chain.finish(last, hub, [&mut *a, &mut *b]);
         let mut columns = columns_of(a).chain(columns_of(b));
         match columns.position(|column| !are_finite(column)) {
             Some(variable) => Err(DerivativeError::NotFinite { variable }),
-            None => Ok(next),
+            None => Ok(()),
         }
     }
+}
+
+/// Adds how the attitude turns in a stage.
+pub(crate) fn turn<D: Devices<Scalar = f64>, S: StructureData>(
+    last: &mut Numbers,
+    [weight, _]: &[f64; 2],
+    stage: &State<D, Quaternion, S>,
+) {
+    let turns = rate(numbers(stage.attitude), components(&stage.omega));
+    last.iter_mut().zip(turns).for_each(|(to, from)| *to += weight * from);
 }
 
 impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
@@ -228,7 +257,8 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
                 Ok(written)
             };
         let to = ([&mut a, &mut b], &mut ChainWorkspace::new());
-        craft.chained((state, inputs), (dt, None), to, &mut derivatives)?;
+        let (_, stages) = craft.step_stages(state, inputs, dt)?;
+        craft.chained(inputs, (&stages, None), to, &mut derivatives)?;
         Ok(b)
     }
 }

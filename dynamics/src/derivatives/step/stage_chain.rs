@@ -12,6 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::attitude::quaternion::{Quaternion, norm_squared, rate};
 use crate::derivatives::loads::row_product::{COLUMNS, ChangeRows};
+use crate::derivatives::loads::side_by_side::add_product;
 use crate::derivatives::slopes::{OF_HUB, Slopes};
 use crate::derivatives::step::stage_product::{Product, add_elements, write_columns};
 use crate::equations::arithmetic::Arithmetic;
@@ -104,7 +105,13 @@ impl StageChain {
         self.width = width;
     }
 
+    /// Numbers of a row.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
     /// Goes to a stage of this attitude, with so many accelerations.
+    #[inline(always)]
     pub(crate) fn begin_stage(
         &mut self,
         attitude: Quaternion,
@@ -153,15 +160,28 @@ impl StageChain {
         }
         add_elements(by_held, self.by_states, (accelerations, width));
         if slopes.hub {
-            self.hub(slopes, q, by);
+            let accelerations = core::mem::take(&mut self.accelerations);
+            self.hub((slopes, q), &accelerations, by);
+            self.accelerations = accelerations;
         }
         self.joints(slopes, by);
     }
 
-    /// The hub's rows.
+    /// The changes of the attitude at the stage.
     #[inline(always)]
-    fn hub(&mut self, slopes: &Slopes<'_, f64>, q: Numbers, by: [f64; 2]) {
-        let Self { width, states, turns, accelerations, buffer, .. } = self;
+    pub(crate) fn rotation(&self) -> &[f64] {
+        lines(&self.states.now, self.width, 3, 3).unwrap_or_default()
+    }
+
+    /// The hub's rows through a stage of this attitude and these changes of the accelerations.
+    #[inline(always)]
+    pub(crate) fn hub(
+        &mut self,
+        (slopes, q): (&Slopes<'_, f64>, Numbers),
+        accelerations: &[f64],
+        by: [f64; 2],
+    ) {
+        let Self { width, states, turns, buffer, .. } = self;
         let width = *width;
         let none = || [0.0; 3];
         let Some(accelerated) = lines(accelerations, width, 0, 6) else { return };
@@ -210,6 +230,7 @@ impl StageChain {
 
     /// Writes the columns by states and by what is held after the step, whose quaternion was this before it was
     /// normalised.
+    #[inline(always)]
     pub(crate) fn finish(&mut self, attitude: Numbers, hub: bool, into: [&mut DMatrix<f64>; 2]) {
         let width = self.width;
         if hub && let Some(rotation) = lines_mut(&mut self.states.sum, width, 3, 3) {
@@ -289,12 +310,30 @@ const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 const QUATERNIONS: [Numbers; 4] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// Adds a small matrix, by its columns, times rows.
+/// Adds a small matrix, by its columns, times rows of whole groups.
 #[inline(always)]
-fn combine<const TO: usize>(columns: &[[f64; TO]], (from, width): (&[f64], usize), to: &mut [f64]) {
-    for (column, from) in columns.iter().zip(from.chunks(width.max(1))) {
-        for (element, to) in column.iter().zip(to.chunks_mut(width.max(1))) {
-            to.iter_mut().zip(from).for_each(|(to, from)| *to += *element * *from);
+fn combine<const FROM: usize, const TO: usize>(
+    columns: &[[f64; TO]; FROM],
+    (from, width): (&[f64], usize),
+    to: &mut [f64],
+) {
+    for first in (0..width).step_by(COLUMNS) {
+        let mut changes = [[0.0; COLUMNS]; FROM];
+        let mut place = first;
+        for changes in &mut changes {
+            let some = from.get(place..).and_then(|row| row.first_chunk());
+            *changes = some.copied().unwrap_or_default();
+            place = place.wrapping_add(width);
+        }
+        let mut place = first;
+        for row in 0..TO {
+            let Some(to) = to.get_mut(place..).and_then(|row| row.first_chunk_mut()) else { break };
+            let mut sum: [f64; COLUMNS] = *to;
+            for (column, changes) in columns.iter().zip(&changes) {
+                add_product(&mut sum, column.get(row).copied().unwrap_or_default(), changes);
+            }
+            *to = sum;
+            place = place.wrapping_add(width);
         }
     }
 }

@@ -5,6 +5,8 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::DMatrix;
 
+use crate::derivatives::step::device_chain::DeviceChain;
+use crate::derivatives::step::hub_accelerations::StageAccelerations;
 use crate::derivatives::step::stage_chain::StageChain;
 use crate::derivatives::workspace::Workspace;
 
@@ -12,6 +14,16 @@ use crate::derivatives::workspace::Workspace;
 pub(crate) struct StepWorkspace {
     pub(crate) of_stage: Workspace<f64>,
     pub(crate) chain: ChainWorkspace,
+    pub(crate) devices: DevicesWorkspace,
+}
+
+/// What is carried device by device.
+#[derive(Debug, Default)]
+pub(crate) struct DevicesWorkspace {
+    /// Of the hub's rows.
+    pub(crate) hub: StageChain,
+    pub(crate) accelerations: StageAccelerations,
+    pub(crate) devices: DeviceChain,
 }
 
 /// What is carried through the stages of a step.
@@ -26,7 +38,8 @@ pub(crate) struct ChainWorkspace {
 
 impl StepWorkspace {
     pub(crate) fn new() -> Self {
-        Self { of_stage: Workspace::new(), chain: ChainWorkspace::new() }
+        let (of_stage, chain) = (Workspace::new(), ChainWorkspace::new());
+        Self { of_stage, chain, devices: DevicesWorkspace::default() }
     }
 }
 
