@@ -45,6 +45,7 @@ if TYPE_CHECKING:
         campaign,
         casadi,
         fit,
+        health,
         identification,
         jax,
         jitter,
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
         spectra,
         sweep,
     )
+    from .health import watch
     from .identification import identify
 
 __version__ = _version()
@@ -92,6 +94,7 @@ __all__ = [
     "campaign",
     "errors",
     "fit",
+    "health",
     "identification",
     "identify",
     "jitter",
@@ -99,6 +102,7 @@ __all__ = [
     "pointing",
     "spectra",
     "sweep",
+    "watch",
 ]
 
 #: What is imported where it is first used: none of it is needed to run a scenario, and some needs other packages.
@@ -107,6 +111,7 @@ _LATER = frozenset(
         "campaign",
         "casadi",
         "fit",
+        "health",
         "identification",
         "jax",
         "jitter",
@@ -127,8 +132,12 @@ def __getattr__(name: str) -> Any:
         from .identification import identify
 
         return identify
+    if name == "watch":
+        from .health import watch
+
+        return watch
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_LATER, "identify"])
+    return sorted([*globals(), *_LATER, "identify", "watch"])

@@ -19,6 +19,7 @@ __all__ = [
     "NativePsd",
     "NativeResult",
     "NativeScenario",
+    "NativeWatched",
     "estimate_percentile",
     "estimate_probability",
     "fit_file",
@@ -48,6 +49,7 @@ __all__ = [
     "spectrum_cross",
     "spectrum_welch",
     "version",
+    "watch",
     "xla_functions",
 ]
 
@@ -433,6 +435,28 @@ def identify(
     data: _Path | None,
     is_near: bool,
 ) -> NativeIdentified: ...
+
+@final
+class NativeWatched:
+    @property
+    def alarms(self) -> list[tuple[str, str, list[float], str, list[str]]]: ...
+    @property
+    def quantities(self) -> list[tuple[str, str, tuple[float, float] | None]]: ...
+    def times(self) -> tuple[_Array, _Array]: ...
+    def series(self, quantity: int) -> tuple[_Array, _Array]: ...
+    @property
+    def exclusions(self) -> list[str]: ...
+    @property
+    def remarks(self) -> list[str]: ...
+
+def watch(
+    scenario: NativeScenario,
+    columns: Sequence[tuple[str, _Array]],
+    data: _Path | None,
+    controller: str | None,
+    lengths: Sequence[float],
+    false_alarms: float,
+) -> NativeWatched: ...
 def plan_of_axes(axes: Sequence[str]) -> _Plan: ...
 def plan_of_draws(path: _Path, samples: int, seed: int, latin: bool) -> _Plan: ...
 def plan_of_probabilities(path: _Path, probabilities: Sequence[Sequence[float]]) -> _Plan: ...

@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._tables import toml_of
+from ._telemetry import columns_of, file_of, scenario_of
 from ._wanted import instance, table, text
 from .fit import Estimate
 from .scenario import Scenario
@@ -275,14 +276,9 @@ def identify(
     """
     if not isinstance(near, bool):
         raise TypeError(f"near is {near!r}; it needs True or False")
-    read = scenario if isinstance(scenario, Scenario) else None
-    if read is None:
-        if not isinstance(scenario, str | os.PathLike):
-            raise TypeError(f"scenario is {scenario!r}; it needs a precess.Scenario, or a path")
-        read = Scenario.from_toml(scenario)
-    is_file = isinstance(data, str | os.PathLike)
-    path = os.fspath(data) if isinstance(data, str | os.PathLike) else None
-    columns = [] if is_file else _columns(data)
+    read = scenario_of(scenario)
+    path = file_of(data)
+    columns = [] if path is not None else columns_of(data)
     if isinstance(unknown, str | os.PathLike):
         native = _native.identify(read._native, os.fspath(unknown), columns, path, near)
     else:
@@ -292,25 +288,6 @@ def identify(
             written.write_text(toml_of(tables), encoding="utf-8")
             native = _native.identify(read._native, str(written), columns, path, near)
     return Identification(native)
-
-
-def _columns(data: Any) -> list[tuple[str, Array]]:
-    """The columns of a mapping or of a frame."""
-    columns: dict[str, Any] = {}
-    if hasattr(data, "columns") and hasattr(data, "index"):
-        columns = {name: data[name].to_numpy() for name in data.columns}
-        name = data.index.name
-        if name is not None and name not in columns:
-            columns[name] = data.index.to_numpy()
-    else:
-        columns = dict(table("data", data))
-    found = []
-    for name, of in columns.items():
-        array = np.asarray(of, dtype=np.float64)
-        if array.ndim != 1:
-            raise ValueError(f"the column {name!r} has the shape {array.shape}; it needs (readings,)")
-        found.append((text("the name of a column", name), array))
-    return found
 
 
 def _scenario(name: str, value: Any) -> Scenario:

@@ -19,6 +19,7 @@ mod pointing;
 mod run;
 mod scenario;
 mod spectra;
+mod watch;
 mod xla;
 
 use pyo3::prelude::*;
@@ -61,6 +62,8 @@ mod _native {
     };
     #[pymodule_export]
     use super::version;
+    #[pymodule_export]
+    use super::watch::{NativeWatched, watch};
     #[pymodule_export]
     use super::xla::{NativeFunction, xla_functions};
 }

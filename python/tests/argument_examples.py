@@ -8,7 +8,17 @@ from typing import Any
 import numpy as np
 
 import precess
-from precess import campaign, fit, identification, jitter, montecarlo, pointing, spectra, sweep
+from precess import (
+    campaign,
+    fit,
+    health,
+    identification,
+    jitter,
+    montecarlo,
+    pointing,
+    spectra,
+    sweep,
+)
 
 VARY = [{"key": "hub.mass", "distribution": "uniform", "from": "300 kg", "to": "400 kg"}]
 
@@ -47,6 +57,14 @@ def calls(text: str) -> Calls:
         "near": True,
     }
     identified = precess.identify(**identify)
+    watch: dict[str, Any] = {
+        "scenario": flown,
+        "data": identify["data"],
+        "block": 0.05,
+        "learn": 0.25,
+        "false_alarms": 1.0,
+        "controller": "aocs",
+    }
     slopes = montecarlo.Sensitivities(("k",), np.ones(1), {"n": np.ones(1)}, 0.0)
     return {
         "Accelerations.to_array": (found.to_array, {}),
@@ -187,6 +205,8 @@ def calls(text: str) -> Calls:
         ),
         "identification.identify": (identification.identify, identify),
         "precess.identify": (precess.identify, identify),
+        "health.watch": (health.watch, watch),
+        "precess.watch": (precess.watch, watch),
         "jitter.budget": (jitter.budget, {"path": "missing.toml", "set": {}, "threads": 1}),
         "montecarlo.run": (
             montecarlo.run,

@@ -21,6 +21,7 @@ from precess import (
     campaign,
     errors,
     fit,
+    health,
     identification,
     jitter,
     montecarlo,
@@ -34,6 +35,7 @@ MODULES = (
     campaign,
     errors,
     fit,
+    health,
     identification,
     jitter,
     montecarlo,
@@ -53,6 +55,7 @@ NOT_CALLED = {
     "Result.__init__",
     "Samples.__init__",
     "Sweep.__init__",
+    "WatchedRecord.__init__",
 }
 #: Needs another package, whose own errors it passes on.
 OTHERS = {
@@ -64,6 +67,8 @@ OTHERS = {
     "Result.to_pandas",
     "Result.to_parquet",
     "Result.to_xarray",
+    "WatchedRecord.alarms_to_pandas",
+    "WatchedRecord.to_pandas",
     "campaign.run",
     "campaign.sobol",
 }

@@ -20,7 +20,7 @@ use super::terminal::{note, print};
 use crate::file::from_file;
 use crate::record::partial::{Partial, partial_name};
 use crate::record::{Decimate, Recorder as _};
-use crate::report::watch::{BUCKETS, WatchReport, WatchedQuantity, shown, test_name};
+use crate::report::watch::{BUCKETS, WatchReport, WatchedQuantity, shown};
 use crate::telemetry::{Exclusion, TelemetryLayout, TelemetryRows};
 use crate::watch::{Alarm, Block, Watch, WatchSettings, Watched};
 
@@ -287,7 +287,7 @@ fn sentence(alarm: &Alarm) -> String {
     let of = |value: f64| shown(watched, value);
     let ((change, unit), (half, _)) = (of(shift.change), of(shift.half_width));
     let (before, _) = of(shift.before);
-    let test = test_name(shift.test);
+    let test = shift.test.name();
     let mut text = format!(
         "alarm at {} s: {name} has changed by {} {unit} (95 %: {} to {}) from {} {unit}, since {} s ({test})\n",
         six(*time),
@@ -327,7 +327,7 @@ impl<'a> AlarmJson<'a> {
             before: shift.before,
             change: shift.change,
             interval: [shift.change - shift.half_width, shift.change + shift.half_width],
-            test: test_name(shift.test).replace(' ', "_"),
+            test: shift.test.name().replace(' ', "_"),
             alike: &alarm.alike,
         }
     }

@@ -13,7 +13,7 @@ use super::page::Page;
 use super::run::grouping::capitalised;
 use crate::record::Decimate;
 use crate::telemetry::Exclusion;
-use crate::watch::{Alarm, Test, WatchSettings, Watched};
+use crate::watch::{Alarm, WatchSettings, Watched};
 
 /// Buckets of the figures, each of one block or of more.
 pub(crate) const BUCKETS: usize = 600;
@@ -48,14 +48,6 @@ pub(crate) fn shown(watched: &Watched, value: f64) -> (f64, &'static str) {
         Watched::StaticPhase | Watched::DynamicPhase => (value.to_degrees(), "deg"),
         Watched::TorqueConstant | Watched::TachometerScale => (100.0 * value, "%"),
         Watched::Drag | Watched::GyroJump => (value, watched.unit()),
-    }
-}
-
-/// A test in words.
-pub(crate) fn test_name(test: Test) -> &'static str {
-    match test {
-        Test::LikelihoodRatio => "likelihood ratio",
-        Test::CumulativeSum => "cumulative sum",
     }
 }
 
@@ -133,7 +125,7 @@ impl WatchReport<'_> {
                 of(change - half),
                 of(change + half),
                 shown(&alarm.watched, 0.0).1.to_owned(),
-                test_name(shift.test).to_owned(),
+                shift.test.name().to_owned(),
                 alarm.alike.join("; "),
             ];
             ("", cells)
@@ -282,7 +274,7 @@ fn chart(figure: &Figure) -> CurveChart {
 mod tests {
     use super::*;
     use crate::record::Recorder as _;
-    use crate::watch::Shift;
+    use crate::watch::{Shift, Test};
 
     #[test]
     fn what_has_changed_is_drawn_first_and_what_no_block_determines_is_not() {

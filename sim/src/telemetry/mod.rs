@@ -100,11 +100,7 @@ impl Telemetry {
         columns: Vec<(String, Vec<f64>)>,
         layout: &TelemetryLayout,
     ) -> Result<Self, TelemetryError> {
-        let path = Path::new(name);
-        Self::of_rows(
-            TelemetryRows::of(Cells::of_columns(path, columns, layout)?, path, layout)?,
-            path,
-        )
+        Self::of_rows(TelemetryRows::of_columns(name, columns, layout)?, Path::new(name))
     }
 
     fn of_rows(mut rows: TelemetryRows, path: &Path) -> Result<Self, TelemetryError> {
@@ -165,6 +161,20 @@ impl TelemetryRows {
     /// A file that cannot be read, no column of the time or of any sensor, and some but not all columns of a sensor.
     pub fn open(path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {
         Self::of(Cells::open(path, layout)?, path, layout)
+    }
+
+    /// Of columns in memory, each with its name; NaN where a sensor has no reading. Messages call them `name`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::open`].
+    pub fn of_columns(
+        name: &str,
+        columns: Vec<(String, Vec<f64>)>,
+        layout: &TelemetryLayout,
+    ) -> Result<Self, TelemetryError> {
+        let path = Path::new(name);
+        Self::of(Cells::of_columns(path, columns, layout)?, path, layout)
     }
 
     fn of(cells: Cells, path: &Path, layout: &TelemetryLayout) -> Result<Self, TelemetryError> {

@@ -29,6 +29,17 @@ pub enum Test {
     CumulativeSum,
 }
 
+impl Test {
+    /// What it is called: `likelihood ratio`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LikelihoodRatio => "likelihood ratio",
+            Self::CumulativeSum => "cumulative sum",
+        }
+    }
+}
+
 /// What has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shift {

@@ -5,6 +5,7 @@ use std::fmt;
 use precess_dynamics::SolveError;
 
 use crate::record::RunError;
+use crate::telemetry::TelemetryError;
 use crate::units::Plain;
 
 /// Why telemetry is not watched.
@@ -35,6 +36,10 @@ pub enum WatchError {
     },
     /// No sensor from which something can be watched.
     Nothing,
+    /// Telemetry that cannot be read.
+    Telemetry(TelemetryError),
+    /// It was interrupted.
+    Interrupted,
 }
 
 impl fmt::Display for WatchError {
@@ -57,6 +62,8 @@ impl fmt::Display for WatchError {
             Self::Length { what, value } => {
                 write!(f, "{what} is {} s; it must be finite and positive", Plain(*value))
             }
+            Self::Telemetry(error) => error.fmt(f),
+            Self::Interrupted => f.write_str("it was interrupted"),
             Self::Nothing => f.write_str(
                 "the telemetry has neither a gyro nor a joint with tachometer and motor: nothing can be watched",
             ),

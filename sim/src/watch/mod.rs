@@ -19,6 +19,7 @@
 //! | `regression` | least squares, what a block does not determine |
 //! | `steps` | steps within blocks |
 //! | `quantity` | names, units, what looks the same |
+//! | `record` | a whole record, in memory |
 //! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
 
 mod body;
@@ -27,6 +28,7 @@ mod error;
 mod joint;
 pub(crate) mod model;
 mod quantity;
+mod record;
 mod regression;
 mod steps;
 #[cfg(test)]
@@ -38,6 +40,7 @@ use nalgebra::Vector3;
 pub use detector::{Shift, Test};
 pub use error::WatchError;
 pub use quantity::{Alarm, Watched};
+pub use record::{RecordQuantity, WatchedRecord, watch};
 
 use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns};
