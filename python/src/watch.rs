@@ -42,9 +42,8 @@ impl NativeWatched {
 
     /// Start and end of each block, s.
     fn times<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 2] {
-        [0, 1].map(|end| {
-            PyArray1::from_iter(py, self.0.blocks.iter().map(|block| block.times[end]))
-        })
+        [0, 1]
+            .map(|end| PyArray1::from_iter(py, self.0.blocks.iter().map(|block| block.times[end])))
     }
 
     /// Value and standard deviation of a quantity in each block; NaN where a block does not determine it.

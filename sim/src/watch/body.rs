@@ -8,12 +8,20 @@ use precess_control::GyroOutput;
 use precess_dynamics::Angle;
 
 use super::model::{Signature, WatchedModel};
-use super::regression::Regression;
+use super::regression::{Reduced, Regression};
 use super::steps::{BINS, StepSearch, bin};
 use crate::scenario::Scenario;
 
 /// Parameters of the block itself: rates at its start and accelerations by torques from outside.
 const OWN: usize = 6;
+
+/// Parameters of a line: real and imaginary parts of static and of dynamic imbalance.
+pub(super) const LINE: usize = 4;
+
+/// The first parameter of the line of a rotor.
+pub(super) fn line_of(rotor: usize) -> usize {
+    OWN + LINE * rotor
+}
 
 /// Above this square of their correlation static and dynamic imbalance of a rotor have one line: it is called dynamic.
 const ALIKE: f64 = 0.98;
@@ -66,14 +74,28 @@ pub(super) struct BodyFit {
 /// Amplitudes of static and dynamic imbalance and steps of their phases, with variances.
 pub(super) type RotorValues = [Option<[f64; 2]>; 4];
 
+impl Line {
+    /// What turns a line's acceleration at the start of the block into that at present: none of a rotor that is too slow.
+    fn turned(&self, rate: f64) -> Option<Complex<f64>> {
+        let signature = self.signature.as_ref().filter(|_| rate.abs() >= SLOWEST)?;
+        let (sine, cosine) = Angle::sin_cos(self.angle + rate * self.since);
+        Some(Complex::new(cosine, sine) * (rate / signature.rate).powi(2))
+    }
+}
+
 impl BodyFit {
-    /// Of rotors of which each is turning where its tachometer is read.
-    pub(super) fn new(scenario: &Scenario, turning: Vec<bool>, block: f64) -> Self {
+    /// Of rotors of which each is turning where its tachometer is read; the steps of the gyro scatter as so many first blocks tell.
+    pub(super) fn new(
+        scenario: &Scenario,
+        turning: Vec<bool>,
+        block: f64,
+        reference: usize,
+    ) -> Self {
         let integrates = scenario.controllers.iter().find_map(|of| {
             let gyro = of.sensors.gyro.as_ref()?;
             (gyro.output == GyroOutput::Integrating).then(|| of.rate.recip())
         });
-        let count = OWN + 4 * turning.len();
+        let count = line_of(turning.len());
         let line = |turning| Line {
             turning,
             angle: 0.0,
@@ -91,7 +113,7 @@ impl BodyFit {
             row: vec![0.0; count],
             predicted: Vector3::zeros(),
             interval: 0.0,
-            steps: Default::default(),
+            steps: std::array::from_fn(|_| StepSearch::new(reference)),
             sums: vec![0.0; 3 * BINS * count],
             block,
         }
@@ -144,16 +166,13 @@ impl BodyFit {
 
     /// Takes a reading of the gyro, so long after the start.
     pub(super) fn read(&mut self, elapsed: f64, omega: &Vector3<f64>, model: &WatchedModel) {
-        let mut numbers = vec![[Vector3::<f64>::zeros(); 4]; self.lines.len()];
+        let mut numbers = vec![[Vector3::<f64>::zeros(); LINE]; self.lines.len()];
         for ((to, line), rotor) in numbers.iter_mut().zip(&self.lines).zip(model.rotors()) {
-            let Some(signature) = &line.signature else { continue };
             let rate = model.joint_rate(rotor.joint);
-            if rate.abs() < SLOWEST {
+            let (Some(signature), Some(mut factor)) = (&line.signature, line.turned(rate)) else {
                 continue;
-            }
-            let (sine, cosine) = Angle::sin_cos(line.angle + rate * line.since);
+            };
             // From acceleration to rate, and to what the gyro makes of it.
-            let mut factor = Complex::new(cosine, sine) * (rate / signature.rate).powi(2);
             if let Some(period) = self.integrating {
                 let half = 0.5 * rate * period;
                 let sinc = if half == 0.0 { 1.0 } else { libm::sin(half) / half };
@@ -203,6 +222,26 @@ impl BodyFit {
         }
     }
 
+    /// The line of a rotor in the rate of another joint: by real and imaginary parts of its static and dynamic imbalance. It is what the
+    /// imbalance adds to the acceleration at the rates and torques that were measured.
+    pub(super) fn of_joint(&self, joint: usize, rotor: usize, model: &WatchedModel) -> [f64; LINE] {
+        let mut numbers = [0.0; LINE];
+        let own = self.lines.get(rotor).zip(model.rotors().get(rotor));
+        let Some((line, of)) = own else { return numbers };
+        let rate = model.joint_rate(of.joint);
+        let (Some(signature), Some(factor)) = (&line.signature, line.turned(rate)) else {
+            return numbers;
+        };
+        let Some(accelerations) = signature.by_joint.get(joint) else { return numbers };
+        let [first, second] =
+            accelerations.map(|of| of * factor * Complex::new(0.0, -rate.recip()));
+        if line.separate == Some(true) {
+            (numbers[0], numbers[1]) = (first.re, -first.im);
+        }
+        (numbers[2], numbers[3]) = (second.re, -second.im);
+        numbers
+    }
+
     /// Square of a rotor's rate, in the middle of the block, by that in its first one: softer bearings amplify its line as that, to first order.
     pub(super) fn speed(&mut self, rotor: usize) -> f64 {
         let Some(line) = self.lines.get_mut(rotor) else { return 0.0 };
@@ -211,16 +250,16 @@ impl BodyFit {
         (rate / *line.first.get_or_insert(rate)).powi(2)
     }
 
-    /// What the block says: of each rotor, and the step of the gyro about each axis.
-    pub(super) fn end(&mut self) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
-        let Some(found) = self.regression.solve() else {
+    /// What the block says, with what gimbals say of lines: of each rotor, and the step of the gyro about each axis.
+    pub(super) fn end(&mut self, gimbals: &[Reduced]) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
+        let Some(found) = self.regression.solve_with(gimbals) else {
             self.forget();
             return (Vec::new(), [None; 3]);
         };
         let lines = self.lines.iter_mut().enumerate().map(|(index, line)| {
             let mut values = [None; 4];
             for kind in 0..2 {
-                let of = found.line(OWN + 4 * index + 2 * kind);
+                let of = found.line(line_of(index) + 2 * kind);
                 let phase = of.and_then(|(_, phase)| phase);
                 values[kind] = of.map(|(amplitude, _)| amplitude);
                 values[2 + kind] = line.before[kind].zip(phase).map(|(before, now)| {

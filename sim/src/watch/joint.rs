@@ -1,10 +1,14 @@
-//! [`JointFit`]: one block of a joint: its measured rate against the model's, by torque.
+//! [`JointFit`]: one block of a joint: its measured rate against the model's, by torque; of a gimbal beside the line of the rotor that it bears.
 
-use super::regression::Regression;
+use super::body::{LINE, line_of};
+use super::regression::{Reduced, Regression};
 use super::steps::StepSearch;
 
 /// A rotor slower than this has no scale of its tachometer, rad/s.
 const SLOWEST: f64 = 1.0;
+
+/// Start, drag and torque constant.
+const OWN: usize = 3;
 
 /// Above this square of their correlation drag and torque constant have one effect: it is called drag.
 const ALIKE: f64 = 0.9;
@@ -13,6 +17,8 @@ const ALIKE: f64 = 0.9;
 #[derive(Clone, Debug)]
 pub(super) struct JointFit {
     pub(super) joint: usize,
+    /// Of a gimbal: the rotor of its device, which has a line in its rate.
+    rotor: Option<usize>,
     /// With the torque constant, and without it.
     regressions: [Regression; 2],
     /// Integrals since the start of the block: the model's acceleration, rad/s, the motor's torque, N m s, and a torque of 1 N m
@@ -34,7 +40,7 @@ pub(super) struct JointFit {
 }
 
 /// What a block says of a joint, each with its variance.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct JointValues {
     /// Drag torque beyond the model's, N m.
     pub(super) drag: Option<[f64; 2]>,
@@ -44,17 +50,29 @@ pub(super) struct JointValues {
     pub(super) torque: Option<[f64; 2]>,
     /// Step of the reading by itself.
     pub(super) scale: Option<[f64; 2]>,
+    /// Of a gimbal: the line of the rotor.
+    pub(super) line: Option<Reduced>,
 }
 
 impl JointFit {
-    pub(super) fn new(joint: usize, wheel: bool, block: f64) -> Self {
+    /// Of a wheel, whose steps scatter as so many first blocks tell, or of a gimbal with the rotor of its device.
+    pub(super) fn new(
+        joint: usize,
+        wheel: bool,
+        rotor: Option<usize>,
+        block: f64,
+        reference: usize,
+    ) -> Self {
+        let rotor = rotor.filter(|_| !wheel);
+        let line = if rotor.is_some() { LINE } else { 0 };
         Self {
-            steps: wheel.then(StepSearch::default),
+            steps: wheel.then(|| StepSearch::new(reference)),
+            rotor,
             block,
             elapsed: 0.0,
             shape: [0.0; 5],
             joint,
-            regressions: [Regression::new(3), Regression::new(2)],
+            regressions: [Regression::new(OWN + line), Regression::new(OWN - 1 + line)],
             predicted: 0.0,
             torque: 0.0,
             opposing: 0.0,
@@ -73,8 +91,13 @@ impl JointFit {
     /// Forgets what joins a block with the one before.
     pub(super) fn forget(&mut self) {
         if let Some(steps) = &mut self.steps {
-            *steps = StepSearch::default();
+            steps.forget();
         }
+    }
+
+    /// The rotor that has a line in its rate.
+    pub(super) fn rotor(&self) -> Option<usize> {
+        self.rotor
     }
 
     /// Whether it is a wheel, whose tachometer has a scale.
@@ -90,13 +113,20 @@ impl JointFit {
         self.opposing -= self.rate.signum() * elapsed;
     }
 
-    /// Takes a reading of the rate.
-    pub(super) fn read(&mut self, rate: f64) {
+    /// Takes a reading of the rate, with the line of the rotor at this time.
+    pub(super) fn read(&mut self, rate: f64, line: &[f64; LINE]) {
         let observed = rate - self.predicted;
         let (drag, torque) = (self.by_torque * self.opposing, self.by_torque * self.torque);
         let [both, of_drag] = &mut self.regressions;
-        both.add(&[1.0, drag, torque], observed);
-        of_drag.add(&[1.0, drag], observed);
+        let own = [1.0, drag, torque];
+        if self.rotor.is_some() {
+            let [a, b, c, d] = *line;
+            both.add(&[1.0, drag, torque, a, b, c, d], observed);
+            of_drag.add(&[1.0, drag, a, b, c, d], observed);
+        } else {
+            both.add(&own, observed);
+            of_drag.add(&own[..OWN - 1], observed);
+        }
         for (sum, of) in self.shape.iter_mut().zip([1.0, drag, torque, drag * drag, drag * torque])
         {
             *sum += of;
@@ -110,8 +140,11 @@ impl JointFit {
     /// What the block says.
     pub(super) fn end(&mut self) -> JointValues {
         let [both, of_drag] = &self.regressions;
-        let drag = of_drag.solve();
-        let torque = both.solve().and_then(|found| {
+        let line = self.rotor.and_then(|rotor| both.reduced(OWN, line_of(rotor)));
+        // Of few readings no line is determined.
+        let drag = of_drag.solve().or_else(|| of_drag.leading(OWN - 1).solve());
+        let torque = both.solve().or_else(|| both.leading(OWN).solve());
+        let torque = torque.and_then(|found| {
             let (drag, torque) = (found.of(1)?, found.of(2)?);
             let common = found.covariance[(2, 1)];
             (common * common < ALIKE * drag[1] * torque[1]).then_some(torque)
@@ -125,6 +158,6 @@ impl JointFit {
         let (rate, turning) = (self.rate, self.rate.abs() > SLOWEST);
         let scale = step.filter(|_| turning);
         let scale = scale.map(|[step, variance]| [step / rate, variance / (rate * rate)]);
-        JointValues { drag: drag.and_then(|found| found.of(1)), signature, torque, scale }
+        JointValues { drag: drag.and_then(|found| found.of(1)), signature, torque, scale, line }
     }
 }

@@ -17,6 +17,7 @@
 //! | `model` | accelerations and lines |
 //! | `body`, `joint` | the block of the gyro, that of a joint |
 //! | `regression` | least squares, what a block does not determine |
+//! | `settings` | lengths and the rate of false alarms |
 //! | `steps` | steps within blocks |
 //! | `quantity` | names, units, what looks the same |
 //! | `record` | a whole record, in memory |
@@ -30,6 +31,7 @@ pub(crate) mod model;
 mod quantity;
 mod record;
 mod regression;
+mod settings;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -41,6 +43,7 @@ pub use detector::{Shift, Test};
 pub use error::WatchError;
 pub use quantity::{Alarm, Watched};
 pub use record::{RecordQuantity, WatchedRecord, watch};
+pub use settings::WatchSettings;
 
 use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns};
@@ -49,6 +52,7 @@ use detector::{Detector, Kind};
 use joint::{JointFit, JointValues};
 use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
+use regression::Reduced;
 use thresholds::Thresholds;
 
 /// Onsets that the likelihood ratio is searched over.
@@ -59,17 +63,6 @@ const GAP: f64 = 0.25;
 
 /// A step within a block of so many deviations, and its block has no amplitudes, or no drag.
 const SPOILS: f64 = 6.0;
-
-/// Lengths and the rate of false alarms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WatchSettings {
-    /// Length of a block, s.
-    pub block: f64,
-    /// From the first block on, the time in which the reference is taken, s.
-    pub learn: f64,
-    /// False alarms an hour, of all tests together.
-    pub false_alarms: f64,
-}
 
 /// What a block says.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,15 +106,8 @@ impl Watch {
         sensors: &[SensorColumns],
         settings: &WatchSettings,
     ) -> Result<Self, WatchError> {
-        let WatchSettings { block, learn, .. } = *settings;
-        for (what, value) in
-            [("the length of a block", block), ("the time of the reference", learn)]
-        {
-            let sound = value > 0.0 && value.is_finite();
-            if !sound {
-                return Err(WatchError::Length { what, value });
-            }
-        }
+        settings.check()?;
+        let block = settings.block;
         let sensors: Vec<Sensor> = sensors.iter().map(|of| of.sensor).collect();
         let has = |sensor: Sensor| sensors.contains(&sensor);
         let count = scenario.joint_count();
@@ -131,12 +117,19 @@ impl Watch {
         let is_wheel = |joint: usize| {
             scenario.joints().nth(joint).is_some_and(|(.., info)| body_key(info) == "wheel")
         };
-        let of_joint = |joint: usize| JointFit::new(joint, is_wheel(joint), block);
+        let reference = settings.blocks();
+        let rotor = |joint: usize| {
+            let device = |joint| scenario.joints().nth(joint).map(|(device, ..)| device);
+            let rotors = &mut model.rotors().iter();
+            rotors.position(|of| device(of.joint) == device(joint)).filter(|_| has(Sensor::Gyro))
+        };
+        let of_joint =
+            |joint: usize| JointFit::new(joint, is_wheel(joint), rotor(joint), block, reference);
         let joints: Vec<_> = (0..count).filter(own).map(of_joint).collect();
         let mut remarks = Vec::new();
         let turning: Vec<bool> =
             model.rotors().iter().map(|of| has(Sensor::Tachometer(of.joint))).collect();
-        let body = has(Sensor::Gyro).then(|| BodyFit::new(scenario, turning, block));
+        let body = has(Sensor::Gyro).then(|| BodyFit::new(scenario, turning, block, reference));
         if body.is_none() && joints.is_empty() {
             return Err(WatchError::Nothing);
         }
@@ -279,7 +272,9 @@ impl Watch {
                 }
                 let own = self.joints.iter_mut().find(|of| of.joint == joint);
                 if let (Some(own), Some(_)) = (own, elapsed) {
-                    own.read(first);
+                    let body = self.body.as_ref().zip(own.rotor());
+                    let line = body.map(|(body, rotor)| body.of_joint(joint, rotor, &self.model));
+                    own.read(first, &line.unwrap_or_default());
                 }
                 self.model.set_joint_rate(joint, first);
             }
@@ -305,10 +300,12 @@ impl Watch {
 
     /// What the block says, and what the tests say to that.
     fn end(&mut self, times: [f64; 2]) -> Block {
+        let of_joints: Vec<JointValues> = self.joints.iter_mut().map(JointFit::end).collect();
+        let gimbals: Vec<Reduced> = of_joints.iter().filter_map(|of| of.line.clone()).collect();
         let mut lines = Vec::new();
         let mut jumps = [None; 3];
         if let Some(body) = &mut self.body {
-            (lines, jumps) = body.end();
+            (lines, jumps) = body.end(&gimbals);
         }
         let rotors = self.model.rotors().len();
         let mut values = Vec::with_capacity(self.quantities.len());
@@ -334,9 +331,9 @@ impl Watch {
                 *signature = body.speed(rotor);
             }
         }
-        for joint in &mut self.joints {
+        for (joint, found) in self.joints.iter().zip(of_joints) {
             let wheel = joint.is_wheel();
-            let JointValues { mut drag, signature, torque, scale } = joint.end();
+            let JointValues { mut drag, signature, torque, scale, .. } = found;
             // A step of the reading within the block is no drag.
             if scale.is_some_and(is_step) {
                 drag = None;
@@ -369,15 +366,10 @@ fn quantities_of(
     all: Vec<(Watched, String)>,
     settings: &WatchSettings,
 ) -> Result<Vec<Quantity>, WatchError> {
-    let WatchSettings { block, learn, false_alarms } = *settings;
+    let WatchSettings { block, false_alarms, .. } = *settings;
     #[expect(clippy::cast_precision_loss, reason = "a hundred")]
     let alpha = false_alarms * block / 3600.0 / all.len() as f64;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "positive, bounded"
-    )]
-    let reference = (learn / block).round().clamp(1.0, 1e6) as usize;
+    let reference = settings.blocks();
     let at_once = Thresholds::new(alpha, 1, reference)?;
     let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
     let quantities = all.into_iter().map(|(watched, of)| {

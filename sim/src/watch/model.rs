@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Complex, Matrix3, Vector3};
-use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
+use precess_dynamics::{Axis, Each as _, JointStates as _, Mode, Outputs, Variable};
 
 use super::error::WatchError;
 use crate::evaluation::{CraftInputs, CraftState, EvaluationError, Evaluator};
@@ -22,9 +22,11 @@ pub(crate) struct Rotor {
 
 /// Angular acceleration of the hub by static and dynamic imbalance, 1/(kg m s²) and 1/(kg m² s²), as the real part times
 /// `exp(i theta)`, and the rate of the rotor at which it is that.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Signature {
     pub(super) by_imbalance: [Vector3<Complex<f64>>; 2],
+    /// The same of each joint.
+    pub(super) by_joint: Vec<[Complex<f64>; 2]>,
     pub(super) rate: f64,
     /// Derivative of the hub's angular acceleration by its angular velocity, 1/s: the wheels' momenta.
     pub(super) coupling: Matrix3<f64>,
@@ -158,6 +160,9 @@ impl WatchedModel {
                 ["static", "dynamic"].map(|kind| format!("{}.{kind}_imbalance", of.name))
             })
             .collect();
+        let joints = (0..self.wheels.len()).map(Variable::Rate);
+        let variables: Vec<Variable> =
+            [Axis::X, Axis::Y, Axis::Z].map(Variable::Omega).into_iter().chain(joints).collect();
         let mut columns = Vec::new();
         let mut coupling = Matrix3::zeros();
         for angle in [0.0, FRAC_PI_2] {
@@ -166,12 +171,13 @@ impl WatchedModel {
             let inputs = self.evaluator.no_inputs();
             let found =
                 self.evaluator.linearize(&state, &inputs, &Outputs::accelerations(), &names)?;
-            let row =
-                |axis: &str| found.states.iter().position(|name| *name == format!("omega_{axis}"));
-            let rows = ["x", "y", "z"].map(row);
-            let column = |index: usize| {
-                let numbers = rows.map(|row| row.map_or(0.0, |row| found.p[(row, index)]));
-                Vector3::from(numbers)
+            let row = |of: &Variable| {
+                let name = self.evaluator.variable_name(*of);
+                found.states.iter().position(|of| *of == name)
+            };
+            let rows: Vec<Option<usize>> = variables.iter().map(row).collect();
+            let column = |index: usize| -> Vec<f64> {
+                rows.iter().map(|row| row.map_or(0.0, |row| found.p[(row, index)])).collect()
             };
             let element = |i: usize, j: usize| match (rows.get(i), rows.get(j)) {
                 (Some(Some(i)), Some(Some(j))) => found.a[(*i, *j)],
@@ -182,16 +188,23 @@ impl WatchedModel {
         }
         let [start, quarter] = [0, 1].map(|index| columns.get(index).cloned().unwrap_or_default());
         // Re(A exp(i theta)) is Re A at zero and -Im A at a quarter of a turn.
-        let line = |index: usize| -> Vector3<Complex<f64>> {
+        let line = |index: usize| -> Vec<Complex<f64>> {
             match (start.get(index), quarter.get(index)) {
-                (Some(re), Some(im)) => re.zip_map(im, |re, im| Complex::new(re, -im)),
-                _ => Vector3::zeros(),
+                (Some(re), Some(im)) => {
+                    re.iter().zip(im).map(|(re, im)| Complex::new(*re, -im)).collect()
+                }
+                _ => vec![Complex::new(0.0, 0.0); variables.len()],
             }
         };
-        let each = self.rotors.iter().enumerate().map(|(index, rotor)| Signature {
-            by_imbalance: [line(2 * index), line(2 * index + 1)],
-            rate: self.joint_rate(rotor.joint),
-            coupling,
+        let each = self.rotors.iter().enumerate().map(|(index, rotor)| {
+            let both = [line(2 * index), line(2 * index + 1)];
+            let of_joint = |joint: usize| both.each_ref().map(|of| of[3 + joint]);
+            Signature {
+                by_imbalance: both.each_ref().map(|of| Vector3::new(of[0], of[1], of[2])),
+                by_joint: (0..self.wheels.len()).map(of_joint).collect(),
+                rate: self.joint_rate(rotor.joint),
+                coupling,
+            }
         });
         Ok(each.collect())
     }

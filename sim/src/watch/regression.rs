@@ -18,6 +18,16 @@ pub(super) struct Regression {
     count: usize,
 }
 
+/// What one sensor says of parameters that others depend on, too.
+#[derive(Clone, Debug)]
+pub(super) struct Reduced {
+    /// The first of them in the larger regression.
+    from: usize,
+    /// Inverse of their covariance, and that times their values.
+    information: DMatrix<f64>,
+    vector: DVector<f64>,
+}
+
 /// What a block says.
 #[derive(Clone, Debug)]
 pub(super) struct Estimated {
@@ -63,34 +73,95 @@ impl Regression {
 
     /// The estimate; none of fewer observations than twice the parameters.
     pub(super) fn solve(&self) -> Option<Estimated> {
-        let count = self.moments.len();
-        if self.count < 2 * count {
+        if self.count < 2 * self.moments.len() {
             return None;
         }
-        let normal = self.normal.lower_triangle();
-        let normal = &normal + normal.transpose() - DMatrix::from_diagonal(&normal.diagonal());
-        // Each parameter in its own scale.
-        let scale = normal.diagonal().map(|of| if of > 0.0 { of.sqrt() } else { 1.0 });
-        let scaled = DMatrix::from_fn(count, count, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
-        let SymmetricEigen { eigenvectors, eigenvalues } =
-            SymmetricEigen::try_new(scaled, 1e-15, 1000)?;
-        let least = DETERMINED * eigenvalues.max();
-        let inverse = eigenvalues.map(|of| if of > least { 1.0 / of } else { 0.0 });
-        let kept = inverse.iter().filter(|of| **of > 0.0).count();
-        let unit = &eigenvectors * DMatrix::from_diagonal(&inverse) * eigenvectors.transpose();
-        let unit = DMatrix::from_fn(count, count, |i, j| unit[(i, j)] / (scale[i] * scale[j]));
-        let lost = |parameter: usize| -> f64 {
-            let row = eigenvectors.row(parameter);
-            let of = row.iter().zip(inverse.iter()).filter(|(_, inverse)| **inverse == 0.0);
-            of.map(|(element, _)| element * element).sum()
-        };
-        let determined = (0..count).map(|parameter| lost(parameter) < SHARE).collect();
+        let Inverse { unit, determined, kept } = inverse(&self.whole())?;
         let values = &unit * &self.moments;
         #[expect(clippy::cast_precision_loss, reason = "samples of a block")]
         let freedom = (self.count - kept) as f64;
         let noise = (self.squares - values.dot(&self.moments)).max(0.0) / freedom;
         Some(Estimated { values, covariance: unit * noise, noise, determined })
     }
+
+    /// The same with what other sensors say of its last parameters; the noise is that of its own residuals.
+    pub(super) fn solve_with(&self, others: &[Reduced]) -> Option<Estimated> {
+        let own = self.solve()?;
+        if others.is_empty() || own.noise <= 0.0 {
+            return Some(own);
+        }
+        let (mut normal, mut moments) = (self.whole(), self.moments.clone());
+        for Reduced { from, information, vector } in others {
+            let count = vector.len();
+            let mut of = normal.view_mut((*from, *from), (count, count));
+            of += information * own.noise;
+            let mut of = moments.rows_mut(*from, count);
+            of += vector * own.noise;
+        }
+        let Inverse { unit, determined, .. } = inverse(&normal)?;
+        let values = &unit * moments;
+        Some(Estimated { values, covariance: unit * own.noise, noise: own.noise, determined })
+    }
+
+    /// Of the first parameters only, as if the others were zero.
+    pub(super) fn leading(&self, count: usize) -> Self {
+        Self {
+            normal: self.normal.view((0, 0), (count, count)).into_owned(),
+            moments: self.moments.rows(0, count).into_owned(),
+            ..*self
+        }
+    }
+
+    /// What it says of its parameters from `own` on, by the noise of its residuals, the first ones eliminated: they are those of a larger
+    /// regression from `from` on.
+    pub(super) fn reduced(&self, own: usize, from: usize) -> Option<Reduced> {
+        let noise = self.solve()?.noise;
+        let rest = self.moments.len().checked_sub(own)?;
+        if noise <= 0.0 || rest == 0 {
+            return None;
+        }
+        let whole = self.whole();
+        let first = inverse(&whole.view((0, 0), (own, own)).into_owned())?.unit;
+        let cross = whole.view((own, 0), (rest, own));
+        let information = whole.view((own, own), (rest, rest)) - cross * &first * cross.transpose();
+        let vector = self.moments.rows(own, rest) - cross * first * self.moments.rows(0, own);
+        Some(Reduced { from, information: information / noise, vector: vector / noise })
+    }
+
+    /// Both triangles.
+    fn whole(&self) -> DMatrix<f64> {
+        let normal = self.normal.lower_triangle();
+        &normal + normal.transpose() - DMatrix::from_diagonal(&normal.diagonal())
+    }
+}
+
+/// The inverse of normal equations where they determine something.
+struct Inverse {
+    unit: DMatrix<f64>,
+    determined: Vec<bool>,
+    /// How many directions are determined.
+    kept: usize,
+}
+
+fn inverse(normal: &DMatrix<f64>) -> Option<Inverse> {
+    let count = normal.nrows();
+    // Each parameter in its own scale.
+    let scale = normal.diagonal().map(|of| if of > 0.0 { of.sqrt() } else { 1.0 });
+    let scaled = DMatrix::from_fn(count, count, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
+    let SymmetricEigen { eigenvectors, eigenvalues } =
+        SymmetricEigen::try_new(scaled, 1e-15, 1000)?;
+    let least = DETERMINED * eigenvalues.max();
+    let inverse = eigenvalues.map(|of| if of > least { 1.0 / of } else { 0.0 });
+    let kept = inverse.iter().filter(|of| **of > 0.0).count();
+    let unit = &eigenvectors * DMatrix::from_diagonal(&inverse) * eigenvectors.transpose();
+    let unit = DMatrix::from_fn(count, count, |i, j| unit[(i, j)] / (scale[i] * scale[j]));
+    let lost = |parameter: usize| -> f64 {
+        let row = eigenvectors.row(parameter);
+        let of = row.iter().zip(inverse.iter()).filter(|(_, inverse)| **inverse == 0.0);
+        of.map(|(element, _)| element * element).sum()
+    };
+    let determined = (0..count).map(|parameter| lost(parameter) < SHARE).collect();
+    Some(Inverse { unit, determined, kept })
 }
 
 impl Estimated {

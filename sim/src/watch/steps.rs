@@ -2,7 +2,9 @@
 //!
 //! Readings of a block, less the model, are averaged over eight bins. At the end of a block a parabola and a step are fitted to the bins of this
 //! block and the one before, at each of twelve times; what the model does not have grows slowly, and is in the parabola. The largest
-//! of twelve ratios z is taken as the normal one that is as rare by Bonferroni's bound, `sqrt(z² - 2 ln 12)`. Where a torque from any of these times on, a
+//! of twelve ratios z is taken as the normal one that is as rare by Bonferroni's bound, `sqrt(z² - 2 ln 12)`. Neighbouring readings are not
+//! independent where the model lacks a mode or a disturbance: the mean of all twelve squares, one of white noise, is learnt over the first blocks, and
+//! ratios are by its root. Where a torque from any of these times on, a
 //! change of slope, is likelier it is no step.
 
 use nalgebra::{Matrix4, Vector4};
@@ -27,17 +29,33 @@ struct Bin {
 }
 
 /// The search in one channel.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct StepSearch {
     bins: [Bin; BINS],
     /// Those of the block before, at times before this block.
     before: Option<[Bin; BINS]>,
+    /// Blocks that the scatter is learnt of, those that were, and the sum of their mean squares.
+    reference: usize,
+    learnt: usize,
+    squares: f64,
 }
 
 impl StepSearch {
-    /// Forgets the block before.
+    /// Whose scatter is learnt of so many blocks; of none it is that of white noise.
+    pub(super) fn new(reference: usize) -> Self {
+        Self { bins: [Bin::default(); BINS], before: None, reference, learnt: 0, squares: 0.0 }
+    }
+
+    /// Forgets the block before, and what there is of this one.
     pub(super) fn forget(&mut self) {
         self.before = None;
+        self.bins = [Bin::default(); BINS];
+    }
+
+    /// Mean square of the ratios of steps at all times by that of white noise, as the reference has it.
+    fn scatter(&self) -> f64 {
+        let told = self.learnt > 0 && self.learnt == self.reference;
+        if told { (self.squares / float(self.learnt)).max(1.0) } else { 1.0 }
     }
 
     /// Takes a reading, less the model's integral since the start of the block, at this share of the block.
@@ -65,7 +83,12 @@ impl StepSearch {
         for (index, bin) in self.bins.iter_mut().enumerate() {
             bin.value -= known(index);
         }
-        let found = self.before.and_then(|before| likeliest(&before, &self.bins, variance));
+        let found = self.before.and_then(|before| likeliest(&before, &self.bins));
+        let scatter = self.scatter();
+        if let (Some(found), true) = (&found, self.learnt < self.reference && variance > 0.0) {
+            self.learnt += 1;
+            self.squares += found.mean / variance;
+        }
         let moved = self.bins.map(|of| Bin {
             count: of.count,
             time: of.time - of.count,
@@ -73,7 +96,7 @@ impl StepSearch {
         });
         self.before = Some(moved);
         self.bins = [Bin::default(); BINS];
-        found
+        found.map(|found| found.step(variance * scatter))
     }
 }
 
@@ -127,7 +150,27 @@ fn better(one: Option<Fitted>, other: Option<Fitted>) -> Option<Fitted> {
     }
 }
 
-fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[f64; 2]> {
+/// The likeliest step of two blocks.
+struct Likeliest {
+    /// Squares by the variance of its size, of white noise of the readings with a variance of one: of the likeliest, and the mean over all times.
+    gain: f64,
+    mean: f64,
+    size: f64,
+    /// Weighted squares of what is left by a step, and by a change of slope; none in the last bin, of which the next block tells.
+    left: Option<[f64; 2]>,
+}
+
+impl Likeliest {
+    /// Its size and variance, of readings with this variance.
+    fn step(&self, variance: f64) -> [f64; 2] {
+        let is_step = self.left.is_some_and(|[step, slope]| step + variance < slope);
+        let square = self.gain / variance - TRIED;
+        let ratio = if is_step && square > NONE * NONE { square.sqrt() } else { NONE };
+        [self.size, (self.size / ratio).powi(2)]
+    }
+}
+
+fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS]) -> Option<Likeliest> {
     let mut all: Vec<Bin> = before.iter().chain(now).copied().collect();
     if all.iter().any(|of| of.count == 0.0) {
         return None;
@@ -139,11 +182,13 @@ fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[
         bin.value -= mean * bin.count;
     }
     let (mut best, mut slope): (Option<(f64, usize, f64)>, Option<Fitted>) = (None, None);
+    let (mut squares, mut tried) = (0.0, 0.0);
     for split in BINS / 2..2 * BINS {
         let start = float(split) / float(BINS) - 1.0;
         slope = better(slope, fit(&all, split, None, |time| time - start));
         let Some(Fitted { change, square, .. }) = fit(&all, split, None, |_| 1.0) else { continue };
         let gain = change * change / square;
+        (squares, tried) = (squares + gain, tried + 1.0);
         if best.is_none_or(|(most, ..)| gain > most) {
             best = Some((gain, split, change));
         }
@@ -152,12 +197,8 @@ fn likeliest(before: &[Bin; BINS], now: &[Bin; BINS], variance: f64) -> Option<[
     // It is in the middle of a bin, the one before or after: without that bin, whose value is one more parameter, its size is the step's.
     let step = |middle: usize| fit(&all, middle, Some(middle), |_| 1.0);
     let step = better(step(split - 1), step(split));
-    // The next block tells of a step in the last bin.
-    let is_step = split + 1 < 2 * BINS
-        && step.as_ref().zip(slope).is_some_and(|(step, slope)| step.left + variance < slope.left);
-    let square = gain / variance - TRIED;
-    let ratio = if is_step && square > NONE * NONE { square.sqrt() } else { NONE };
+    let inside = split + 1 < 2 * BINS;
+    let left = step.as_ref().zip(slope).filter(|_| inside).map(|(a, b)| [a.left, b.left]);
     let size = step.map_or(change, |of| of.change);
-    let deviation = size.abs() / ratio;
-    Some([size, deviation * deviation])
+    Some(Likeliest { gain, mean: squares / tried, size, left })
 }

@@ -204,7 +204,7 @@ fn a_torque_constant_is_told_from_drag() {
 fn steps_within_blocks_are_found_and_slopes_are_not() {
     const READINGS: u32 = 96;
     let mut draws = Draws::new(5);
-    let mut search = StepSearch::default();
+    let mut search = StepSearch::new(0);
     let mut block = |search: &mut StepSearch, of: &dyn Fn(f64) -> f64| {
         for k in 0..READINGS {
             let share = (f64::from(k) + 0.5) / f64::from(READINGS);

@@ -1,5 +1,7 @@
 //! Telemetry that is watched: imbalance of each wheel from the body rates of a run, drag, alarms with their sizes, none without a change, gaps.
 
+mod gimbals;
+
 use std::ops::ControlFlow;
 use std::path::Path;
 

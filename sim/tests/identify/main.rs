@@ -2,6 +2,7 @@
 //! manoeuvre would, bad data.
 
 mod agreement;
+mod bus_truth;
 mod designed;
 mod recovered;
 mod richer;
