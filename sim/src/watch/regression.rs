@@ -187,3 +187,49 @@ impl Estimated {
         Some(([square.sqrt(), along], Some([libm::atan2(im, re), across / square])))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two sensors of different noise, each with a start of its own and one slope in common, the estimate is that of weighted least squares.
+    #[test]
+    fn what_another_sensor_says_counts_by_its_noise() {
+        let (mut first, mut second) = (Regression::new(2), Regression::new(2));
+        for k in 0..20_u32 {
+            let (time, sign) = (f64::from(k), if k % 2 == 0 { 1.0 } else { -1.0 });
+            first.add(&[1.0, time], 3.0 + 0.5 * time + 0.1 * sign);
+            second.add(&[1.0, time], -7.0 + 0.51 * time + 0.001 * sign);
+        }
+        let [alone, other] = [&first, &second].map(|of| of.solve().expect("estimates"));
+        let reduced = second.reduced(1, 1).expect("a slope");
+        let both = first.solve_with(&[reduced]).expect("estimates");
+        let [(a, b), (_, d), (_, f)] = [&alone, &other, &both].map(|of| {
+            let [value, variance] = of.of(1).expect("a slope");
+            (value, variance)
+        });
+        let slope = other.of(1).expect("a slope")[0];
+        let expected = (a / b + slope / d) / (1.0 / b + 1.0 / d);
+        let found = both.of(1).expect("a slope")[0];
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        assert!((f * (1.0 / b + 1.0 / d) - 1.0).abs() < 1e-9, "{f}");
+        // The first one's start is that of its readings with this slope: 3 and half a tenth's mean, less 9.5 times what the slope differs by.
+        let start = both.of(0).expect("a start")[0];
+        let own = alone.of(0).expect("a start")[0];
+        assert!((start - (own - 9.5 * (found - a))).abs() < 1e-9, "{start}");
+    }
+
+    /// Of few observations the first parameters are estimated, and the others are not.
+    #[test]
+    fn the_leading_parameters_are_those_of_a_smaller_regression() {
+        let (mut all, mut few) = (Regression::new(3), Regression::new(1));
+        for k in 0..4_u32 {
+            all.add(&[1.0, f64::from(k), f64::from(k * k)], 2.0 + f64::from(k % 2));
+            few.add(&[1.0], 2.0 + f64::from(k % 2));
+        }
+        assert!(all.solve().is_none());
+        let [leading, few] = [all.leading(1).solve(), few.solve()].map(|of| of.expect("a mean"));
+        assert_eq!(leading.of(0), few.of(0));
+        assert_eq!(few.of(0).map(|[mean, _]| mean), Some(2.5));
+    }
+}

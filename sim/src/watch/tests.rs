@@ -236,3 +236,36 @@ fn steps_within_blocks_are_found_and_slopes_are_not() {
         search.forget();
     }
 }
+
+/// Readings with a mode that is little damped: twelve steps are tried beside a parabola, and ratios are by the scatter that the first blocks have. By
+/// that of white noise more of them are large than of normal numbers.
+#[test]
+fn the_scatter_of_steps_is_learnt() {
+    const READINGS: u32 = 96;
+    const REFERENCE: u32 = 300;
+    const BLOCKS: u32 = 10_000;
+    // 3.2 Hz in blocks of 2 s, 0.5 % of critical damping; twice as large as the noise beside it. The variance of an autoregression of order two.
+    let turn = std::f64::consts::TAU * 3.2 * 2.0 / f64::from(READINGS);
+    let decay = libm::exp(-0.005 * turn);
+    let [first, second] = [2.0 * decay * libm::cos(turn), -decay * decay];
+    let variance =
+        (1.0 - second) / ((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first));
+    let drive = 2.0 / variance.sqrt();
+    let mut counts = Vec::new();
+    for reference in [0, REFERENCE] {
+        let mut draws = Draws::new(8);
+        let mut search = StepSearch::new(reference as usize);
+        let (mut mode, mut before, mut above) = (0.0, 0.0, 0);
+        for block in 0..REFERENCE + BLOCKS {
+            for k in 0..READINGS {
+                (mode, before) = (first * mode + second * before + drive * draws.draw(), mode);
+                search.read((f64::from(k) + 0.5) / f64::from(READINGS), mode + draws.draw());
+            }
+            let Some([value, variance]) = search.end(1.0, 0.0) else { continue };
+            above += u32::from(block >= REFERENCE && value * value > 2.807 * 2.807 * variance);
+        }
+        counts.push(above);
+    }
+    println!("of {BLOCKS} blocks {counts:?} above 2.807 deviations: normal 50");
+    assert!(counts[0] > 100 && counts[1] < 50, "{counts:?}");
+}
