@@ -58,8 +58,10 @@ fn the_imbalance_of_a_wheel_in_free_gimbals_is_that_of_the_run() {
     let scenario = from_toml("gyro", GYRO, Path::new("")).expect("accepted").0;
     let record = watched(&scenario, columns(&scenario));
     assert_eq!(record.remarks, &[] as &[String]);
-    assert_eq!(record.blocks.len(), 4);
-    for (name, expected) in [("static imbalance of cmg", 1e-5), ("dynamic imbalance of cmg", 1e-6)]
+    assert_eq!(record.blocks.len(), 5);
+    // Gimbals that nothing holds follow the moment of the dynamic imbalance, and rates between readings are those of the reading before.
+    for (name, expected, most) in
+        [("static imbalance of cmg", 1e-5, 1e-3), ("dynamic imbalance of cmg", 1e-6, 0.1)]
     {
         let place = record.quantities.iter().position(|of| of.name == name).expect("a quantity");
         for block in &record.blocks {
@@ -69,7 +71,7 @@ fn the_imbalance_of_a_wheel_in_free_gimbals_is_that_of_the_run() {
                 found / expected,
                 variance.sqrt() / expected
             );
-            assert!((found / expected - 1.0).abs() < 0.05, "{name}: {found:e}");
+            assert!((found / expected - 1.0).abs() < most, "{name}: {found:e}");
         }
     }
 }
