@@ -267,5 +267,6 @@ fn the_scatter_of_steps_is_learnt() {
         counts.push(above);
     }
     println!("of {BLOCKS} blocks {counts:?} above 2.807 deviations: normal 50");
-    assert!(counts[0] > 100 && counts[1] < 50, "{counts:?}");
+    // One scatter for all twelve times, of a mode whose amplitude hardly changes in some blocks: more than of normal numbers, but few.
+    assert!(counts[0] > 1000 && 20 * counts[1] < counts[0], "{counts:?}");
 }
