@@ -57,20 +57,20 @@ def test_without_a_change_there_is_no_alarm_and_every_quantity_has_its_series(
 ) -> None:
     found = precess.watch(bus, data=data, **LENGTHS)
     assert found.alarms == () and found.remarks == ()
-    assert len(found.start) == len(found.end) == 49
+    assert len(found.start) == len(found.end) == 50
     np.testing.assert_allclose(found.end - found.start, 1.0, atol=0.02)
     for wheel, u_s in (("rw1", 1.5e-6), ("rw4", 1.5e-6)):
         series = found.series[f"static imbalance of {wheel}"]
-        assert series.unit == "kg m" and series.values.shape == (49,)
+        assert series.unit == "kg m" and series.values.shape == (50,)
         ratios = (series.values - u_s) / series.deviations
-        # A mean of 49 amplitudes: their own noise raises it, and the rigid model is exact.
+        # A mean of 50 amplitudes: their own noise raises it, and the rigid model is exact.
         assert abs(np.mean(ratios)) < 1.0, wheel
     drag = found.series["drag torque of rw2"]
     assert drag.reference is not None and abs(drag.reference) < 1e-4
     assert drag.scatter is not None and drag.scatter >= 1.0
     # In the series of drag, by the time the block tells it.
     assert found.series["torque constant of rw1"].reference is None
-    assert "49 blocks" in repr(found) and "0 alarms" in repr(found)
+    assert "50 blocks" in repr(found) and "0 alarms" in repr(found)
 
 
 def test_a_weaker_motor_and_a_gyro_step_are_found(bus: precess.Scenario, data: Data) -> None:
@@ -103,7 +103,7 @@ def test_files_and_frames_give_the_same(
         for name, series in found.series.items():
             np.testing.assert_array_equal(series.values, other.series[name].values)
     rows = found.to_pandas()
-    assert rows.index.name == "start" and len(rows) == 49
+    assert rows.index.name == "start" and len(rows) == 50
     assert list(rows.columns[:3]) == ["end", "static imbalance of rw1", "static imbalance of rw1, deviation"]
     assert list(found.alarms_to_pandas().columns[:3]) == ["name", "unit", "time"]
 
