@@ -10,10 +10,10 @@ from recordings import SCENARIOS, ran, recorded
 # Name, step in s, samples per second, duration in s, other settings: of what the engine runs. Requirements are judged within
 # the duration.
 OF_ENGINE = (
-    ("wheels-on-isolator", "5e-4", 1000.0, 2.0, ()),
-    ("gyro-pyramid-slew", "2e-3", 50.0, 10.0, ('requirement."pointing in the dwell".from=1 s',)),
+    ("wheels-on-isolator", "5e-4", 1000.0, 0.5, ()),
+    ("gyro-pyramid-slew", "2e-3", 50.0, 3.0, ('requirement."pointing in the dwell".from=1 s',)),
     ("imaging-satellite-flexible", "1e-4", 2000.0, 0.2, ("requirement.jitter.from=50 ms", "requirement.jitter.to=200 ms")),
-    ("flexible-slew", "2e-3", 50.0, 10.0, ('requirement."pointing in the dwell".from=1 s',)),
+    ("flexible-slew", "2e-3", 50.0, 3.0, ('requirement."pointing in the dwell".from=1 s',)),
 )
 
 

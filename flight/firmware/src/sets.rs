@@ -1,11 +1,13 @@
-//! The sets of devices that are run: each kind by itself, several of a kind, several kinds
-//! together.
+//! The sets of devices that are run: every kind, in two sets of several kinds; four gyros of one kind; a platform.
+//!
+//! A set of its own for each kind would have the same kernels, and the solver compiled three times as often.
 
 use core::array::from_fn;
 
 use precess_dynamics::{
-    BalancedVscmg, Dgvscmg, FixedSet, HingedPanel, Isolated, ReactionWheel, Scalar, Sgcmg,
-    SloshMass,
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
+    Dgvscmg, FixedSet, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Isolated, ReactionWheel,
+    Scalar, Sgcmg, SloshMass, Vscmg,
 };
 
 use crate::devices::{RandomDevice, isolated};
@@ -28,13 +30,25 @@ pub trait EachSet<T: Scalar> {
     ) -> Result<(), Self::Error>;
 }
 
-/// Kinds together, some of them twice, arrays and tuples nested.
-pub type Mixed<T> = (
-    [ReactionWheel<T>; 2],
+/// Every kind with a gimbal, one of them twice, arrays and tuples nested.
+pub type Gyros<T> = (
+    (Dgvscmg<T>, BalancedDgvscmg<T>),
+    Dgcmg<T>,
+    BalancedDgcmg<T>,
+    [Vscmg<T>; 2],
+    BalancedVscmg<T>,
     Sgcmg<T>,
-    (Dgvscmg<T>, BalancedVscmg<T>),
+    BalancedSgcmg<T>,
+);
+
+/// Every other kind, wheels on bearings and panels twice.
+pub type WheelsAndAppendages<T> = (
+    ReactionWheel<T>,
+    BalancedReactionWheel<T>,
     [HingedPanel<T>; 2],
     SloshMass<T>,
+    [FlexibleReactionWheel<T>; 2],
+    FlexibleVscmg<T>,
 );
 
 /// A platform with wheels and a gyro, beside a device on the hub.
@@ -45,28 +59,32 @@ pub type WithPlatform<T> = (Isolated<([ReactionWheel<T>; 2], Sgcmg<T>)>, Dgvscmg
 /// # Errors
 /// The first of the visitor.
 pub fn each_set<T: Scalar, V: EachSet<T>>(visitor: &mut V) -> Result<(), V::Error> {
-    macro_rules! each {
-        ($($kind:ident $module:ident $number:literal;)*) => {
-            $(single::<precess_dynamics::$kind<T>, V>(visitor)?;)*
-        };
-    }
-    precess_dynamics::every_kind!(each);
     visitor.visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] {
         from_fn(|_| RandomDevice::drawn(random))
     })?;
-    visitor.visit("mixed", 7, mixed::<T>)?;
+    visitor.visit("gyros", 9, gyros::<T>)?;
+    visitor.visit("wheels_and_appendages", 8, wheels_and_appendages::<T>)?;
     visitor.visit("isolated", 5, with_platform::<T>)
 }
 
-fn single<K: RandomDevice, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
-    visitor.visit(K::NAME, 1, |random| [K::drawn(random)])
-}
-
-fn mixed<T: Scalar>(random: &mut Random) -> Mixed<T> {
+fn gyros<T: Scalar>(random: &mut Random) -> Gyros<T> {
     (
+        (RandomDevice::drawn(random), RandomDevice::drawn(random)),
+        RandomDevice::drawn(random),
+        RandomDevice::drawn(random),
         from_fn(|_| RandomDevice::drawn(random)),
         RandomDevice::drawn(random),
-        (RandomDevice::drawn(random), RandomDevice::drawn(random)),
+        RandomDevice::drawn(random),
+        RandomDevice::drawn(random),
+    )
+}
+
+fn wheels_and_appendages<T: Scalar>(random: &mut Random) -> WheelsAndAppendages<T> {
+    (
+        RandomDevice::drawn(random),
+        RandomDevice::drawn(random),
+        from_fn(|_| RandomDevice::drawn(random)),
+        RandomDevice::drawn(random),
         from_fn(|_| RandomDevice::drawn(random)),
         RandomDevice::drawn(random),
     )

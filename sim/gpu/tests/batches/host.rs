@@ -19,14 +19,21 @@ pub(crate) struct HostDevice {
     pub(crate) threads: usize,
 }
 
-/// The sources of a set, as `precess-bake` writes them.
+/// The sources of a set, as `precess-bake` writes them; derived once.
 #[expect(clippy::unnecessary_wraps, reason = "as batches take it")]
 pub(crate) fn sources(kinds: &[BuiltInKind]) -> Result<Sources, GpuError> {
+    static DERIVED: Mutex<Vec<(Vec<BuiltInKind>, Sources)>> = Mutex::new(Vec::new());
+    let mut derived = DERIVED.lock().expect("no test fails here");
+    if let Some((_, sources)) = derived.iter().find(|(of, _)| of == kinds) {
+        return Ok(sources.clone());
+    }
     let description = Sources::description(kinds);
     let files = solver(&description).expect("a solver").into_iter();
     let files = files.chain(batch(&description).expect("kernels"));
     let file = |file: EmittedFile| SourceFile { path: file.path, text: file.text };
-    Ok(Sources { name: description.name, files: files.map(file).collect() })
+    let sources = Sources { name: description.name, files: files.map(file).collect() };
+    derived.push((kinds.to_vec(), sources.clone()));
+    Ok(sources)
 }
 
 /// The library of a set, compiled once: the processor's precision does not depend on optimisation.
