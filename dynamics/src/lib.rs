@@ -133,6 +133,7 @@ pub use numbers::dual::Dual;
 pub use numbers::each::{Each, JointStates, Value};
 pub use numbers::real::{Angle, Real, Scalar};
 pub use results::contributions::{DeviceContributions, JointGains};
+pub use results::joint_by_joint::JointReading;
 pub use results::ledger::{Ledger, Power};
 pub use results::loads::{LoadAxes, Loads};
 pub use results::momentum::{About, CentreOfMass, EnergyAndMomentum, Momentum};

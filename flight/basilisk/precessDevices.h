@@ -38,6 +38,12 @@ struct PrecessJoint {
     double coordinate; /* rad or m */
     double rate;       /* rad/s or m/s */
     double given;      /* motor torque, N m or N, or prescribed acceleration, rad/s^2 or m/s^2 */
+
+    bool operator==(const PrecessJoint &other) const
+    {
+        return this->device == other.device && this->joint == other.joint && this->mode == other.mode &&
+               this->coordinate == other.coordinate && this->rate == other.rate && this->given == other.given;
+    }
 };
 
 /* Devices, their joints, and what they contribute. */

@@ -79,6 +79,7 @@ void PrecessStateEffector::readTable(const std::string &path)
                                  made->joints.size(), MAX_EFF_CNT);
     }
     this->table = made;
+    this->jointsOfFound.clear();
 }
 
 size_t PrecessStateEffector::indexOf(unsigned int device, unsigned int joint, const char *what) const
@@ -204,11 +205,18 @@ void PrecessStateEffector::copyJoints()
     }
 }
 
+/* Not again where nothing has changed: the end of a step is the start of the next one. */
 void PrecessStateEffector::evaluate(const Eigen::Vector3d &omega_BN_B)
 {
     this->copyJoints();
+    const std::vector<PrecessJoint> &joints = this->devices().joints;
+    if (omega_BN_B == this->omegaOfFound && joints == this->jointsOfFound) {
+        return;
+    }
+    this->jointsOfFound.clear();
     this->checked([&] { this->devices().contributions(omega_BN_B.data(), this->found); });
     this->omegaOfFound = omega_BN_B;
+    this->jointsOfFound = joints;
 }
 
 /* Basilisk calls this first in each evaluation, and once before states are linked. */
@@ -276,10 +284,11 @@ void PrecessStateEffector::updateEnergyMomContributions(double, Eigen::Vector3d 
 void PrecessStateEffector::modifyStates(double)
 {
     const auto count = static_cast<Eigen::Index>(this->devices().joints.size());
-    Eigen::MatrixXd at = this->jointsState->getStateReference();
-    if (at.topRows(count).cwiseAbs().maxCoeff() < LARGEST_ANGLE) {
+    const Eigen::MatrixXd &now = this->jointsState->getStateReference();
+    if (now.topRows(count).cwiseAbs().maxCoeff() < LARGEST_ANGLE) {
         return;
     }
+    Eigen::MatrixXd at = now;
     this->copyJoints();
     this->checked([&] { this->devices().wrap(); });
     double *to = at.data();

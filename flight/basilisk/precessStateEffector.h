@@ -90,7 +90,9 @@ private:
 
     std::shared_ptr<PrecessDevices> table;
     PrecessContributions found{};
+    /* What it was evaluated at; no joints before it is. */
     Eigen::Vector3d omegaOfFound = Eigen::Vector3d::Zero();
+    std::vector<PrecessJoint> jointsOfFound;
     Eigen::Vector3d gravity_B = Eigen::Vector3d::Zero();
     Eigen::MatrixXd derivative;
     /* One state: Basilisk's integrator looks each up by its name. */

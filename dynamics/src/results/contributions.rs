@@ -11,12 +11,13 @@ use crate::equations::system::Solution;
 use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Columns, components, finite, vector, zeros};
+use crate::numbers::vec3::{Columns, Vec3, add, components, scale, vector, zeros};
 use crate::results::momentum::first_moments;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::diagnosis::overflow;
 use crate::solve::elimination::back_substitute;
+use crate::solve::finite::all_finite;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -52,7 +53,7 @@ pub struct DeviceContributions<T = f64> {
 
 /// What [`Spacecraft::joint_accelerations`] needs of an elimination: each joint's acceleration is linear in the hub's.
 #[derive(Clone, Debug)]
-pub struct JointGains<D: Devices>(D::Per<data::Gains>);
+pub struct JointGains<D: Devices>(pub(crate) D::Per<data::Gains>);
 
 impl<D: Devices> Spacecraft<D> {
     /// What the devices contribute to the equations of the hub, their joints eliminated: motors, springs, friction and
@@ -135,9 +136,17 @@ impl<D: Devices> Spacecraft<D> {
         let mut assembly = Assembly::new(&self.shares, zeros(), zeros());
         let (given, by) = (inputs.of_joints(), self.arithmetic);
         self.eliminate_devices(by, state, given, &environment, &mut assembly, gains)?;
-        let (body, system) = (assembly.body(), assembly.system(omega));
         let [_, prime] = first_moments::<D>(&self.devices, &state.devices);
-        let found = DeviceContributions {
+        let found = DeviceContributions::new(&assembly, omega, prime);
+        if found.is_finite() { Ok(found) } else { Err(overflow()) }
+    }
+}
+
+impl<T: Scalar> DeviceContributions<T> {
+    /// Of devices whose joints are eliminated, on a hub that turns at `omega`, with the derivative of their first moment.
+    pub(crate) fn new(assembly: &Assembly<T>, omega: Vec3<T>, prime: Vec3<T>) -> Self {
+        let (body, system) = (assembly.body(), assembly.system(omega));
+        Self {
             m_vv: symmetric(&system.m_vv),
             m_vw: matrix(&system.m_vw),
             m_ww: symmetric(&system.m_ww),
@@ -147,17 +156,21 @@ impl<D: Devices> Spacecraft<D> {
             first_moment: vector(body.first_moment),
             first_moment_prime: vector(prime),
             inertia: symmetric(&body.i_b_b),
-        };
-        if found.is_finite() { Ok(found) } else { Err(overflow()) }
+        }
     }
-}
 
-impl<T: Scalar> DeviceContributions<T> {
-    fn is_finite(&self) -> bool {
-        let vectors = [self.h_v, self.h_w, self.first_moment, self.first_moment_prime];
-        let matrices = [self.m_vv, self.m_vw, self.m_ww, self.inertia];
-        vectors.iter().map(components).all(finite)
-            && matrices.iter().flat_map(Matrix3::iter).copied().all(Scalar::is_finite)
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { m_vv, m_vw, m_ww, h_v, h_w, mass: _, first_moment, first_moment_prime, inertia } =
+            self;
+        // By one comparison: a number times zero is zero unless it is infinite or NaN.
+        let mut vanishing = zeros();
+        for matrix in [m_vv, m_vw, m_ww, inertia] {
+            for column in matrix.column_iter() {
+                vanishing = add(vanishing, scale(zero(), components(&column.into())));
+            }
+        }
+        let [x, y, z] = vanishing;
+        all_finite([h_v, h_w, first_moment, first_moment_prime]) && x + y + z == zero()
     }
 }
 

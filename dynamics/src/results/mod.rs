@@ -5,6 +5,7 @@
 
 pub(crate) mod carried_loads;
 pub(crate) mod contributions;
+pub(crate) mod joint_by_joint;
 pub(crate) mod ledger;
 pub(crate) mod loads;
 pub(crate) mod momentum;

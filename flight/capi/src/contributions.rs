@@ -4,12 +4,15 @@
 //! Gains are in memory that the caller owns, as a spacecraft is.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{DeviceContributions, Devices, Each, Inputs, JointGains, State};
+use precess_dynamics::{
+    Attitude as _, DeviceContributions, Devices, Each, Inputs, JointGains, JointReading, Mode,
+    Quaternion, State,
+};
 
 use crate::craft::{Craft, StoredSpacecraft, made_by};
 use crate::error::{Code, Fault, Rejection};
 use crate::evaluate::{take_state_and_inputs, with};
-use crate::memory::{self, OutputPointer};
+use crate::memory::{self, OutputPointer, refer};
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give};
 
@@ -131,10 +134,20 @@ where
         // SAFETY: by contract.
         let (linear, angular) = unsafe { (memory::vector(linear)?, memory::vector(angular)?) };
         let (a, omega_dot) = (Vector3::from(linear), Vector3::from(angular));
-        let found = craft.spacecraft.joint_accelerations(&gains.of, &a, &omega_dot)?;
         let joint = [[0.0; J]; crate::MAX_DEVICES];
         let mut to = types::Accelerations { linear, angular, joint };
-        give(&mut to.joint, found.values(), &craft.entry_map, |acceleration| acceleration);
+        let mut joints = craft.entry_map.joints();
+        let written = craft.spacecraft.write_joint_accelerations(&gains.of, &a, &omega_dot, |of| {
+            let place = joints.next();
+            let place = place.and_then(|[entry, joint]| to.joint.get_mut(entry)?.get_mut(joint));
+            if let Some(place) = place {
+                *place = of;
+            }
+        });
+        if !written {
+            let found = craft.spacecraft.joint_accelerations(&gains.of, &a, &omega_dot)?;
+            give(&mut to.joint, found.values(), &craft.entry_map, |acceleration| acceleration);
+        }
         out.write(to);
         Ok(())
     };
@@ -144,10 +157,76 @@ where
 
 /// What the devices contribute; the gains are large, so that a result of them would be copied.
 ///
+/// Joint by joint from the caller's structures. What that does not have, wrenches on bodies among it, and whatever is rejected
+/// is evaluated from a state and inputs of the set, which name the cause.
+///
 /// # Safety
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
 unsafe fn eliminated<const J: usize>(
+    craft: &StoredSpacecraft<SetOf<J>>,
+    state: *const types::State<J>,
+    inputs: *const types::Inputs<J>,
+    gains: &mut JointGains<SetOf<J>>,
+) -> Result<DeviceContributions, Rejection>
+where
+    Versions: Interface<J>,
+{
+    // SAFETY: by contract.
+    let (from, given) = unsafe { (refer(state)?, refer(inputs)?) };
+    if is_usual(from, given) {
+        let omega = Vector3::from(from.omega);
+        let mut joints = craft.entry_map.joints();
+        let mut read = core::iter::from_fn(|| {
+            let [entry, joint] = joints.next()?;
+            reading(from, given, entry, joint)
+        });
+        if let Some(found) = craft.spacecraft.eliminate_joints_of(&omega, &mut read, gains) {
+            return Ok(found);
+        }
+        *gains = craft.spacecraft.joint_gains();
+    }
+    // SAFETY: by contract.
+    unsafe { eliminated_from_set(craft, state, inputs, gains) }
+}
+
+/// Whether the elimination has nothing to reject but what is of joints: a free hub, no wrenches on bodies, finite numbers.
+fn is_usual<const J: usize>(state: &types::State<J>, inputs: &types::Inputs<J>) -> bool {
+    let of_hub = [&state.position, &state.velocity, &inputs.force, &inputs.torque];
+    let vanishing: f64 = of_hub.into_iter().flatten().map(|number| 0.0 * number).sum();
+    let [q0, q1, q2, q3] = state.attitude;
+    (inputs.hub_mode, inputs.wrenches) == (0, 0)
+        && (0..=2).contains(&inputs.gravity_model)
+        && vanishing == 0.0
+        && Quaternion { q0, q1, q2, q3 }.is_valid()
+}
+
+/// State and inputs of a joint; none of a mode that there is not.
+fn reading<const J: usize>(
+    state: &types::State<J>,
+    inputs: &types::Inputs<J>,
+    entry: usize,
+    joint: usize,
+) -> Option<JointReading> {
+    let coordinate = *state.coordinate.get(entry)?.get(joint)?;
+    let rate = *state.rate.get(entry)?.get(joint)?;
+    let motor = *inputs.motor.get(entry)?.get(joint)?;
+    let mode = match inputs.mode.get(entry)?.get(joint)? {
+        0 => Mode::Driven,
+        1 => Mode::Prescribed(*inputs.prescribed.get(entry)?.get(joint)?),
+        2 => Mode::Locked,
+        _ => return None,
+    };
+    Some(JointReading { coordinate, rate, motor, mode })
+}
+
+/// From a state and inputs of the set.
+///
+/// # Safety
+///
+/// Both pointers are null, misaligned, or point to readable structures.
+#[inline(never)]
+unsafe fn eliminated_from_set<const J: usize>(
     craft: &StoredSpacecraft<SetOf<J>>,
     state: *const types::State<J>,
     inputs: *const types::Inputs<J>,

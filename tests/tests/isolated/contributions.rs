@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use precess_dynamics::{
-    About, Devices, Each, Gravity, Hub, HubMode, JointStates, Mode, Quantity, SolveError,
-    Spacecraft,
+    About, BuiltIn, Devices, Each, Gravity, Hub, HubMode, JointGains, JointReading, JointStates,
+    Mode, Quantity, ReactionWheel, Sgcmg, SolveError, Spacecraft,
 };
 use precess_tests::cases;
 
@@ -84,6 +84,47 @@ fn equations_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, wha
     }
 }
 
+/// State and inputs of the joints of a case.
+fn readings<D: Devices<Scalar = f64>>(of: &Craft<D>) -> Vec<JointReading> {
+    let inputs = of.inputs.motors.values().zip(of.inputs.modes.values());
+    let joints = of.state.devices.states().zip(inputs);
+    joints
+        .map(|([coordinate, rate], (motor, mode))| JointReading { coordinate, rate, motor, mode })
+        .collect()
+}
+
+fn joint_by_joint_the_bits_are_the_same<D: Devices<Scalar = f64>>(of: &Craft<D>, what: &str) {
+    let Craft { solver, state, inputs, .. } = of;
+    let mut gains = solver.joint_gains();
+    let expected = solver.eliminate_joints(state, inputs, &mut gains).expect("regular");
+    let joints = readings(of);
+    let mut own = solver.joint_gains();
+    let found = solver.eliminate_joints_of(&state.omega, &mut joints.iter().copied(), &mut own);
+    assert_eq!(found, Some(expected), "{what}");
+    let (a, omega_dot) = (Vector3::new(0.3, -0.2, 0.7), Vector3::new(-0.05, 0.02, 0.04));
+    let expected = solver.joint_accelerations(&gains, &a, &omega_dot).expect("regular");
+    let mut found = Vec::new();
+    assert!(solver.write_joint_accelerations(&own, &a, &omega_dot, |of| found.push(of)), "{what}");
+    assert_eq!(found, expected.values().collect::<Vec<_>>(), "{what}");
+    // Whatever is rejected is none: a joint is missing, a number of any of them is not finite.
+    let eliminate = |joints: &[JointReading]| {
+        let mut gains = solver.joint_gains();
+        solver.eliminate_joints_of(&state.omega, &mut joints.iter().copied(), &mut gains)
+    };
+    assert_eq!(eliminate(&joints[1..]), None, "{what}");
+    for joint in 0..joints.len() {
+        let mut changed = joints.clone();
+        changed[joint].rate = f64::NAN;
+        assert_eq!(eliminate(&changed), None, "{what}, rate of joint {joint}");
+        changed.clone_from(&joints);
+        changed[joint].motor = f64::INFINITY;
+        assert_eq!(eliminate(&changed), None, "{what}, motor of joint {joint}");
+    }
+    let hub = Vector3::new(0.0, f64::NAN, 0.0);
+    assert!(!solver.write_joint_accelerations(&own, &a, &hub, |_| ()), "{what}");
+    assert!(!solver.write_joint_accelerations(&solver.joint_gains(), &a, &a, |_| ()), "{what}");
+}
+
 fn mass_properties_are_those_of_the_whole<D: Devices<Scalar = f64>>(of: &Craft<D>, what: &str) {
     let hub = hub();
     let craft = Spacecraft::new(&hub, &of.devices).expect("a spacecraft");
@@ -130,6 +171,42 @@ fn contributions_and_a_hub_are_the_whole_spacecraft() {
             mass_properties_are_those_of_the_whole(&mixed(seed, options), &what);
             mass_properties_are_those_of_the_whole(&stacked(seed, options), &what);
         }
+    }
+}
+
+#[test]
+fn joint_by_joint_an_elimination_has_the_same_bits() {
+    let none = Options::default();
+    let all = [none, Options { springs: true, dry: true, modes: true, ..none }];
+    for (number, options) in all.iter().enumerate() {
+        for seed in 0..cases(SEEDS) {
+            let what = format!("options {number}, seed {seed}");
+            joint_by_joint_the_bits_are_the_same(&cluster(seed, options), &what);
+            joint_by_joint_the_bits_are_the_same(&mixed(seed, options), &what);
+            joint_by_joint_the_bits_are_the_same(&stacked(seed, options), &what);
+            joint_by_joint_the_bits_are_the_same(&rows(seed, options), &what);
+        }
+    }
+}
+
+/// Gains are of the devices that they were made for.
+#[test]
+fn joint_by_joint_gains_of_other_devices_are_rejected() {
+    let spacecraft = |devices: &[Option<BuiltIn>; 2]| Spacecraft::new(&hub(), devices);
+    let wheel: BuiltIn = ReactionWheel::bare_wheel(4.0, Matrix3::identity()).into();
+    let gyro: BuiltIn = Sgcmg::bare_wheel(4.0, Matrix3::identity()).into();
+    let wheels = spacecraft(&[Some(wheel), Some(wheel)]).expect("a spacecraft");
+    let at_rest = JointReading { coordinate: 0.1, rate: 0.0, motor: 0.2, mode: Mode::Driven };
+    let omega = Vector3::new(0.01, 0.02, 0.03);
+    let eliminate = |gains: &mut JointGains<_>| {
+        wheels.eliminate_joints_of(&omega, &mut [at_rest; 2].into_iter(), gains)
+    };
+    assert!(eliminate(&mut wheels.joint_gains()).is_some());
+    for others in [[Some(wheel), Some(gyro)], [Some(wheel), None]] {
+        let others = spacecraft(&others).expect("a spacecraft");
+        assert_eq!(eliminate(&mut others.joint_gains()), None);
+        let gains = others.joint_gains();
+        assert!(!wheels.write_joint_accelerations(&gains, &omega, &omega, |_| ()));
     }
 }
 
