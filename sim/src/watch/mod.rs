@@ -19,6 +19,7 @@
 //! | `regression` | least squares, what a block does not determine |
 //! | `settings` | lengths and the rate of false alarms |
 //! | `steps` | steps within blocks |
+//! | `track` | rates between readings |
 //! | `quantity` | names, units, what looks the same |
 //! | `record` | a whole record, in memory |
 //! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
@@ -36,8 +37,12 @@ mod steps;
 #[cfg(test)]
 mod tests;
 mod thresholds;
+mod track;
+
+use std::collections::VecDeque;
 
 use nalgebra::Vector3;
+use precess_control::GyroOutput;
 
 pub use detector::{Shift, Test};
 pub use error::WatchError;
@@ -54,6 +59,7 @@ use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
 use regression::Reduced;
 use thresholds::Thresholds;
+use track::Track;
 
 /// Onsets that the likelihood ratio is searched over.
 const ONSETS: usize = 60;
@@ -83,9 +89,11 @@ pub struct Watch {
     sensors: Vec<Sensor>,
     /// Sensors that have not read anything yet.
     unseen: Vec<bool>,
+    /// Of each sensor of a rate or an angle, with a place for each sensor.
+    tracks: Vec<Option<Track>>,
+    /// Readings that wait until the tracks reach their time.
+    waiting: VecDeque<Reading>,
     model: WatchedModel,
-    /// Accelerations at what was read last; none where that has changed.
-    present: Option<Accelerations>,
     last: f64,
     start: Option<f64>,
     body: Option<BodyFit>,
@@ -160,11 +168,12 @@ impl Watch {
         }));
         Ok(Self {
             settings: *settings,
-            unseen: vec![true; sensors.len()],
+            unseen: sensors.iter().map(|of| *of != Sensor::StarTracker).collect(),
+            tracks: tracks_of(scenario, &sensors),
+            waiting: VecDeque::new(),
             quantities: quantities_of(all, settings)?,
             sensors,
             model,
-            present: None,
             last: 0.0,
             start: None,
             body,
@@ -198,12 +207,51 @@ impl Watch {
         quantities_of(all.collect(), settings)
     }
 
-    /// Takes a reading; the block that ends before it, where one does.
+    /// Takes a reading; a block that ends, where one does. Readings wait until each sensor of a rate has read twice from their time on,
+    /// a quarter of a block at most.
     ///
     /// # Errors
     ///
     /// A state that the model cannot solve.
     pub fn take(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
+        match self.sensors.get(reading.index) {
+            None | Some(Sensor::StarTracker) => return Ok(None),
+            Some(_) => {}
+        }
+        if let Some(track) = self.tracks.get_mut(reading.index).and_then(Option::as_mut) {
+            track.add(reading.time, reading.value);
+        }
+        self.waiting.push_back(*reading);
+        let longest = GAP * self.settings.block;
+        while let Some(first) = self.waiting.front().copied() {
+            let reached = self.tracks.iter().flatten().all(|of| of.reaches(first.time));
+            if !reached && reading.time - first.time <= longest {
+                break;
+            }
+            self.waiting.pop_front();
+            if let Some(block) = self.process(&first)? {
+                return Ok(Some(block));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Takes the readings that still wait, at the end of the telemetry; a block that ends. There may be one more where it returns one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::take`].
+    pub fn finish(&mut self) -> Result<Option<Block>, WatchError> {
+        while let Some(first) = self.waiting.pop_front() {
+            if let Some(block) = self.process(&first)? {
+                return Ok(Some(block));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Moves on to a reading, and takes it; the block that ends before it, where one does.
+    fn process(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
         let time = reading.time;
         let Some(sensor) = self.sensors.get(reading.index).copied() else { return Ok(None) };
         let mut ended = None;
@@ -214,6 +262,7 @@ impl Watch {
                     body.forget();
                 }
                 self.joints.iter_mut().for_each(JointFit::forget);
+                self.tracks.iter_mut().flatten().for_each(|of| of.forget(time));
                 self.start = None;
             } else {
                 self.advance(time)?;
@@ -229,60 +278,64 @@ impl Watch {
         }
         self.read(sensor, reading);
         if self.start.is_none() && !self.unseen.contains(&true) {
+            self.follow([time, time]);
             self.begin(time)?;
         }
         Ok(ended)
     }
 
-    /// Integrates the model to a time.
+    /// Sets the model's rates and angles to their means over an interval.
+    fn follow(&mut self, interval: [f64; 2]) {
+        for (sensor, track) in self.sensors.iter().zip(&mut self.tracks) {
+            let Some(mean) = track.as_mut().and_then(|of| of.mean(interval)) else { continue };
+            match sensor {
+                Sensor::Gyro => self.model.set_rate(mean),
+                Sensor::Tachometer(joint) => self.model.set_joint_rate(*joint, mean.x),
+                Sensor::Encoder(joint) => self.model.set_coordinate(*joint, mean.x),
+                Sensor::Motor(_) | Sensor::StarTracker => {}
+            }
+        }
+    }
+
+    /// Integrates the model to a time, at the mean rates since the last one: accelerations are linear in these, or nearly.
     fn advance(&mut self, time: f64) -> Result<(), WatchError> {
         let elapsed = time - self.last;
         if elapsed <= 0.0 {
             return Ok(());
         }
-        let present = match self.present.take() {
-            Some(present) => present,
-            None => self.model.mean()?,
-        };
+        self.follow([self.last, time]);
+        let Accelerations { hub, joints } = self.model.mean()?;
         if let Some(body) = &mut self.body {
-            body.advance(elapsed, &present.hub, &self.model);
+            body.advance(elapsed, &hub, &self.model);
         }
         for joint in &mut self.joints {
-            let acceleration = present.joints.get(joint.joint).copied().unwrap_or(0.0);
+            let acceleration = joints.get(joint.joint).copied().unwrap_or(0.0);
             joint.advance(elapsed, acceleration, self.model.motor(joint.joint));
         }
-        self.present = Some(present);
         Ok(())
     }
 
     fn read(&mut self, sensor: Sensor, reading: &Reading) {
         let [first, second, third, _] = reading.value;
         let elapsed = self.start.map(|start| reading.time - start);
-        match sensor {
-            Sensor::Gyro => {
+        match (sensor, elapsed) {
+            (Sensor::Gyro, Some(elapsed)) => {
                 let omega = Vector3::new(first, second, third);
-                if let (Some(body), Some(elapsed)) = (&mut self.body, elapsed) {
-                    body.read(elapsed, &omega, &self.model);
+                let track = self.tracks.get(reading.index).and_then(Option::as_ref);
+                if let (Some(body), Some(track)) = (&mut self.body, track) {
+                    body.read(elapsed, &omega, &self.model, track);
                 }
-                self.model.set_rate(omega);
             }
-            Sensor::Tachometer(joint) => {
-                if let Some(body) = &mut self.body {
-                    body.read_tachometer(joint, first, &self.model);
-                }
-                let own = self.joints.iter_mut().find(|of| of.joint == joint);
-                if let (Some(own), Some(_)) = (own, elapsed) {
+            (Sensor::Tachometer(joint), Some(_)) => {
+                if let Some(own) = self.joints.iter_mut().find(|of| of.joint == joint) {
                     let body = self.body.as_ref().zip(own.rotor());
                     let line = body.map(|(body, rotor)| body.of_joint(joint, rotor, &self.model));
                     own.read(first, &line.unwrap_or_default());
                 }
-                self.model.set_joint_rate(joint, first);
             }
-            Sensor::Encoder(joint) => self.model.set_coordinate(joint, first),
-            Sensor::Motor(joint) => self.model.set_motor(joint, first),
-            Sensor::StarTracker => return,
+            (Sensor::Motor(joint), _) => self.model.set_motor(joint, first),
+            _ => {}
         }
-        self.present = None;
     }
 
     fn begin(&mut self, time: f64) -> Result<(), WatchError> {
@@ -347,6 +400,19 @@ impl Watch {
         let alarms = alarms.collect();
         Block { times, values, signatures, alarms }
     }
+}
+
+/// What follows each sensor of a rate or an angle.
+fn tracks_of(scenario: &Scenario, sensors: &[Sensor]) -> Vec<Option<Track>> {
+    let mut gyros = scenario.controllers.iter().filter_map(|of| of.sensors.gyro.as_ref());
+    let integrates = gyros.any(|of| of.output == GyroOutput::Integrating);
+    let of = |sensor: &Sensor| match sensor {
+        Sensor::Gyro if integrates => Some(track::Kind::Mean),
+        Sensor::Gyro | Sensor::Tachometer(_) => Some(track::Kind::Sample),
+        Sensor::Encoder(_) => Some(track::Kind::Angle),
+        Sensor::Motor(_) | Sensor::StarTracker => None,
+    };
+    sensors.iter().map(|sensor| of(sensor).map(Track::new)).collect()
 }
 
 /// Whether it is as far from zero as to spoil the other estimates of its block.

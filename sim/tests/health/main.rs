@@ -118,6 +118,9 @@ fn watched(
             blocks.extend(watch.take(&Reading { index, time, value }).expect("solved"));
         }
     }
+    while let Some(block) = watch.finish().expect("solved") {
+        blocks.push(block);
+    }
     let names = watch.quantities().map(|(name, _)| name.to_owned()).collect();
     (names, blocks)
 }
