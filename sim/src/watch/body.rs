@@ -133,11 +133,6 @@ impl BodyFit {
         let mut signatures = signatures.into_iter();
         for line in &mut self.lines {
             line.signature = signatures.next().filter(|of| line.turning && of.rate.abs() > SLOWEST);
-            if let (None, Some(signature)) = (line.separate, &line.signature) {
-                let [a, b] = &signature.by_imbalance;
-                let common = a.dotc(b).norm_sqr();
-                line.separate = Some(common < ALIKE * a.norm_squared() * b.norm_squared());
-            }
         }
     }
 
@@ -187,9 +182,7 @@ impl BodyFit {
             };
             let left = (Matrix3::identity() - integrated) * inverse;
             let [first, second] = signature.by_imbalance.map(|of| left * of * factor);
-            if line.separate == Some(true) {
-                (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
-            }
+            (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
             (to[2], to[3]) = (second.map(|of| of.re), second.map(|of| -of.im));
         }
         self.interval = 0.0;
@@ -220,21 +213,16 @@ impl BodyFit {
     /// The line of a rotor in the rate of another joint: by real and imaginary parts of its static and dynamic imbalance. It is what the
     /// imbalance adds to the acceleration at the rates and torques that were measured.
     pub(super) fn of_joint(&self, joint: usize, rotor: usize, model: &WatchedModel) -> [f64; LINE] {
-        let mut numbers = [0.0; LINE];
         let own = self.lines.get(rotor).zip(model.rotors().get(rotor));
-        let Some((line, of)) = own else { return numbers };
+        let Some((line, of)) = own else { return [0.0; LINE] };
         let rate = model.joint_rate(of.joint);
         let (Some(signature), Some(factor)) = (&line.signature, line.turned(rate)) else {
-            return numbers;
+            return [0.0; LINE];
         };
-        let Some(accelerations) = signature.by_joint.get(joint) else { return numbers };
+        let Some(accelerations) = signature.by_joint.get(joint) else { return [0.0; LINE] };
         let [first, second] =
             accelerations.map(|of| of * factor * Complex::new(0.0, -rate.recip()));
-        if line.separate == Some(true) {
-            (numbers[0], numbers[1]) = (first.re, -first.im);
-        }
-        (numbers[2], numbers[3]) = (second.re, -second.im);
-        numbers
+        [first.re, -first.im, second.re, -second.im]
     }
 
     /// Square of a rotor's rate, in the middle of the block, by that in its first one: softer bearings amplify its line as that, to first order.
@@ -247,7 +235,16 @@ impl BodyFit {
 
     /// What the block says, with what gimbals say of lines: of each rotor, and the step of the gyro about each axis.
     pub(super) fn end(&mut self, gimbals: &[Reduced]) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
-        let Some(found) = self.regression.solve_with(gimbals) else {
+        let mut zero = Vec::new();
+        for (index, line) in self.lines.iter_mut().enumerate() {
+            let first = line_of(index);
+            let common = || self.regression.common(first, gimbals);
+            line.separate = line.separate.or_else(|| common().map(|of| of < ALIKE));
+            if line.separate == Some(false) {
+                zero.extend([first, first + 1]);
+            }
+        }
+        let Some(found) = self.regression.solve_with(gimbals, &zero) else {
             self.forget();
             return (Vec::new(), [None; 3]);
         };

@@ -18,8 +18,8 @@
 //! | `body`, `joint` | the block of the gyro, that of a joint |
 //! | `regression` | least squares, what a block does not determine |
 //! | `settings` | lengths and the rate of false alarms |
+//! | `sequence`, `track` | readings in the order of time, rates between them |
 //! | `steps` | steps within blocks |
-//! | `track` | rates between readings |
 //! | `quantity` | names, units, what looks the same |
 //! | `record` | a whole record, in memory |
 //! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
@@ -32,6 +32,7 @@ pub(crate) mod model;
 mod quantity;
 mod record;
 mod regression;
+mod sequence;
 mod settings;
 mod steps;
 #[cfg(test)]
@@ -39,10 +40,7 @@ mod tests;
 mod thresholds;
 mod track;
 
-use std::collections::VecDeque;
-
 use nalgebra::Vector3;
-use precess_control::GyroOutput;
 
 pub use detector::{Shift, Test};
 pub use error::WatchError;
@@ -58,8 +56,8 @@ use joint::{JointFit, JointValues};
 use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
 use regression::Reduced;
+use sequence::Sequence;
 use thresholds::Thresholds;
-use track::Track;
 
 /// Onsets that the likelihood ratio is searched over.
 const ONSETS: usize = 60;
@@ -86,13 +84,9 @@ pub struct Block {
 /// The watch over one record.
 pub struct Watch {
     settings: WatchSettings,
-    sensors: Vec<Sensor>,
     /// Sensors that have not read anything yet.
     unseen: Vec<bool>,
-    /// Of each sensor of a rate or an angle, with a place for each sensor.
-    tracks: Vec<Option<Track>>,
-    /// Readings that wait until the tracks reach their time.
-    waiting: VecDeque<Reading>,
+    sequence: Sequence,
     model: WatchedModel,
     last: f64,
     start: Option<f64>,
@@ -169,10 +163,8 @@ impl Watch {
         Ok(Self {
             settings: *settings,
             unseen: sensors.iter().map(|of| *of != Sensor::StarTracker).collect(),
-            tracks: tracks_of(scenario, &sensors),
-            waiting: VecDeque::new(),
             quantities: quantities_of(all, settings)?,
-            sensors,
+            sequence: Sequence::new(scenario, sensors, GAP * block),
             model,
             last: 0.0,
             start: None,
@@ -207,33 +199,15 @@ impl Watch {
         quantities_of(all.collect(), settings)
     }
 
-    /// Takes a reading; a block that ends, where one does. Readings wait until each sensor of a rate has read twice from their time on,
-    /// a quarter of a block at most.
+    /// Takes a reading; a block that ends, where one does. A reading waits until each sensor of a rate has read twice from its time on,
+    /// or for a quarter of a block.
     ///
     /// # Errors
     ///
     /// A state that the model cannot solve.
     pub fn take(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
-        match self.sensors.get(reading.index) {
-            None | Some(Sensor::StarTracker) => return Ok(None),
-            Some(_) => {}
-        }
-        if let Some(track) = self.tracks.get_mut(reading.index).and_then(Option::as_mut) {
-            track.add(reading.time, reading.value);
-        }
-        self.waiting.push_back(*reading);
-        let longest = GAP * self.settings.block;
-        while let Some(first) = self.waiting.front().copied() {
-            let reached = self.tracks.iter().flatten().all(|of| of.reaches(first.time));
-            if !reached && reading.time - first.time <= longest {
-                break;
-            }
-            self.waiting.pop_front();
-            if let Some(block) = self.process(&first)? {
-                return Ok(Some(block));
-            }
-        }
-        Ok(None)
+        self.sequence.add(reading);
+        self.proceed(false)
     }
 
     /// Takes the readings that still wait, at the end of the telemetry; a block that ends. There may be one more where it returns one.
@@ -242,8 +216,12 @@ impl Watch {
     ///
     /// As [`Self::take`].
     pub fn finish(&mut self) -> Result<Option<Block>, WatchError> {
-        while let Some(first) = self.waiting.pop_front() {
-            if let Some(block) = self.process(&first)? {
+        self.proceed(true)
+    }
+
+    fn proceed(&mut self, ended: bool) -> Result<Option<Block>, WatchError> {
+        while let Some(reading) = self.sequence.next(ended) {
+            if let Some(block) = self.process(&reading)? {
                 return Ok(Some(block));
             }
         }
@@ -253,7 +231,7 @@ impl Watch {
     /// Moves on to a reading, and takes it; the block that ends before it, where one does.
     fn process(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
         let time = reading.time;
-        let Some(sensor) = self.sensors.get(reading.index).copied() else { return Ok(None) };
+        let Some(sensor) = self.sequence.sensor(reading) else { return Ok(None) };
         let mut ended = None;
         if let Some(start) = self.start {
             if time - self.last > GAP * self.settings.block {
@@ -262,7 +240,7 @@ impl Watch {
                     body.forget();
                 }
                 self.joints.iter_mut().for_each(JointFit::forget);
-                self.tracks.iter_mut().flatten().for_each(|of| of.forget(time));
+                self.sequence.forget(time);
                 self.start = None;
             } else {
                 self.advance(time)?;
@@ -278,23 +256,10 @@ impl Watch {
         }
         self.read(sensor, reading);
         if self.start.is_none() && !self.unseen.contains(&true) {
-            self.follow([time, time]);
+            self.sequence.follow([time, time], &mut self.model);
             self.begin(time)?;
         }
         Ok(ended)
-    }
-
-    /// Sets the model's rates and angles to their means over an interval.
-    fn follow(&mut self, interval: [f64; 2]) {
-        for (sensor, track) in self.sensors.iter().zip(&mut self.tracks) {
-            let Some(mean) = track.as_mut().and_then(|of| of.mean(interval)) else { continue };
-            match sensor {
-                Sensor::Gyro => self.model.set_rate(mean),
-                Sensor::Tachometer(joint) => self.model.set_joint_rate(*joint, mean.x),
-                Sensor::Encoder(joint) => self.model.set_coordinate(*joint, mean.x),
-                Sensor::Motor(_) | Sensor::StarTracker => {}
-            }
-        }
     }
 
     /// Integrates the model to a time, at the mean rates since the last one: accelerations are linear in these, or nearly.
@@ -303,7 +268,7 @@ impl Watch {
         if elapsed <= 0.0 {
             return Ok(());
         }
-        self.follow([self.last, time]);
+        self.sequence.follow([self.last, time], &mut self.model);
         let Accelerations { hub, joints } = self.model.mean()?;
         if let Some(body) = &mut self.body {
             body.advance(elapsed, &hub, &self.model);
@@ -321,8 +286,7 @@ impl Watch {
         match (sensor, elapsed) {
             (Sensor::Gyro, Some(elapsed)) => {
                 let omega = Vector3::new(first, second, third);
-                let track = self.tracks.get(reading.index).and_then(Option::as_ref);
-                if let (Some(body), Some(track)) = (&mut self.body, track) {
+                if let (Some(body), Some(track)) = (&mut self.body, self.sequence.track(reading)) {
                     body.read(elapsed, &omega, &self.model, track);
                 }
             }
@@ -400,19 +364,6 @@ impl Watch {
         let alarms = alarms.collect();
         Block { times, values, signatures, alarms }
     }
-}
-
-/// What follows each sensor of a rate or an angle.
-fn tracks_of(scenario: &Scenario, sensors: &[Sensor]) -> Vec<Option<Track>> {
-    let mut gyros = scenario.controllers.iter().filter_map(|of| of.sensors.gyro.as_ref());
-    let integrates = gyros.any(|of| of.output == GyroOutput::Integrating);
-    let of = |sensor: &Sensor| match sensor {
-        Sensor::Gyro if integrates => Some(track::Kind::Mean),
-        Sensor::Gyro | Sensor::Tachometer(_) => Some(track::Kind::Sample),
-        Sensor::Encoder(_) => Some(track::Kind::Angle),
-        Sensor::Motor(_) | Sensor::StarTracker => None,
-    };
-    sensors.iter().map(|sensor| of(sensor).map(Track::new)).collect()
 }
 
 /// Whether it is as far from zero as to spoil the other estimates of its block.

@@ -84,23 +84,48 @@ impl Regression {
         Some(Estimated { values, covariance: unit * noise, noise, determined })
     }
 
-    /// The same with what other sensors say of its last parameters; the noise is that of its own residuals.
-    pub(super) fn solve_with(&self, others: &[Reduced]) -> Option<Estimated> {
-        let own = self.solve()?;
+    /// The same with what other sensors say of its last parameters, some of its parameters being zero; the noise is that of its own residuals.
+    pub(super) fn solve_with(&self, others: &[Reduced], zero: &[usize]) -> Option<Estimated> {
+        let without = |(mut normal, mut moments): (DMatrix<f64>, DVector<f64>)| {
+            for parameter in zero {
+                normal.row_mut(*parameter).fill(0.0);
+                normal.column_mut(*parameter).fill(0.0);
+                moments[*parameter] = 0.0;
+            }
+            (normal, moments)
+        };
+        let (normal, moments) = without((self.normal.clone(), self.moments.clone()));
+        let own = Self { normal, moments, ..*self }.solve()?;
         if others.is_empty() || own.noise <= 0.0 {
             return Some(own);
         }
+        let (normal, moments) = without(self.with(others, own.noise));
+        let Inverse { unit, determined, .. } = inverse(&normal)?;
+        let values = &unit * moments;
+        Some(Estimated { values, covariance: unit * own.noise, noise: own.noise, determined })
+    }
+
+    /// Square of the correlation of two lines, each of a real and an imaginary part, the second after the first, with what other sensors say of
+    /// them: one where no sensor sees a difference. None where one is not seen at all.
+    pub(super) fn common(&self, first: usize, others: &[Reduced]) -> Option<f64> {
+        let noise = self.solve()?.noise;
+        let (normal, _) = self.with(others, noise);
+        let square = |row: usize, column: usize| normal.view((row, column), (2, 2)).norm_squared();
+        let own = square(first, first) * square(first + 2, first + 2);
+        (own > 0.0).then(|| square(first + 2, first) / own.sqrt())
+    }
+
+    /// Normal equations with what other sensors say of the last parameters, where this one's residuals have this noise.
+    fn with(&self, others: &[Reduced], noise: f64) -> (DMatrix<f64>, DVector<f64>) {
         let (mut normal, mut moments) = (self.whole(), self.moments.clone());
         for Reduced { from, information, vector } in others {
             let count = vector.len();
             let mut of = normal.view_mut((*from, *from), (count, count));
-            of += information * own.noise;
+            of += information * noise;
             let mut of = moments.rows_mut(*from, count);
-            of += vector * own.noise;
+            of += vector * noise;
         }
-        let Inverse { unit, determined, .. } = inverse(&normal)?;
-        let values = &unit * moments;
-        Some(Estimated { values, covariance: unit * own.noise, noise: own.noise, determined })
+        (normal, moments)
     }
 
     /// Of the first parameters only, as if the others were zero.
@@ -203,7 +228,7 @@ mod tests {
         }
         let [alone, other] = [&first, &second].map(|of| of.solve().expect("estimates"));
         let reduced = second.reduced(1, 1).expect("a slope");
-        let both = first.solve_with(&[reduced]).expect("estimates");
+        let both = first.solve_with(&[reduced], &[]).expect("estimates");
         let [(a, b), (_, d), (_, f)] = [&alone, &other, &both].map(|of| {
             let [value, variance] = of.of(1).expect("a slope");
             (value, variance)
