@@ -275,7 +275,8 @@ impl Watch {
         }
         for joint in &mut self.joints {
             let acceleration = joints.get(joint.joint).copied().unwrap_or(0.0);
-            joint.advance(elapsed, acceleration, self.model.motor(joint.joint));
+            let [torque, dry] = [self.model.motor(joint.joint), self.model.friction(joint.joint)];
+            joint.advance(elapsed, acceleration, torque, dry);
         }
         Ok(())
     }
@@ -315,7 +316,7 @@ impl Watch {
         Ok(())
     }
 
-    /// What the block says, and what the tests say to that.
+    /// What the block says, and what tests find in that.
     fn end(&mut self, times: [f64; 2]) -> Block {
         let of_joints: Vec<JointValues> = self.joints.iter_mut().map(JointFit::end).collect();
         let gimbals: Vec<Reduced> = of_joints.iter().filter_map(|of| of.line.clone()).collect();
