@@ -244,6 +244,31 @@ mod tests {
         assert!((start - (own - 9.5 * (found - a))).abs() < 1e-9, "{start}");
     }
 
+    /// Two lines that are one in a sensor are told apart by another that has only the second; of the first sensor by itself only that is
+    /// estimated which is not zero.
+    #[test]
+    fn lines_that_one_sensor_confuses_are_told_apart_by_another() {
+        let (mut hub, mut gimbal) = (Regression::new(5), Regression::new(5));
+        for k in 0..40_u32 {
+            let (sine, cosine) = (libm::sin(f64::from(k)), libm::cos(f64::from(k)));
+            let sign = if k % 2 == 0 { 1e-3 } else { -1e-3 };
+            let [a, b, c, d] = [cosine, -sine, 0.5 * cosine, -0.5 * sine];
+            hub.add(&[1.0, a, b, c, d], 7.0 + 2.0 * a + 4.0 * c + sign);
+            gimbal.add(&[1.0, 0.0, 0.0, cosine, -sine], 4.0 * cosine + sign);
+        }
+        let reduced = [gimbal.reduced(1, 1).expect("a line")];
+        let [own, both] =
+            [hub.common(1, &[]), hub.common(1, &reduced)].map(|of| of.expect("lines"));
+        assert!((own - 1.0).abs() < 1e-12 && both < 0.5, "{own} {both}");
+        let found = hub.solve_with(&reduced, &[]).expect("estimates");
+        let [first, second] = [1, 3].map(|of| found.of(of).expect("told")[0]);
+        assert!((first - 2.0).abs() < 1e-3 && (second - 4.0).abs() < 1e-3, "{first} {second}");
+        let alone = hub.solve_with(&[], &[1, 2]).expect("estimates");
+        assert_eq!(alone.of(1), None);
+        let [second, _] = alone.of(3).expect("told");
+        assert!((second - 8.0).abs() < 1e-3, "{second}");
+    }
+
     /// Of few observations the first parameters are estimated, and the others are not.
     #[test]
     fn the_leading_parameters_are_those_of_a_smaller_regression() {
