@@ -128,6 +128,10 @@ impl WatchCommand {
                     found.take(block)?;
                 }
             }
+            while let Some(block) = watch.finish().map_err(|error| other(&error))? {
+                row(&mut table, &block).map_err(io)?;
+                found.take(block)?;
+            }
             Ok(())
         });
         if let Err(error) = done {

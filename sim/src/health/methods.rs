@@ -41,6 +41,9 @@ pub fn examine(
     for reading in &record.readings {
         blocks.extend(watch.take(reading)?);
     }
+    while let Some(block) = watch.finish()? {
+        blocks.push(block);
+    }
     let spectrum = spectrum_baseline::features(&watched, record, block);
     let observer = observer_baseline::features(&watched, record, block)?;
     let mut alarms = Vec::new();

@@ -10,6 +10,7 @@ use precess_dynamics::Angle;
 use super::model::{Signature, WatchedModel};
 use super::regression::{Reduced, Regression};
 use super::steps::{BINS, StepSearch, bin};
+use super::track::Track;
 use crate::scenario::Scenario;
 
 /// Parameters of the block itself: rates at its start and accelerations by torques from outside.
@@ -37,10 +38,9 @@ const FOLDED: f64 = 1e-6;
 struct Line {
     /// Whether its angle is known.
     turning: bool,
-    /// Integral of its tachometer, rad, when that was read last, and the time since then, s.
+    /// Integral of its tachometer, rad.
     angle: f64,
-    since: f64,
-    /// Rate that was read last, rad/s.
+    /// Mean rate since the reading before, rad/s.
     rate: f64,
     signature: Option<Signature>,
     /// Whether static imbalance has a line of its own; known from the first block on.
@@ -78,7 +78,7 @@ impl Line {
     /// What turns a line's acceleration at the start of the block into that at present: none of a rotor that is too slow.
     fn turned(&self, rate: f64) -> Option<Complex<f64>> {
         let signature = self.signature.as_ref().filter(|_| rate.abs() >= SLOWEST)?;
-        let (sine, cosine) = Angle::sin_cos(self.angle + rate * self.since);
+        let (sine, cosine) = Angle::sin_cos(self.angle);
         Some(Complex::new(cosine, sine) * (rate / signature.rate).powi(2))
     }
 }
@@ -99,7 +99,6 @@ impl BodyFit {
         let line = |turning| Line {
             turning,
             angle: 0.0,
-            since: 0.0,
             rate: 0.0,
             signature: None,
             separate: None,
@@ -124,7 +123,6 @@ impl BodyFit {
         self.steps.iter_mut().for_each(StepSearch::forget);
         for line in &mut self.lines {
             line.before = [None; 2];
-            line.since = 0.0;
         }
     }
 
@@ -135,11 +133,6 @@ impl BodyFit {
         let mut signatures = signatures.into_iter();
         for line in &mut self.lines {
             line.signature = signatures.next().filter(|of| line.turning && of.rate.abs() > SLOWEST);
-            if let (None, Some(signature)) = (line.separate, &line.signature) {
-                let [a, b] = &signature.by_imbalance;
-                let common = a.dotc(b).norm_sqr();
-                line.separate = Some(common < ALIKE * a.norm_squared() * b.norm_squared());
-            }
         }
     }
 
@@ -148,24 +141,21 @@ impl BodyFit {
         self.predicted += hub * elapsed;
         self.interval += elapsed;
         for (line, rotor) in self.lines.iter_mut().zip(model.rotors()) {
-            line.since += elapsed;
             line.rate = model.joint_rate(rotor.joint);
-        }
-    }
-
-    /// Takes a reading of a rotor's rate: its angle by the mean of two readings.
-    pub(super) fn read_tachometer(&mut self, joint: usize, rate: f64, model: &WatchedModel) {
-        let own = self.lines.iter_mut().zip(model.rotors()).find(|(_, of)| of.joint == joint);
-        if let Some((line, _)) = own {
-            let angle = line.angle + f64::midpoint(line.rate, rate) * line.since;
+            let angle = line.angle + line.rate * elapsed;
             // No angle grows until its digits are lost.
             line.angle = angle - TAU * (angle / TAU).floor();
-            (line.since, line.rate) = (0.0, rate);
         }
     }
 
-    /// Takes a reading of the gyro, so long after the start.
-    pub(super) fn read(&mut self, elapsed: f64, omega: &Vector3<f64>, model: &WatchedModel) {
+    /// Takes a reading of the gyro, so long after the start, and the readings that it is one of.
+    pub(super) fn read(
+        &mut self,
+        elapsed: f64,
+        omega: &Vector3<f64>,
+        model: &WatchedModel,
+        track: &Track,
+    ) {
         let mut numbers = vec![[Vector3::<f64>::zeros(); LINE]; self.lines.len()];
         for ((to, line), rotor) in numbers.iter_mut().zip(&self.lines).zip(model.rotors()) {
             let rate = model.joint_rate(rotor.joint);
@@ -178,23 +168,21 @@ impl BodyFit {
                 let sinc = if half == 0.0 { 1.0 } else { libm::sin(half) / half };
                 factor *= Complex::new(libm::cos(half), -libm::sin(half)) * sinc;
             }
-            // i Omega x = K x + A. The model is integrated at the readings before, which have the line: of that
-            // integral, T / (exp(i Omega T) - 1) K x, nothing is left.
+            // i Omega x = K x + A. The model is integrated at means between the readings, which have the line: of that
+            // integral, W T / (exp(i Omega T) - 1) K x with the weight W of these means, nothing is left.
             let coupling = signature.coupling.map(|of| Complex::new(of, 0.0));
             let turning = Matrix3::from_diagonal_element(Complex::new(0.0, rate)) - coupling;
             let Some(inverse) = turning.try_inverse() else { continue };
             let (sine, cosine) = Angle::sin_cos(rate * self.interval);
             let step = Complex::new(cosine - 1.0, sine);
             let integrated = if step.norm() > FOLDED {
-                coupling * (Complex::new(self.interval, 0.0) / step)
+                coupling * (track.weight(step + 1.0) * self.interval / step)
             } else {
                 Matrix3::zeros()
             };
             let left = (Matrix3::identity() - integrated) * inverse;
             let [first, second] = signature.by_imbalance.map(|of| left * of * factor);
-            if line.separate == Some(true) {
-                (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
-            }
+            (to[0], to[1]) = (first.map(|of| of.re), first.map(|of| -of.im));
             (to[2], to[3]) = (second.map(|of| of.re), second.map(|of| -of.im));
         }
         self.interval = 0.0;
@@ -225,21 +213,16 @@ impl BodyFit {
     /// The line of a rotor in the rate of another joint: by real and imaginary parts of its static and dynamic imbalance. It is what the
     /// imbalance adds to the acceleration at the rates and torques that were measured.
     pub(super) fn of_joint(&self, joint: usize, rotor: usize, model: &WatchedModel) -> [f64; LINE] {
-        let mut numbers = [0.0; LINE];
         let own = self.lines.get(rotor).zip(model.rotors().get(rotor));
-        let Some((line, of)) = own else { return numbers };
+        let Some((line, of)) = own else { return [0.0; LINE] };
         let rate = model.joint_rate(of.joint);
         let (Some(signature), Some(factor)) = (&line.signature, line.turned(rate)) else {
-            return numbers;
+            return [0.0; LINE];
         };
-        let Some(accelerations) = signature.by_joint.get(joint) else { return numbers };
+        let Some(accelerations) = signature.by_joint.get(joint) else { return [0.0; LINE] };
         let [first, second] =
             accelerations.map(|of| of * factor * Complex::new(0.0, -rate.recip()));
-        if line.separate == Some(true) {
-            (numbers[0], numbers[1]) = (first.re, -first.im);
-        }
-        (numbers[2], numbers[3]) = (second.re, -second.im);
-        numbers
+        [first.re, -first.im, second.re, -second.im]
     }
 
     /// Square of a rotor's rate, in the middle of the block, by that in its first one: softer bearings amplify its line as that, to first order.
@@ -252,7 +235,16 @@ impl BodyFit {
 
     /// What the block says, with what gimbals say of lines: of each rotor, and the step of the gyro about each axis.
     pub(super) fn end(&mut self, gimbals: &[Reduced]) -> (Vec<RotorValues>, [Option<[f64; 2]>; 3]) {
-        let Some(found) = self.regression.solve_with(gimbals) else {
+        let mut zero = Vec::new();
+        for (index, line) in self.lines.iter_mut().enumerate() {
+            let first = line_of(index);
+            let common = || self.regression.common(first, gimbals);
+            line.separate = line.separate.or_else(|| common().map(|of| of < ALIKE));
+            if line.separate == Some(false) {
+                zero.extend([first, first + 1]);
+            }
+        }
+        let Some(found) = self.regression.solve_with(gimbals, &zero) else {
             self.forget();
             return (Vec::new(), [None; 3]);
         };

@@ -21,8 +21,8 @@ pub(super) struct JointFit {
     rotor: Option<usize>,
     /// With the torque constant, and without it.
     regressions: [Regression; 2],
-    /// Integrals since the start of the block: the model's acceleration, rad/s, the motor's torque, N m s, and a torque of 1 N m
-    /// against the motion, N m s.
+    /// Integrals since the start of the block: the model's acceleration, rad/s, the motor's torque, N m s, and dry friction of
+    /// 1 N m, N m s.
     predicted: f64,
     torque: f64,
     opposing: f64,
@@ -105,12 +105,12 @@ impl JointFit {
         self.steps.is_some()
     }
 
-    /// Moves on by a time with this acceleration and torque.
-    pub(super) fn advance(&mut self, elapsed: f64, acceleration: f64, torque: f64) {
+    /// Moves on by a time with this acceleration, torque, and dry friction of 1 N m.
+    pub(super) fn advance(&mut self, elapsed: f64, acceleration: f64, torque: f64, friction: f64) {
         self.predicted += acceleration * elapsed;
         self.torque += torque * elapsed;
         self.elapsed += elapsed;
-        self.opposing -= self.rate.signum() * elapsed;
+        self.opposing += friction * elapsed;
     }
 
     /// Takes a reading of the rate, with the line of the rotor at this time.

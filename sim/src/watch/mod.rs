@@ -18,6 +18,7 @@
 //! | `body`, `joint` | the block of the gyro, that of a joint |
 //! | `regression` | least squares, what a block does not determine |
 //! | `settings` | lengths and the rate of false alarms |
+//! | `sequence`, `track` | readings in the order of time, rates between them |
 //! | `steps` | steps within blocks |
 //! | `quantity` | names, units, what looks the same |
 //! | `record` | a whole record, in memory |
@@ -31,11 +32,13 @@ pub(crate) mod model;
 mod quantity;
 mod record;
 mod regression;
+mod sequence;
 mod settings;
 mod steps;
 #[cfg(test)]
 mod tests;
 mod thresholds;
+mod track;
 
 use nalgebra::Vector3;
 
@@ -53,6 +56,7 @@ use joint::{JointFit, JointValues};
 use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
 use regression::Reduced;
+use sequence::Sequence;
 use thresholds::Thresholds;
 
 /// Onsets that the likelihood ratio is searched over.
@@ -80,12 +84,10 @@ pub struct Block {
 /// The watch over one record.
 pub struct Watch {
     settings: WatchSettings,
-    sensors: Vec<Sensor>,
     /// Sensors that have not read anything yet.
     unseen: Vec<bool>,
+    sequence: Sequence,
     model: WatchedModel,
-    /// Accelerations at what was read last; none where that has changed.
-    present: Option<Accelerations>,
     last: f64,
     start: Option<f64>,
     body: Option<BodyFit>,
@@ -160,11 +162,10 @@ impl Watch {
         }));
         Ok(Self {
             settings: *settings,
-            unseen: vec![true; sensors.len()],
+            unseen: sensors.iter().map(|of| *of != Sensor::StarTracker).collect(),
             quantities: quantities_of(all, settings)?,
-            sensors,
+            sequence: Sequence::new(scenario, sensors, GAP * block),
             model,
-            present: None,
             last: 0.0,
             start: None,
             body,
@@ -198,14 +199,39 @@ impl Watch {
         quantities_of(all.collect(), settings)
     }
 
-    /// Takes a reading; the block that ends before it, where one does.
+    /// Takes a reading; a block that ends, where one does. A reading waits until each sensor of a rate has read twice from its time on,
+    /// or for a quarter of a block.
     ///
     /// # Errors
     ///
     /// A state that the model cannot solve.
     pub fn take(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
+        self.sequence.add(reading);
+        self.proceed(false)
+    }
+
+    /// Takes the readings that still wait, at the end of the telemetry; a block that ends. There may be one more where it returns one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::take`].
+    pub fn finish(&mut self) -> Result<Option<Block>, WatchError> {
+        self.proceed(true)
+    }
+
+    fn proceed(&mut self, ended: bool) -> Result<Option<Block>, WatchError> {
+        while let Some(reading) = self.sequence.next(ended) {
+            if let Some(block) = self.process(&reading)? {
+                return Ok(Some(block));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Moves on to a reading, and takes it; the block that ends before it, where one does.
+    fn process(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
         let time = reading.time;
-        let Some(sensor) = self.sensors.get(reading.index).copied() else { return Ok(None) };
+        let Some(sensor) = self.sequence.sensor(reading) else { return Ok(None) };
         let mut ended = None;
         if let Some(start) = self.start {
             if time - self.last > GAP * self.settings.block {
@@ -214,6 +240,7 @@ impl Watch {
                     body.forget();
                 }
                 self.joints.iter_mut().for_each(JointFit::forget);
+                self.sequence.forget(time);
                 self.start = None;
             } else {
                 self.advance(time)?;
@@ -229,60 +256,51 @@ impl Watch {
         }
         self.read(sensor, reading);
         if self.start.is_none() && !self.unseen.contains(&true) {
+            self.sequence.follow([time, time], &mut self.model);
             self.begin(time)?;
         }
         Ok(ended)
     }
 
-    /// Integrates the model to a time.
+    /// Integrates the model to a time, at the mean rates since the last one: accelerations are linear in these, or nearly.
     fn advance(&mut self, time: f64) -> Result<(), WatchError> {
         let elapsed = time - self.last;
         if elapsed <= 0.0 {
             return Ok(());
         }
-        let present = match self.present.take() {
-            Some(present) => present,
-            None => self.model.mean()?,
-        };
+        self.sequence.follow([self.last, time], &mut self.model);
+        let Accelerations { hub, joints } = self.model.mean()?;
         if let Some(body) = &mut self.body {
-            body.advance(elapsed, &present.hub, &self.model);
+            body.advance(elapsed, &hub, &self.model);
         }
         for joint in &mut self.joints {
-            let acceleration = present.joints.get(joint.joint).copied().unwrap_or(0.0);
-            joint.advance(elapsed, acceleration, self.model.motor(joint.joint));
+            let acceleration = joints.get(joint.joint).copied().unwrap_or(0.0);
+            let [torque, dry] = [self.model.motor(joint.joint), self.model.friction(joint.joint)];
+            joint.advance(elapsed, acceleration, torque, dry);
         }
-        self.present = Some(present);
         Ok(())
     }
 
     fn read(&mut self, sensor: Sensor, reading: &Reading) {
         let [first, second, third, _] = reading.value;
         let elapsed = self.start.map(|start| reading.time - start);
-        match sensor {
-            Sensor::Gyro => {
+        match (sensor, elapsed) {
+            (Sensor::Gyro, Some(elapsed)) => {
                 let omega = Vector3::new(first, second, third);
-                if let (Some(body), Some(elapsed)) = (&mut self.body, elapsed) {
-                    body.read(elapsed, &omega, &self.model);
+                if let (Some(body), Some(track)) = (&mut self.body, self.sequence.track(reading)) {
+                    body.read(elapsed, &omega, &self.model, track);
                 }
-                self.model.set_rate(omega);
             }
-            Sensor::Tachometer(joint) => {
-                if let Some(body) = &mut self.body {
-                    body.read_tachometer(joint, first, &self.model);
-                }
-                let own = self.joints.iter_mut().find(|of| of.joint == joint);
-                if let (Some(own), Some(_)) = (own, elapsed) {
+            (Sensor::Tachometer(joint), Some(_)) => {
+                if let Some(own) = self.joints.iter_mut().find(|of| of.joint == joint) {
                     let body = self.body.as_ref().zip(own.rotor());
                     let line = body.map(|(body, rotor)| body.of_joint(joint, rotor, &self.model));
                     own.read(first, &line.unwrap_or_default());
                 }
-                self.model.set_joint_rate(joint, first);
             }
-            Sensor::Encoder(joint) => self.model.set_coordinate(joint, first),
-            Sensor::Motor(joint) => self.model.set_motor(joint, first),
-            Sensor::StarTracker => return,
+            (Sensor::Motor(joint), _) => self.model.set_motor(joint, first),
+            _ => {}
         }
-        self.present = None;
     }
 
     fn begin(&mut self, time: f64) -> Result<(), WatchError> {
@@ -298,7 +316,7 @@ impl Watch {
         Ok(())
     }
 
-    /// What the block says, and what the tests say to that.
+    /// What the block says, and what tests find in that.
     fn end(&mut self, times: [f64; 2]) -> Block {
         let of_joints: Vec<JointValues> = self.joints.iter_mut().map(JointFit::end).collect();
         let gimbals: Vec<Reduced> = of_joints.iter().filter_map(|of| of.line.clone()).collect();

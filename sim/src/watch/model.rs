@@ -40,6 +40,8 @@ pub(crate) struct WatchedModel {
     rotors: Vec<Rotor>,
     /// Whether each joint is that of a wheel.
     wheels: Vec<bool>,
+    /// Rate of each joint below which its dry friction falls to zero, rad/s.
+    slow: Vec<f64>,
 }
 
 /// Accelerations of hub and joints.
@@ -70,7 +72,10 @@ impl WatchedModel {
             known.then(|| Rotor { name: name.to_owned(), joint })
         });
         let rotors = rotors.collect();
-        Ok(Self { evaluator, state, inputs, rotors, wheels })
+        let passive = scenario.members().flat_map(|(_, member)| member.passive());
+        let slow = passive.map(|of| if of.coulomb == 0.0 { 0.0 } else { of.coulomb_rate });
+        let slow = slow.collect();
+        Ok(Self { evaluator, state, inputs, rotors, wheels, slow })
     }
 
     pub(crate) fn rotors(&self) -> &[Rotor] {
@@ -105,6 +110,13 @@ impl WatchedModel {
 
     pub(crate) fn joint_rate(&self, joint: usize) -> f64 {
         self.state.devices.states().nth(joint).map_or(0.0, |[_, rate]| rate)
+    }
+
+    /// Dry friction of a joint at the present rate where it is 1 N m, with the sense of a torque, N m.
+    pub(super) fn friction(&self, joint: usize) -> f64 {
+        let rate = self.joint_rate(joint);
+        let slow = self.slow.get(joint).copied().unwrap_or(0.0);
+        if rate == 0.0 { 0.0 } else { -rate / libm::hypot(rate, slow) }
     }
 
     pub(super) fn motor(&self, joint: usize) -> f64 {

@@ -44,13 +44,16 @@ pub fn watch(
 ) -> Result<WatchedRecord, WatchError> {
     let mut watch = Watch::new(scenario, rows.sensors(), settings)?;
     let mut blocks = Vec::new();
-    while let Some(reading) = rows.next_reading().map_err(WatchError::Telemetry)? {
-        let Some(block) = watch.take(&reading)? else { continue };
+    let mut keep = |block: Block| {
         let [_, end] = block.times;
         blocks.push(block);
-        if !hear(end) {
-            return Err(WatchError::Interrupted);
-        }
+        if hear(end) { Ok(()) } else { Err(WatchError::Interrupted) }
+    };
+    while let Some(reading) = rows.next_reading().map_err(WatchError::Telemetry)? {
+        watch.take(&reading)?.map_or(Ok(()), &mut keep)?;
+    }
+    while let Some(block) = watch.finish()? {
+        keep(block)?;
     }
     let quantities = watch.quantities().zip(watch.references());
     let quantities = quantities.map(|((name, watched), reference)| RecordQuantity {

@@ -84,23 +84,48 @@ impl Regression {
         Some(Estimated { values, covariance: unit * noise, noise, determined })
     }
 
-    /// The same with what other sensors say of its last parameters; the noise is that of its own residuals.
-    pub(super) fn solve_with(&self, others: &[Reduced]) -> Option<Estimated> {
-        let own = self.solve()?;
+    /// The same with what other sensors say of its last parameters, some of its parameters being zero; the noise is that of its own residuals.
+    pub(super) fn solve_with(&self, others: &[Reduced], zero: &[usize]) -> Option<Estimated> {
+        let without = |(mut normal, mut moments): (DMatrix<f64>, DVector<f64>)| {
+            for parameter in zero {
+                normal.row_mut(*parameter).fill(0.0);
+                normal.column_mut(*parameter).fill(0.0);
+                moments[*parameter] = 0.0;
+            }
+            (normal, moments)
+        };
+        let (normal, moments) = without((self.normal.clone(), self.moments.clone()));
+        let own = Self { normal, moments, ..*self }.solve()?;
         if others.is_empty() || own.noise <= 0.0 {
             return Some(own);
         }
+        let (normal, moments) = without(self.with(others, own.noise));
+        let Inverse { unit, determined, .. } = inverse(&normal)?;
+        let values = &unit * moments;
+        Some(Estimated { values, covariance: unit * own.noise, noise: own.noise, determined })
+    }
+
+    /// Square of the correlation of two lines, each of a real and an imaginary part, the second after the first, with what other sensors say of
+    /// them: one where no sensor sees a difference. None where one is not seen at all.
+    pub(super) fn common(&self, first: usize, others: &[Reduced]) -> Option<f64> {
+        let noise = self.solve()?.noise;
+        let (normal, _) = self.with(others, noise);
+        let square = |row: usize, column: usize| normal.view((row, column), (2, 2)).norm_squared();
+        let own = square(first, first) * square(first + 2, first + 2);
+        (own > 0.0).then(|| square(first + 2, first) / own.sqrt())
+    }
+
+    /// Normal equations with what other sensors say of the last parameters, where this one's residuals have this noise.
+    fn with(&self, others: &[Reduced], noise: f64) -> (DMatrix<f64>, DVector<f64>) {
         let (mut normal, mut moments) = (self.whole(), self.moments.clone());
         for Reduced { from, information, vector } in others {
             let count = vector.len();
             let mut of = normal.view_mut((*from, *from), (count, count));
-            of += information * own.noise;
+            of += information * noise;
             let mut of = moments.rows_mut(*from, count);
-            of += vector * own.noise;
+            of += vector * noise;
         }
-        let Inverse { unit, determined, .. } = inverse(&normal)?;
-        let values = &unit * moments;
-        Some(Estimated { values, covariance: unit * own.noise, noise: own.noise, determined })
+        (normal, moments)
     }
 
     /// Of the first parameters only, as if the others were zero.
@@ -203,7 +228,7 @@ mod tests {
         }
         let [alone, other] = [&first, &second].map(|of| of.solve().expect("estimates"));
         let reduced = second.reduced(1, 1).expect("a slope");
-        let both = first.solve_with(&[reduced]).expect("estimates");
+        let both = first.solve_with(&[reduced], &[]).expect("estimates");
         let [(a, b), (_, d), (_, f)] = [&alone, &other, &both].map(|of| {
             let [value, variance] = of.of(1).expect("a slope");
             (value, variance)
@@ -217,6 +242,31 @@ mod tests {
         let start = both.of(0).expect("a start")[0];
         let own = alone.of(0).expect("a start")[0];
         assert!((start - (own - 9.5 * (found - a))).abs() < 1e-9, "{start}");
+    }
+
+    /// Two lines that are one in a sensor are told apart by another that has only the second; of the first sensor by itself only that is
+    /// estimated which is not zero.
+    #[test]
+    fn lines_that_one_sensor_confuses_are_told_apart_by_another() {
+        let (mut hub, mut gimbal) = (Regression::new(5), Regression::new(5));
+        for k in 0..40_u32 {
+            let (sine, cosine) = (libm::sin(f64::from(k)), libm::cos(f64::from(k)));
+            let sign = if k % 2 == 0 { 1e-3 } else { -1e-3 };
+            let [a, b, c, d] = [cosine, -sine, 0.5 * cosine, -0.5 * sine];
+            hub.add(&[1.0, a, b, c, d], 7.0 + 2.0 * a + 4.0 * c + sign);
+            gimbal.add(&[1.0, 0.0, 0.0, cosine, -sine], 4.0 * cosine + sign);
+        }
+        let reduced = [gimbal.reduced(1, 1).expect("a line")];
+        let [own, both] =
+            [hub.common(1, &[]), hub.common(1, &reduced)].map(|of| of.expect("lines"));
+        assert!((own - 1.0).abs() < 1e-12 && both < 0.5, "{own} {both}");
+        let found = hub.solve_with(&reduced, &[]).expect("estimates");
+        let [first, second] = [1, 3].map(|of| found.of(of).expect("told")[0]);
+        assert!((first - 2.0).abs() < 1e-3 && (second - 4.0).abs() < 1e-3, "{first} {second}");
+        let alone = hub.solve_with(&[], &[1, 2]).expect("estimates");
+        assert_eq!(alone.of(1), None);
+        let [second, _] = alone.of(3).expect("told");
+        assert!((second - 8.0).abs() < 1e-3, "{second}");
     }
 
     /// Of few observations the first parameters are estimated, and the others are not.
