@@ -165,8 +165,9 @@ impl<T: Scalar> DeviceContributions<T> {
         // By one comparison: a number times zero is zero unless it is infinite or NaN.
         let mut vanishing = zeros();
         for matrix in [m_vv, m_vw, m_ww, inertia] {
-            for column in matrix.column_iter() {
-                vanishing = add(vanishing, scale(zero(), components(&column.into())));
+            // Not by nalgebra's iterator of columns, which may panic.
+            for column in matrix.data.0 {
+                vanishing = add(vanishing, scale(zero(), column));
             }
         }
         let [x, y, z] = vanishing;

@@ -9,6 +9,7 @@ use std::process::Command;
 use xtask::run::{output, program, root};
 
 use super::description;
+use super::programs::named;
 use super::suites::{How, SUITES, Suite};
 
 /// Folders of sources that no test can see broken, each with its reason.
@@ -29,10 +30,9 @@ fn targets() -> BTreeSet<(String, String)> {
     for package in metadata["packages"].as_array().unwrap() {
         let name = package["name"].as_str().unwrap();
         for target in package["targets"].as_array().unwrap() {
-            let kind = target["kind"][0].as_str().unwrap();
             let source = Path::new(target["src_path"].as_str().unwrap());
-            let target_name = if kind == "test" { target["name"].as_str().unwrap() } else { kind };
-            if target["test"] == true && (kind == "test" || has_tests(source)) {
+            let target_name = named(target).unwrap();
+            if target["test"] == true && (target["kind"][0] == "test" || has_tests(source)) {
                 found.insert((name.to_owned(), target_name.to_owned()));
             }
         }

@@ -114,14 +114,23 @@ fn read(line: &str) -> Option<Program> {
     }
     let path = PathBuf::from(message["executable"].as_str()?);
     let manifest = Path::new(message["manifest_path"].as_str()?);
-    let kind = message["target"]["kind"][0].as_str()?;
-    let target = if kind == "test" { message["target"]["name"].as_str()? } else { kind };
+    let target = named(&message["target"])?;
     Some(Program {
         package: package(message["package_id"].as_str()?).to_owned(),
         target: target.to_owned(),
         path,
         folder: manifest.parent()?.to_path_buf(),
     })
+}
+
+/// A target of cargo's messages as rows have it.
+pub(super) fn named(target: &Value) -> Option<&str> {
+    match target["kind"][0].as_str()? {
+        "test" => target["name"].as_str(),
+        // A library for other languages.
+        "staticlib" => Some("lib"),
+        kind => Some(kind),
+    }
 }
 
 /// The package's name: after `#` and before `@`, or the folder where the two are the same.
