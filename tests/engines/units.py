@@ -106,7 +106,7 @@ COLUMNS = {"imaging-satellite": ["position", "velocity", "attitude", "omega", "c
 CASES = (
     ("table1-printed-free", "1e-3", 500.0, 2.0, None, None),
     ("table1-catalogue-200", "1e-3", 500.0, 2.0, None, None),
-    ("bus-three-wheels", "1e-3", 500.0, 9.0, None, bus),
+    ("bus-three-wheels", "1e-3", 500.0, 12.0, None, bus),
     ("imaging-satellite", "1e-3", 500.0, 2.0, None, None),
     ("orbit-gravity-gradient", "1", 0.1, 3000.0, None, None),
     ("every-kind", "1e-3", 500.0, 1.0, None, None),
