@@ -44,7 +44,8 @@ impl Outcome {
     pub(crate) fn line(&self) -> String {
         let how = if self.passed { "passed" } else { "FAILED" };
         let cases = self.cases.map_or_else(String::new, |cases| format!(", {cases} cases"));
-        format!("{how}  {}{cases}, {:.1} s", self.name, self.seconds)
+        let cpu = self.cpu.map_or_else(String::new, |cpu| format!(" ({cpu:.0} CPU s)"));
+        format!("{how}  {}{cases}, {:.1} s{cpu}", self.name, self.seconds)
     }
 
     /// Reads what a suite printed.
