@@ -22,7 +22,7 @@ use crate::record::partial::{Partial, partial_name};
 use crate::record::{Decimate, Recorder as _};
 use crate::report::watch::{BUCKETS, WatchReport, WatchedQuantity, shown};
 use crate::telemetry::{Exclusion, TelemetryLayout, TelemetryRows};
-use crate::watch::{Alarm, Block, Watch, WatchSettings, Watched};
+use crate::watch::{Alarm, Block, Watch, WatchError, WatchSettings, Watched};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -120,15 +120,14 @@ impl WatchCommand {
             history: Decimate::new(BUCKETS),
         };
         let done = head(&mut table, &watch).map_err(io).and_then(|()| {
-            while let Some(reading) = rows.next_reading().map_err(telemetry)? {
+            let mut next = || {
                 end_if_interrupted();
-                let block = watch.take(&reading).map_err(|error| other(&error))?;
-                if let Some(block) = block {
-                    row(&mut table, &block).map_err(io)?;
-                    found.take(block)?;
-                }
-            }
-            while let Some(block) = watch.finish().map_err(|error| other(&error))? {
+                rows.next_reading().map_err(WatchError::Telemetry)
+            };
+            while let Some(block) = watch.next_block(&mut next).map_err(|error| match error {
+                WatchError::Telemetry(error) => telemetry(error),
+                error => other(&error),
+            })? {
                 row(&mut table, &block).map_err(io)?;
                 found.take(block)?;
             }

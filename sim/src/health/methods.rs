@@ -38,10 +38,8 @@ pub fn examine(
     let settings = |false_alarms: f64| WatchSettings { block, learn, false_alarms };
     let mut watch = Watch::new(&watched, &record.sensors, &settings(1.0))?;
     let mut blocks = Vec::new();
-    for reading in &record.readings {
-        blocks.extend(watch.take(reading)?);
-    }
-    while let Some(block) = watch.finish()? {
+    let mut readings = record.readings.iter().copied();
+    while let Some(block) = watch.next_block(|| Ok(readings.next()))? {
         blocks.push(block);
     }
     let spectrum = spectrum_baseline::features(&watched, record, block);

@@ -87,6 +87,8 @@ pub struct Watch {
     /// Sensors that have not read anything yet.
     unseen: Vec<bool>,
     sequence: Sequence,
+    /// There are no more readings.
+    ended: bool,
     model: WatchedModel,
     last: f64,
     start: Option<f64>,
@@ -165,6 +167,7 @@ impl Watch {
             unseen: sensors.iter().map(|of| *of != Sensor::StarTracker).collect(),
             quantities: quantities_of(all, settings)?,
             sequence: Sequence::new(scenario, sensors, GAP * block),
+            ended: false,
             model,
             last: 0.0,
             start: None,
@@ -199,33 +202,30 @@ impl Watch {
         quantities_of(all.collect(), settings)
     }
 
-    /// Takes a reading; a block that ends, where one does. A reading waits until each sensor of a rate has read twice from its time on,
-    /// or for a quarter of a block.
+    /// The next block that ends in telemetry, whose readings `next` gives until there are no more; none after the last. A reading
+    /// waits until each sensor of a rate has read twice from its time on, or for a quarter of a block, or to the end.
     ///
     /// # Errors
     ///
-    /// A state that the model cannot solve.
-    pub fn take(&mut self, reading: &Reading) -> Result<Option<Block>, WatchError> {
-        self.sequence.add(reading);
-        self.proceed(false)
-    }
-
-    /// Takes the readings that still wait, at the end of the telemetry; a block that ends. There may be one more where it returns one.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::take`].
-    pub fn finish(&mut self) -> Result<Option<Block>, WatchError> {
-        self.proceed(true)
-    }
-
-    fn proceed(&mut self, ended: bool) -> Result<Option<Block>, WatchError> {
-        while let Some(reading) = self.sequence.next(ended) {
-            if let Some(block) = self.process(&reading)? {
-                return Ok(Some(block));
+    /// A state that the model cannot solve; those of `next`.
+    pub fn next_block(
+        &mut self,
+        mut next: impl FnMut() -> Result<Option<Reading>, WatchError>,
+    ) -> Result<Option<Block>, WatchError> {
+        loop {
+            while let Some(reading) = self.sequence.next(self.ended) {
+                if let Some(block) = self.process(&reading)? {
+                    return Ok(Some(block));
+                }
+            }
+            if self.ended {
+                return Ok(None);
+            }
+            match next()? {
+                Some(reading) => self.sequence.add(&reading),
+                None => self.ended = true,
             }
         }
-        Ok(None)
     }
 
     /// Moves on to a reading, and takes it; the block that ends before it, where one does.

@@ -35,7 +35,7 @@ pub struct WatchedRecord {
 ///
 /// # Errors
 ///
-/// As [`Watch::new`] and [`Watch::take`]; telemetry that cannot be read; an end by `hear`.
+/// As [`Watch::new`] and [`Watch::next_block`]; telemetry that cannot be read; an end by `hear`.
 pub fn watch(
     scenario: &Scenario,
     rows: &mut TelemetryRows,
@@ -44,16 +44,14 @@ pub fn watch(
 ) -> Result<WatchedRecord, WatchError> {
     let mut watch = Watch::new(scenario, rows.sensors(), settings)?;
     let mut blocks = Vec::new();
-    let mut keep = |block: Block| {
+    while let Some(block) =
+        watch.next_block(|| rows.next_reading().map_err(WatchError::Telemetry))?
+    {
         let [_, end] = block.times;
         blocks.push(block);
-        if hear(end) { Ok(()) } else { Err(WatchError::Interrupted) }
-    };
-    while let Some(reading) = rows.next_reading().map_err(WatchError::Telemetry)? {
-        watch.take(&reading)?.map_or(Ok(()), &mut keep)?;
-    }
-    while let Some(block) = watch.finish()? {
-        keep(block)?;
+        if !hear(end) {
+            return Err(WatchError::Interrupted);
+        }
     }
     let quantities = watch.quantities().zip(watch.references());
     let quantities = quantities.map(|((name, watched), reference)| RecordQuantity {

@@ -102,23 +102,25 @@ fn watched(
     let mut watch = Watch::new(of, &sensors, settings).expect("watched");
     assert_eq!(watch.remarks(), &[] as &[String]);
     let noise = Noise::new(1, "watch");
-    let mut blocks = Vec::new();
-    for (k, row) in (0..).zip(rows) {
+    let reading = |k, row: &[f64], index: usize| {
         let [a, b, c, d, e, ..] = noise.at(k);
         // time, omega, spins, motors: columns of a run are in the order of the devices.
         let [time, x, y, z, spin1, u1, spin2, u2] = row[..] else { panic!("{row:?}") };
-        for (index, columns) in sensors.iter().enumerate() {
-            let value = match columns.sensor {
-                Sensor::Gyro => [x + gyro * a, y + gyro * b, z + gyro * c, 0.0],
-                Sensor::Tachometer(0) => [spin1 + tachometer * d, 0.0, 0.0, 0.0],
-                Sensor::Tachometer(_) => [spin2 + tachometer * e, 0.0, 0.0, 0.0],
-                Sensor::Motor(0) => [u1, 0.0, 0.0, 0.0],
-                _ => [u2, 0.0, 0.0, 0.0],
-            };
-            blocks.extend(watch.take(&Reading { index, time, value }).expect("solved"));
-        }
-    }
-    while let Some(block) = watch.finish().expect("solved") {
+        let value = match sensors[index].sensor {
+            Sensor::Gyro => [x + gyro * a, y + gyro * b, z + gyro * c, 0.0],
+            Sensor::Tachometer(0) => [spin1 + tachometer * d, 0.0, 0.0, 0.0],
+            Sensor::Tachometer(_) => [spin2 + tachometer * e, 0.0, 0.0, 0.0],
+            Sensor::Motor(0) => [u1, 0.0, 0.0, 0.0],
+            _ => [u2, 0.0, 0.0, 0.0],
+        };
+        Reading { index, time, value }
+    };
+    let count = sensors.len();
+    let all = (0..).zip(rows);
+    let mut readings = all.flat_map(|(k, row)| (0..count).map(move |index| (k, row, index)));
+    let mut blocks = Vec::new();
+    let mut next = || Ok(readings.next().map(|(k, row, index)| reading(k, row, index)));
+    while let Some(block) = watch.next_block(&mut next).expect("solved") {
         blocks.push(block);
     }
     let names = watch.quantities().map(|(name, _)| name.to_owned()).collect();
