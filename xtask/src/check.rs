@@ -30,7 +30,7 @@ pub(crate) fn lint() -> Result<(), String> {
     let all = ["--workspace", "--all-targets", "--all-features"];
     cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
     // Without the emitted derivatives: by itself as on board, with a heap, and in lanes.
-    for features in ["", "alloc", "avx512,threads"] {
+    for features in ["", "avx512,threads"] {
         let solver = ["--package", "precess-dynamics", "--no-default-features"];
         let options = [&solver[..], &["--features", features, "--", "--deny", "warnings"]].concat();
         cargo(&[&["clippy", "--quiet"][..], &options].concat())?;

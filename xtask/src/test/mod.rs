@@ -223,7 +223,7 @@ mod tests {
         };
         let (default, all) = (names(false), names(true));
         assert!(default.contains(&"mutate --sample 100".to_owned()), "{default:?}");
-        assert!(!default.contains(&"flight --check".to_owned()), "{default:?}");
+        assert!(!default.contains(&"flight --check --quick".to_owned()), "{default:?}");
         assert!(all.contains(&"mutate --check".to_owned()), "{all:?}");
         assert!(!all.contains(&"mutate --sample 100".to_owned()), "{all:?}");
     }

@@ -314,7 +314,7 @@ pub(crate) const SUITES: &[Suite] = &[
     Suite { how: How::Documentation, when: When::Always, broken_by: &[SOLVER, DESKTOP, GENERATOR] },
     // What is built for others, in build folders of its own; then what waits for cargo in the common one.
     command(
-        &["flight", "--check"],
+        &["flight", "--check", "--quick"],
         When::All,
         &[SOLVER, BOARD, BAKING, &["xtask/distribute", "docs"]],
     ),

@@ -19,6 +19,8 @@ pub(super) struct Board {
     emulator: &'static [&'static str],
     /// The programs that are compared with this machine.
     pub(super) programs: &'static [&'static str],
+    /// Whether it is among those of `--quick`.
+    pub(super) is_quick: bool,
 }
 
 const LLD: &str = "-C linker=ld.lld -C linker-flavor=ld.lld";
@@ -43,6 +45,7 @@ pub(super) const BOARDS: [Board; 4] = [
             "enable=on,target=native",
         ],
         programs: &["conformance"],
+        is_quick: true,
     },
     Board {
         name: "cortex-m4f",
@@ -58,6 +61,7 @@ pub(super) const BOARDS: [Board; 4] = [
             "enable=on,target=native",
         ],
         programs: &["conformance", "conformance-single"],
+        is_quick: false,
     },
     Board {
         name: "riscv64",
@@ -67,6 +71,7 @@ pub(super) const BOARDS: [Board; 4] = [
         script: "riscv64.ld",
         emulator: &["qemu-system-riscv64", "-M", "virt", "-bios", "none"],
         programs: &["conformance"],
+        is_quick: false,
     },
     Board {
         name: "leon3",
@@ -76,6 +81,7 @@ pub(super) const BOARDS: [Board; 4] = [
         script: "leon3.ld",
         emulator: &["qemu-system-sparc", "-M", "leon3_generic"],
         programs: &["conformance"],
+        is_quick: true,
     },
 ];
 

@@ -43,6 +43,9 @@ pub(crate) struct Options {
     /// Only this board; gates and figures go with the Cortex-M7
     #[arg(long, value_name = "NAME")]
     board: Option<String>,
+    /// Two of the boards: the Cortex-M7, and the one of the other word order
+    #[arg(long, conflicts_with = "board")]
+    quick: bool,
 }
 
 /// Tests the library from C; then builds, runs, compares and measures everything on boards, and
@@ -56,13 +59,18 @@ pub(crate) fn flight(options: &Options) -> Result<(), String> {
     }
     let compiler = tools::compiler()?;
     let mut tally = Tally::default();
-    let wanted = |board: &&Board| options.board.as_ref().is_none_or(|name| board.name == name);
+    let wanted = |board: &&Board| {
+        let named = options.board.as_ref().is_none_or(|name| board.name == name);
+        named && (board.is_quick || !options.quick)
+    };
     let boards: Vec<&Board> = BOARDS.iter().filter(wanted).collect();
     if boards.is_empty() {
         let names = BOARDS.map(|board| board.name).join(", ");
         return Err(format!("no such board; there are {names}"));
     }
-    let here = build::for_host(&["conformance", "conformance-single", EXAMPLE])?;
+    let mut programs: Vec<_> = boards.iter().flat_map(|board| board.programs).copied().collect();
+    programs.push(EXAMPLE);
+    let here = build::for_host(&programs)?;
     // Two at a time: a build is one thread for most of its time.
     for pair in boards.chunks(2) {
         for (board, images) in pair.iter().zip(built(pair)) {
