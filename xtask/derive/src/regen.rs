@@ -202,16 +202,16 @@ mod tests {
 
     #[test]
     fn two_runs_in_two_directories_give_the_same_bytes() {
-        let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
-        let again = made_from(&root().join(PAGES)).unwrap();
-        for (folder, made) in folders.iter().zip([made(), again]) {
-            let out = Some(folder.path().to_path_buf());
-            assert_eq!(settle(made, &Options { quiet: true, out, ..Options::default() }), Ok(()));
+        // The other run is the one that is committed.
+        let folder = tempfile::tempdir().unwrap();
+        let out = Some(folder.path().to_path_buf());
+        assert_eq!(settle(made(), &Options { quiet: true, out, ..Options::default() }), Ok(()));
+        let now = tree(folder.path(), "");
+        assert!(now.contains_key("dynamics/src/generated/hub.rs"), "{:?}", now.keys());
+        assert!(now.contains_key("docs/derivation.md"), "{:?}", now.keys());
+        for (path, bytes) in now {
+            assert!(fs::read(root().join(&path)).unwrap() == bytes, "{path} differs");
         }
-        let [a, b] = folders.each_ref().map(|folder| tree(folder.path(), ""));
-        assert!(a.contains_key("dynamics/src/generated/hub.rs"), "{:?}", a.keys());
-        assert!(a.contains_key("docs/derivation.md"), "{:?}", a.keys());
-        assert!(a == b, "of {:?} and {:?} some differ", a.keys(), b.keys());
     }
 
     #[test]

@@ -186,9 +186,7 @@ fn set_up(folder: &Path) {
 fn examples(folder: &Path, of: impl Fn(&str, &[&str], &[&str]) -> Case) {
     let example = of("fit", &[], &["--example", "table"]).output();
     assert!(example.status.success(), "{}", error_of(&example));
-    let table = folder.join("table/wheel-measurement.toml");
-    let text = fs::read_to_string(&table).expect("a file");
-    fs::write(&table, text.replace("title = \"", "title = \"\\u001b[2J")).expect("a file");
+    short_sweep(&folder.join("table"));
     let example = of("identify", &[], &["--example", "craft"]).output();
     assert!(example.status.success(), "{}", error_of(&example));
     short_record(&folder.join("craft"));
@@ -277,6 +275,22 @@ pub(super) fn cases(folder_name: &str) -> Vec<Case> {
         cases.iter().filter(|case| case.out.is_some()).map(|case| case.name.clone()).collect();
     assert_eq!(listed, declared_writing(), "each command that writes has a case that writes");
     cases
+}
+
+/// Six seconds of the example of `fit`, with the harmonic and the mode that it would search for, and a title for terminals.
+fn short_sweep(folder: &Path) {
+    let (measurement, samples) =
+        (folder.join("wheel-measurement.toml"), folder.join("wheel-sweep.csv"));
+    let mut text = fs::read_to_string(&measurement).expect("a file");
+    text = text.replace("title = \"", "title = \"\\u001b[2J");
+    for stated in ["[[harmonic]]", "number = ", "[[mode]]", "of = ", "frequency = "] {
+        assert!(text.contains(&format!("\n# {stated}")), "{stated}");
+        text = text.replace(&format!("\n# {stated}"), &format!("\n{stated}"));
+    }
+    fs::write(&measurement, text).expect("a file");
+    let text = fs::read_to_string(&samples).expect("a file");
+    let rows: Vec<_> = text.lines().take(6001).collect();
+    fs::write(&samples, rows.join("\n") + "\n").expect("a file");
 }
 
 /// A second of the example of `identify`, with priors that tell what that does not, and a title for terminals.
