@@ -42,14 +42,15 @@ impl Kernel {
 }
 
 /// Builds a program of the crate of counts for any CPU of the target; where it is.
-pub(crate) fn program(name: &str) -> Result<PathBuf, String> {
-    cargo(&["build", "--release", "--quiet", "-p", "precess-counts", "--bin", name])?;
+pub(crate) fn program(name: &str, options: &[&str]) -> Result<PathBuf, String> {
+    let build = ["build", "--release", "--quiet", "-p", "precess-counts", "--bin", name];
+    cargo(&[&build[..], options].concat())?;
     Ok(target()?.join("release").join(name))
 }
 
 /// Builds and runs the program that reads the kernels.
 pub(crate) fn kernels() -> Result<Vec<Kernel>, String> {
-    let program = program("object_code")?;
+    let program = program("object_code", &[])?;
     let output = Command::new(&program).output();
     let output = output.map_err(|error| format!("{}: {error}", program.display()))?;
     if !output.status.success() {

@@ -353,7 +353,11 @@ pub(crate) const SUITES: &[Suite] = &[
             ],
         ],
     ),
-    command(&["instructions", "--check"], When::All, &[SOLVER, LANES, &["tests/counts", "docs"]]),
+    command(
+        &["instructions", "--check", "--quick"],
+        When::All,
+        &[SOLVER, LANES, &["tests/counts", "docs"]],
+    ),
     command(
         &["accuracy", "--check"],
         When::All,

@@ -10,12 +10,15 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use nalgebra::Vector3;
-use precess_dynamics::kind::Kind;
 use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
-    Angle, BuiltIn, Dgvscmg, Outputs, Servo, Spacecraft, Steered, SteeringLaw, SteeringTerms,
+    Angle, Dgvscmg, Outputs, Servo, Spacecraft, Steered, SteeringLaw, SteeringTerms,
 };
-use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind, hub, imbalance_of};
+#[cfg(feature = "every-set")]
+use precess_dynamics::{BuiltIn, kind::Kind};
+#[cfg(feature = "every-set")]
+use precess_tests::measured::{EachKind, each_kind};
+use precess_tests::measured::{Measured, dgvscmg, hub, imbalance_of};
 use precess_tracker::{DragSample, DragTracker, LineTracker};
 
 /// What is commanded of four DGVSCMGs.
@@ -76,17 +79,26 @@ impl Cases {
                 black_box(Angle::sin_cos(black_box(1.25)));
             }
         });
+        #[cfg(feature = "every-set")]
         self.cases("1", &[dgvscmg(); 1]);
         self.cases("4", &[dgvscmg(); 4]);
+        #[cfg(feature = "every-set")]
         self.cases("16", &[dgvscmg(); 16]);
+        #[cfg(feature = "every-set")]
         self.products("1", &[dgvscmg(); 1]);
         self.products("4", &[dgvscmg(); 4]);
+        #[cfg(feature = "every-set")]
         self.products("16", &[dgvscmg(); 16]);
+        #[cfg(feature = "every-set")]
         self.allocated("1", &[dgvscmg(); 1]);
         self.allocated("4", &[dgvscmg(); 4]);
+        #[cfg(feature = "every-set")]
         self.allocated("16", &[dgvscmg(); 16]);
-        self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
-        each_kind(self);
+        #[cfg(feature = "every-set")]
+        {
+            self.cases("list of 4", &vec![BuiltIn::from(dgvscmg()); 4]);
+            each_kind(self);
+        }
         self.steering();
         self.trackers();
     }
@@ -292,6 +304,7 @@ impl Cases {
     }
 }
 
+#[cfg(feature = "every-set")]
 impl EachKind<f64> for Cases {
     fn visit<K: Kind<Scalar = f64>>(&mut self, name: &'static str, device: K) {
         // The paper's device is listed by its number already.
