@@ -179,7 +179,7 @@ fn tables(outcomes: &[Outcome], spent: &Spent) -> String {
         "| suite | what it tests | cases | CPU s | in `cargo xtask test` |\n|---|---|--:|--:|---|\n",
     );
     // A sample has no row beside the whole.
-    for suite in SUITES.iter().filter(|suite| suite.when != When::DefaultOnly) {
+    for suite in SUITES.iter().filter(|suite| suite.when != When::Sample) {
         let outcome = outcomes.iter().find(|outcome| outcome.name == suite.name());
         let cases = outcome
             .and_then(|outcome| outcome.cases)
@@ -245,7 +245,7 @@ mod tests {
     fn the_page_states_a_budget_and_every_suite() {
         let page = read_page().unwrap();
         assert!(Budget::read(&page).is_some());
-        for suite in SUITES.iter().filter(|suite| suite.when != When::DefaultOnly) {
+        for suite in SUITES.iter().filter(|suite| suite.when != When::Sample) {
             let row = format!("| `{}` | {} |", suite.name(), suite.says());
             assert!(
                 page.contains(&row),

@@ -51,7 +51,8 @@ impl When {
         match self {
             Self::Always => "yes",
             Self::All => "no",
-            Self::DefaultOnly => "only there",
+            Self::AllFor => "no, nor in `--all`",
+            Self::Sample => "only there",
         }
     }
 }

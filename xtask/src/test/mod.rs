@@ -86,11 +86,13 @@ pub(crate) fn test(options: &Options) -> Result<(), String> {
 
 /// The suites that the options choose.
 fn chosen(options: &Options) -> Result<Vec<&'static Suite>, String> {
+    let is_for_a_folder = options.all && options.path.is_some();
     // A smaller check than one that runs, too, is left out: a sample of the mutants beside all of them.
     let wanted = |suite: &&Suite| match suite.when {
         When::Always => true,
         When::All => options.all,
-        When::DefaultOnly => !options.all,
+        When::AllFor => is_for_a_folder,
+        When::Sample => !is_for_a_folder,
     };
     let Some(path) = &options.path else { return Ok(SUITES.iter().filter(wanted).collect()) };
     let path = from_root(path)?;
@@ -216,15 +218,20 @@ mod tests {
     }
 
     #[test]
-    fn a_default_run_has_a_sample_and_all_has_every_mutant() {
-        let names = |all: bool| {
-            let options = Options { all, path: None, list: false, write: false };
+    fn every_mutant_is_in_all_for_the_generator_and_a_sample_elsewhere() {
+        let names = |all: bool, path: Option<&str>| {
+            let path = path.map(|path| root().join(path));
+            let options = Options { all, path, list: false, write: false };
             chosen(&options).unwrap().iter().map(|suite| suite.name()).collect::<Vec<_>>()
         };
-        let (default, all) = (names(false), names(true));
-        assert!(default.contains(&"mutate --sample 100".to_owned()), "{default:?}");
+        let (every, sample) = ("mutate --check".to_owned(), "mutate --sample 100".to_owned());
+        let (default, all) = (names(false, None), names(true, None));
         assert!(!default.contains(&"flight --check --quick".to_owned()), "{default:?}");
-        assert!(all.contains(&"mutate --check".to_owned()), "{all:?}");
-        assert!(!all.contains(&"mutate --sample 100".to_owned()), "{all:?}");
+        assert!(all.contains(&"flight --check --quick".to_owned()), "{all:?}");
+        for some in [default, all, names(false, Some("codegen"))] {
+            assert!(some.contains(&sample) && !some.contains(&every), "{some:?}");
+        }
+        let whole = names(true, Some("codegen"));
+        assert!(whole.contains(&every) && !whole.contains(&sample), "{whole:?}");
     }
 }

@@ -12,7 +12,7 @@ use super::CASES;
 use super::cost::{read_page, stated_of};
 use super::outcome::Outcome;
 use super::programs::{Program, optimisation};
-use super::suites::{DOCUMENTATION, libraries};
+use super::suites::{DOCUMENTATION, How, SUITES};
 use crate::measured;
 use crate::members::Members;
 use crate::program::{self as command, DISTRIBUTE};
@@ -116,6 +116,14 @@ impl Job {
             }
         }
     }
+}
+
+/// The packages whose library has tests; their documentation has examples.
+fn libraries() -> impl Iterator<Item = &'static str> {
+    SUITES.iter().filter_map(|suite| match suite.how {
+        How::Target { package, target: "lib" } => Some(package),
+        _ => None,
+    })
 }
 
 /// Jobs that wait, and what became of those that ended.

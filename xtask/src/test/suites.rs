@@ -12,8 +12,10 @@ pub(crate) enum When {
     Always,
     /// In `cargo xtask test --all` only.
     All,
-    /// Not there: a sample of what `--all` does in full.
-    DefaultOnly,
+    /// Only in `--all --for` a folder whose change can break it: what takes minutes, and finds what nothing else can break.
+    AllFor,
+    /// Elsewhere: a sample of what a suite of [`Self::AllFor`] does in full.
+    Sample,
 }
 
 /// How a suite is run.
@@ -87,6 +89,10 @@ const fn all(package: &'static str, target: &'static str, broken_by: Folders) ->
     Suite { how: How::Target { package, target }, when: When::All, broken_by }
 }
 
+const fn all_for(package: &'static str, target: &'static str, broken_by: Folders) -> Suite {
+    Suite { how: How::Target { package, target }, when: When::AllFor, broken_by }
+}
+
 const fn command(words: &'static [&'static str], when: When, broken_by: Folders) -> Suite {
     Suite { how: How::Command(words), when, broken_by }
 }
@@ -109,12 +115,12 @@ pub(crate) const SUITES: &[Suite] = &[
     command(&["bake", "--check"], When::Always, &[GENERATOR, BAKING]),
     command(
         &["mutate", "--sample", "100"],
-        When::DefaultOnly,
+        When::Sample,
         &[GENERATOR, &["codegen/review", "tests/fixtures"]],
     ),
     command(
         &["mutate", "--check"],
-        When::All,
+        When::AllFor,
         &[GENERATOR, &["codegen/review", "tests/fixtures", "docs"]],
     ),
     command(&["demo"], When::All, &[GENERATOR, SOLVER, DESKTOP]),
@@ -162,7 +168,7 @@ pub(crate) const SUITES: &[Suite] = &[
         &[GENERATOR, SOLVER, BAKING, &["codegen/tests/c_kernels", "docs/c.md"]],
     ),
     always("precess-bake", "missions", &[GENERATOR, BAKING]),
-    all("precess-bake", "mutation", &[GENERATOR, BAKING]),
+    all_for("precess-bake", "mutation", &[GENERATOR, BAKING]),
     always("precess-description", "lib", &[BAKING]),
     always("precess-review", "lib", &[GENERATOR, &["codegen/review"]]),
     always("precess-review", "physics", &[GENERATOR, &["codegen/review", "tests/fixtures"]]),
@@ -174,7 +180,7 @@ pub(crate) const SUITES: &[Suite] = &[
             &["codegen/review", "codegen/tests/folder", "docs/errata.md", "docs/letter.md"],
         ],
     ),
-    all(
+    all_for(
         "precess-derive",
         "bin",
         &[GENERATOR, BAKING, &["codegen/review", "xtask/derive", "xtask/src"]],
@@ -236,9 +242,9 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess-baked", "operations", &[BAKING]),
     always("four-wheels", "reference", &[BAKING]),
     always("imaging-satellite", "reference", &[BAKING]),
-    all("precess-attack", "numbers", &[&["tests/attack"]]),
-    all("precess-attack", "printed", &[SOLVER, LANES, &["tests/attack"]]),
-    all("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
+    all_for("precess-attack", "numbers", &[&["tests/attack"]]),
+    all_for("precess-attack", "printed", &[SOLVER, LANES, &["tests/attack"]]),
+    all_for("precess-attack", "sample", &[SOLVER, LANES, REFERENCES, &["tests/attack"]]),
     // What a sampled controller is made of.
     always("precess-control", "lib", &[SOLVER, &["sim/control"]]),
     always("precess-control", "estimator", &[SOLVER, &["sim/control"]]),
@@ -360,18 +366,10 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
     command(
         &["accuracy", "--check"],
-        When::All,
+        When::AllFor,
         &[SOLVER, REFERENCES, &["tests/derivatives", "tests/examples", "docs"]],
     ),
 ];
-
-/// The packages whose library has tests; their documentation has examples.
-pub(crate) fn libraries() -> impl Iterator<Item = &'static str> {
-    SUITES.iter().filter_map(|suite| match suite.how {
-        How::Target { package, target: "lib" } => Some(package),
-        _ => None,
-    })
-}
 
 impl Suite {
     /// As it is called in tables.
