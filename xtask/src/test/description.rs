@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use xtask::run::root;
 
-use super::suites::{How, Suite, When};
+use super::suites::{How, Suite};
 
 /// The packages of the suites and their folders.
 const FOLDERS: [(&str, &str); 23] = [
@@ -44,17 +44,6 @@ pub(crate) fn file(package: &str, target: &str) -> Option<PathBuf> {
     let tests = root().join(folder(package)?).join("tests");
     let files = [tests.join(format!("{target}.rs")), tests.join(target).join("main.rs")];
     files.into_iter().find(|file| file.exists())
-}
-
-impl When {
-    pub(crate) fn says(self) -> &'static str {
-        match self {
-            Self::Always => "yes",
-            Self::All => "no",
-            Self::AllFor => "no, nor in `--all`",
-            Self::Sample => "only there",
-        }
-    }
 }
 
 impl Suite {

@@ -11,6 +11,7 @@ mod programs;
 mod queue;
 mod suites;
 mod table;
+mod when;
 
 #[cfg(test)]
 mod complete;
@@ -66,7 +67,7 @@ pub(crate) fn test(options: &Options) -> Result<(), String> {
     }
     let begun = Instant::now();
     let notes = notes()?;
-    let mut outcomes = run(&chosen, options.all, &notes)?;
+    let mut outcomes = run(&chosen, options, &notes)?;
     outcomes.sort_by_key(|outcome| chosen.iter().position(|suite| suite.name() == outcome.name));
     let spent = cost::Spent::measure(begun.elapsed().as_secs_f64(), of_children(), &notes)?;
     table::print(&outcomes, &spent);
@@ -84,12 +85,19 @@ pub(crate) fn test(options: &Options) -> Result<(), String> {
     if options.all && options.path.is_none() { cost::held(&spent) } else { Ok(()) }
 }
 
+impl Options {
+    /// Whether everything is run that a change there can break.
+    fn is_for_a_folder(&self) -> bool {
+        self.all && self.path.is_some()
+    }
+}
+
 /// The suites that the options choose.
 fn chosen(options: &Options) -> Result<Vec<&'static Suite>, String> {
-    let is_for_a_folder = options.all && options.path.is_some();
+    let is_for_a_folder = options.is_for_a_folder();
     // A smaller check than one that runs, too, is left out: a sample of the mutants beside all of them.
     let wanted = |suite: &&Suite| match suite.when {
-        When::Always => true,
+        When::Always | When::AlwaysShort => true,
         When::All => options.all,
         When::AllFor => is_for_a_folder,
         When::Sample => !is_for_a_folder,
@@ -127,7 +135,8 @@ fn notes() -> Result<PathBuf, String> {
 
 /// Runs suites: what checks the generated files before anything compiles them, what is built for others beside the
 /// rest.
-fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome>, String> {
+fn run(chosen: &[&'static Suite], options: &Options, notes: &Path) -> Result<Vec<Outcome>, String> {
+    let all = options.all;
     let queue = Queue::new(all);
     let commands = |first: bool| {
         let some = chosen.iter().filter_map(|suite| match suite.how {
@@ -161,7 +170,16 @@ fn run(chosen: &[&'static Suite], all: bool, notes: &Path) -> Result<Vec<Outcome
                 let wanted = |program: &Program| {
                     of_group.iter().any(|suite| suite.is(&program.package, &program.target))
                 };
-                queue.add(built.into_iter().filter(wanted).map(Job::program));
+                let is_short = |program: &Program| {
+                    let short = of_group.iter().filter(|suite| suite.when == When::AlwaysShort);
+                    let mut short = short.map(|suite| suite.is(&program.package, &program.target));
+                    !options.is_for_a_folder() && short.any(|is| is)
+                };
+                let job = |program: Program| {
+                    let long = all && !is_short(&program);
+                    Job::program(program, long)
+                };
+                queue.add(built.into_iter().filter(wanted).map(job));
                 if members == Members::Plain {
                     if chosen.iter().any(|suite| matches!(suite.how, How::Command(["engines"]))) {
                         // The engine's library, which units are linked with.

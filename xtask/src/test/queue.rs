@@ -24,17 +24,20 @@ pub(crate) struct Job {
     arguments: Vec<String>,
     folder: PathBuf,
     is_test: bool,
+    /// Whether its long tests are run, too.
+    long: bool,
 }
 
 impl Job {
-    /// A test program.
-    pub(crate) fn program(built: Program) -> Self {
+    /// A test program, with its long tests or without.
+    pub(crate) fn program(built: Program, long: bool) -> Self {
         Self {
             name: format!("{} {}", built.package, built.target),
             program: built.path,
             arguments: Vec::new(),
             folder: built.folder,
             is_test: true,
+            long,
         }
     }
 
@@ -45,7 +48,7 @@ impl Job {
         let here = || std::env::current_exe().unwrap_or_else(|_| PathBuf::from("xtask"));
         let program = words.first().and_then(|word| command::Program::of_command(word));
         let program = program.and_then(|program| program.path().ok()).unwrap_or_else(here);
-        Self { name, program, arguments, folder: root(), is_test: false }
+        Self { name, program, arguments, folder: root(), is_test: false, long: false }
     }
 
     /// The examples in the documentation; those of the solver by themselves where they are compiled with lanes.
@@ -67,7 +70,14 @@ impl Job {
         }
         arguments.extend(members.features(all).iter().map(|word| (*word).to_owned()));
         arguments.extend(optimisation(all).map(str::to_owned));
-        Self { name, program: PathBuf::from(program()), arguments, folder: root(), is_test: false }
+        Self {
+            name,
+            program: PathBuf::from(program()),
+            arguments,
+            folder: root(),
+            is_test: false,
+            long: false,
+        }
     }
 
     /// Runs it to its end.
@@ -90,7 +100,7 @@ impl Job {
         command.envs(tool.map(|tool| (TOOL, tool)));
         if self.is_test {
             command.env("CARGO_MANIFEST_DIR", &self.folder).env("CARGO", program());
-            command.args(all.then_some("--include-ignored"));
+            command.args(self.long.then_some("--include-ignored"));
             // `cargo xtask accuracy` runs that one, which writes a file for it.
             command.args(["--skip", "figures_for_the_accuracy_page"]);
         }

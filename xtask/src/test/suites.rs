@@ -5,18 +5,7 @@
 
 use std::path::Path;
 
-/// When a suite runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum When {
-    /// In every `cargo xtask test`.
-    Always,
-    /// In `cargo xtask test --all` only.
-    All,
-    /// Only in `--all --for` a folder whose change can break it: what takes minutes, and finds what nothing else can break.
-    AllFor,
-    /// Elsewhere: a sample of what a suite of [`Self::AllFor`] does in full.
-    Sample,
-}
+pub(crate) use super::when::When;
 
 /// How a suite is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +74,10 @@ const fn always(package: &'static str, target: &'static str, broken_by: Folders)
     Suite { how: How::Target { package, target }, when: When::Always, broken_by }
 }
 
+const fn always_short(package: &'static str, target: &'static str, broken_by: Folders) -> Suite {
+    Suite { how: How::Target { package, target }, when: When::AlwaysShort, broken_by }
+}
+
 const fn all(package: &'static str, target: &'static str, broken_by: Folders) -> Suite {
     Suite { how: How::Target { package, target }, when: When::All, broken_by }
 }
@@ -144,7 +137,7 @@ pub(crate) const SUITES: &[Suite] = &[
     ),
     always("precess-codegen", "limits", &[GENERATOR, &["codegen/tests/limits.rs"]]),
     always("precess-codegen", "modes", &[GENERATOR, &["codegen/tests/modes.rs"]]),
-    always(
+    always_short(
         "precess-codegen",
         "mutation",
         &[GENERATOR, &["codegen/tests/mutation", "codegen/tests/folder"]],
@@ -274,7 +267,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always("precess", "control", &[SOLVER, DESKTOP, &["sim/tests/control"]]),
     always("precess", "corpus", &[SOLVER, DESKTOP, &["sim/tests/corpus.rs", "sim/fuzz"]]),
     always("precess", "endless", &[DESKTOP, &["sim/tests/endless.rs"]]),
-    always("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
+    always_short("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
     always("precess", "fmu", &[GENERATOR, BAKING, SOLVER, DESKTOP, &["sim/tests/fmu"]]),
     always("precess", "health", &[SOLVER, DESKTOP, &["sim/tests/health"]]),
     always("precess", "identify", &[SOLVER, DESKTOP, &["sim/tests/identify"]]),
