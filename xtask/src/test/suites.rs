@@ -270,7 +270,7 @@ pub(crate) const SUITES: &[Suite] = &[
     always_short("precess", "fit", &[SOLVER, DESKTOP, &["sim/tests/fit"]]),
     always("precess", "fmu", &[GENERATOR, BAKING, SOLVER, DESKTOP, &["sim/tests/fmu"]]),
     always("precess", "health", &[SOLVER, DESKTOP, &["sim/tests/health"]]),
-    always("precess", "identify", &[SOLVER, DESKTOP, &["sim/tests/identify"]]),
+    always_short("precess", "identify", &[SOLVER, DESKTOP, &["sim/tests/identify"]]),
     always(
         "precess",
         "jitter",
