@@ -113,7 +113,7 @@ fn differs(row: &Comparison) -> bool {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_mutant_of_the_kinematics_is_named() {
     for name in ["outer_gimbal", "inner_gimbal", "wheel", "first_moment"] {
         let (mutants, named) = every_mutant_is_caught(name, &[name]);
@@ -122,7 +122,7 @@ fn every_mutant_of_the_kinematics_is_named() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_mutant_of_the_elimination_is_named() {
     // What only another mount than none shows is judged with the constant share of the hub.
     for (name, judged, least) in [
@@ -135,14 +135,14 @@ fn every_mutant_of_the_elimination_is_named() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_mutant_of_energy_and_momentum_is_named() {
     let (mutants, named) = every_mutant_is_caught("energy_momentum", &["energy_momentum"]);
     assert!(mutants > 500 && named == mutants, "{named} of {mutants}");
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_mutant_beside_the_equations_of_motion_is_named() {
     for (name, least) in
         [("axes", 20), ("loads", 800), ("steer", 800), ("external", 120), ("gravity", 800)]
@@ -155,7 +155,7 @@ fn every_mutant_beside_the_equations_of_motion_is_named() {
 /// All of its mutants are put to the laws of physics by `cargo xtask mutate`. Every result is claimed, so that a mutant
 /// which fails no claim is the same function: terms that cancel, 2 of 3664.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn a_sample_of_statements_of_the_derivatives_is_named() {
     let (mutants, named, same) = mutants_are_caught("load_derivatives", &["load_derivatives"], 120);
     assert!(mutants > 15 && named + same == mutants, "{named} and {same} of {mutants}");
@@ -163,7 +163,7 @@ fn a_sample_of_statements_of_the_derivatives_is_named() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_mutant_of_prepare_is_named() {
     let (mutants, named) = every_mutant_is_caught("prepare", &ALL[1..]);
     assert!(mutants > 100 && named == mutants, "{named} of {mutants}");
@@ -171,7 +171,7 @@ fn every_mutant_of_prepare_is_named() {
 
 /// Every statement doubled: products have no operand to drop, but a wrong factor is caught too.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_doubled_statement_is_caught() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
@@ -227,7 +227,7 @@ fn values(value: &mut syn::Expr) -> Vec<&mut syn::Expr> {
 
 /// Every result doubled where it is returned, and what is zero replaced by another result.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_wrong_result_is_caught() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
@@ -265,7 +265,7 @@ fn with(right: &str, wrong: &str) -> Result<Vec<Comparison>, EmittedError> {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn a_wrong_constant_returned_value_or_pivot_is_caught() {
     for (right, wrong) in [
         ("let mass_ww = p.j_11 + base_30;", "let mass_ww = p.j_11 + base_29;"),

@@ -70,7 +70,7 @@ const SHORT: usize = 150;
 /// Drops and flips each term of each component of each equation on one side; the difference must
 /// be that term and nothing else.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_term_of_either_normal_form_is_named_when_it_is_wrong() {
     let graph = Graph::new();
     let _symbols = Chain::new(&graph, &DGVSCMG);
@@ -101,7 +101,7 @@ fn every_term_of_either_normal_form_is_named_when_it_is_wrong() {
 /// Drops and flips each operand of each sum of each block as written. The row must fail, and the
 /// terms it names must be exactly what the operand contributed.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for codegen`"]
 fn every_term_of_a_page_as_written_is_named_when_it_is_wrong() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);

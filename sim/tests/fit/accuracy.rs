@@ -55,7 +55,7 @@ fn a_wheel_is_found_within_its_bounds() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn a_drifting_speed_that_is_badly_known_costs_nothing() {
     let variant = Variant { indexed: false, drift: 1e-3, speeds: 3e-4 };
     let fitted = fitted(variant, &stated(variant));
@@ -69,7 +69,7 @@ fn a_drifting_speed_that_is_badly_known_costs_nothing() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn lines_and_modes_that_nobody_stated_are_found() {
     let variant = Variant { indexed: true, ..Variant::default() };
     let fitted = fitted(variant, &Options::default());
@@ -81,7 +81,7 @@ fn lines_and_modes_that_nobody_stated_are_found() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn intervals_have_what_was_put_in() {
     let found = trials(TRIALS, Variant::default());
     assert!(found.iter().all(|all| all.len() == found[0].len()));
@@ -94,7 +94,7 @@ fn intervals_have_what_was_put_in() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn the_same_measurement_gives_the_same_bits() {
     let variant = Variant::default();
     let [a, b] = [(); 2].map(|()| fitted(variant, &stated(variant)));

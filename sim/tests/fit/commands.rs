@@ -27,7 +27,7 @@ const PUT_IN: [f64; 2] = [1.8e-6, 2.6e-7];
 const IMBALANCE: f64 = 0.02;
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn the_example_is_fitted_and_its_device_is_read() {
     let folder = folder("fit-example");
     let at = |name: &str| folder.join(name).to_str().expect("text").to_owned();
@@ -81,7 +81,7 @@ fn the_example_is_fitted_and_its_device_is_read() {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn the_example_has_the_imbalance_that_was_put_in() {
     let folder = folder("fit-put-in");
     let at = |name: &str| folder.join(name).to_str().expect("text").to_owned();

@@ -88,7 +88,7 @@ fn loads(folder: &Path, speed: f64) -> [Vec<f64>; 6] {
 }
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn a_rotor_on_soft_bearings_is_found_by_its_loads() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fit-coupled");
     fs::create_dir_all(&folder).expect("a folder");

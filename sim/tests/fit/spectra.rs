@@ -23,7 +23,7 @@ const POOLED: [f64; 2] = [0.93, 0.97];
 const NOISE: [f64; 2] = [0.72, 1.28];
 
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/fit`"]
 fn intervals_of_a_waterfall_have_what_was_put_in() {
     for averaging in [APART, HALF] {
         let found = coverage(&spectra_trials(TRIALS, averaging));

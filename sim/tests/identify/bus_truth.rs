@@ -117,7 +117,7 @@ struct Covered {
 
 /// One short record in closed loop. With `PRECESS_DRAWS=50` as many of each loop, of 20 s or of `PRECESS_SECONDS`: how often intervals have the truth, and errors by deviations.
 #[test]
-#[ignore = "long: `cargo xtask test --all`"]
+#[ignore = "long: `cargo xtask test --all --for sim/src/identify`"]
 fn intervals_of_a_rigid_model_of_a_flexible_bus() {
     let draws = std::env::var("PRECESS_DRAWS").ok().and_then(|of| of.parse::<u32>().ok());
     let seconds = std::env::var("PRECESS_SECONDS").ok().and_then(|of| of.parse::<f64>().ok());
