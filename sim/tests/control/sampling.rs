@@ -122,6 +122,24 @@ fn times_that_differ_by_rounding_are_one() {
     assert!(outcome.steps.accepted <= 1601, "{}", outcome.steps.accepted);
 }
 
+/// What a sample commands acts a delay after it by its clock: at 100 Hz no rounding is carried from one sample to the next, and no step
+/// is cut to one.
+#[test]
+fn delays_do_not_accumulate_roundings() {
+    let keys = "delay = \"20 ms\"";
+    let text = format!("{BUS}{TURNED}{}{}", controller(keys, ""), run_of(RK4));
+    let text = text.replace("\"4 Hz\"", "\"100 Hz\"").replace("\"12.5 ms\"", "\"10 ms\"");
+    let (outcome, samples) = ran(&read(&text.replace("\"20 s\"", "\"50 s\"")));
+    assert_eq!(outcome.steps.accepted, 5000);
+    // Each sample of the result is one of the controller, too: from it on acts what was computed two before.
+    let [torque, acting] = ["aocs.torque_z", "rwz.u_w"].map(|name| column(&samples, name));
+    let pairs = || torque.iter().copied().zip(acting[2..].iter().copied()).take(4996);
+    let (of, by) = pairs().find(|(of, _)| of.abs() > 1e-6).expect("a torque");
+    let late =
+        pairs().filter(|(own, found)| (own * by - found * of).abs() > 1e-9 * (own * by).abs());
+    assert_eq!(late.count(), 0, "{:?} {:?}", &torque[..5], &acting[..5]);
+}
+
 /// With an offset of 0.1 s at 10 Hz the sample of 0.8 s is at 0.7999999999999999 s: a change at 0.8 s comes before it, and
 /// at the end of a run at 0.8 s there is none.
 #[test]

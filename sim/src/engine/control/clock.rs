@@ -20,8 +20,17 @@ impl Clock {
 
     /// The next time, s.
     pub(super) fn next(&self) -> f64 {
+        self.time(self.next)
+    }
+
+    /// The last time that was due, s, without rounding of what was due with it.
+    pub(super) fn last(&self) -> f64 {
+        self.time(self.next.saturating_sub(1))
+    }
+
+    fn time(&self, k: u64) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
-        let count = self.next as f64;
+        let count = k as f64;
         self.offset + count / self.rate
     }
 
@@ -56,6 +65,7 @@ mod tests {
             let time = 0.25 + f64::from(k) * 0.1;
             count += u32::from(clock.due(time));
             assert!(!clock.due(time), "{time}");
+            assert_eq!(clock.last(), 0.25 + f64::from(k) / 10.0);
         }
         assert_eq!(count, 10_001);
         assert_eq!(clock.next(), 0.25 + 10_001.0 / 10.0);

@@ -255,7 +255,9 @@ impl Control<'_> {
                 self.commanded(index, (system, time, moment), (&torque, &acting, pose), &sums)?
             }
         };
-        self.pending.push_back(Pending { at: time + self.of.delay, external, joints: computed });
+        // By the clock, not by `time`, which rounds up to what is due with it: else each command would be later than the one before.
+        let at = self.samples.last() + self.of.delay;
+        self.pending.push_back(Pending { at, external, joints: computed });
         Ok(())
     }
 
