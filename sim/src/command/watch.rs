@@ -286,7 +286,7 @@ impl Findings {
 
 /// An alarm: what, when, by how much, what else would look the same.
 fn sentence(alarm: &Alarm) -> String {
-    let Alarm { name, watched, time, shift, alike } = alarm;
+    let Alarm { name, watched, of: _, time, shift, alike } = alarm;
     let of = |value: f64| shown(watched, value);
     let ((change, unit), (half, _)) = (of(shift.change), of(shift.half_width));
     let (before, _) = of(shift.before);

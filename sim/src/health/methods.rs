@@ -50,15 +50,15 @@ pub fn examine(
         let mut quantities = watch.quantities_with(&settings)?;
         let mut own = Vec::new();
         for block in &blocks {
-            let estimates = block.values.iter().zip(&block.signatures);
-            for (quantity, (value, signature)) in quantities.iter_mut().zip(estimates) {
+            let estimates = block.values.iter().zip(&block.details);
+            for (quantity, (value, detail)) in quantities.iter_mut().zip(estimates) {
                 let Some(value) = value else { continue };
-                let found = quantity.take(block.times, *value, *signature);
+                let found = quantity.take(block.times, *value, detail);
                 own.extend(found.map(|alarm| MethodAlarm {
                     method: Method::Watch,
                     time: alarm.time,
                     name: alarm.name,
-                    place: quantity.place().to_owned(),
+                    place: alarm.of,
                     change: Some([alarm.shift.change, alarm.shift.half_width]),
                 }));
             }

@@ -329,6 +329,7 @@ mod tests {
         Alarm {
             name: "drag torque of rw1".to_owned(),
             watched: Watched::Drag,
+            of: "rw1".to_owned(),
             time: 12.0,
             shift,
             alike: vec!["an offset of the telemetered torque".to_owned()],

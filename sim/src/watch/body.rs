@@ -1,13 +1,14 @@
 //! [`BodyFit`]: one block of the gyro: what is left of its readings beside the model, as lines of the rotors and a step within the
 //! last blocks.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use nalgebra::{Complex, Matrix3, Vector3};
 use precess_control::GyroOutput;
 use precess_dynamics::Angle;
 
 use super::model::{Signature, WatchedModel};
+use super::phase::PhaseTrack;
 use super::regression::{Reduced, Regression};
 use super::steps::{BINS, StepSearch, bin};
 use super::track::Track;
@@ -47,8 +48,8 @@ struct Line {
     separate: Option<bool>,
     /// Rate in the first block, rad/s.
     first: Option<f64>,
-    /// Phases of the last block that has one, rad, with their variances.
-    before: [Option<[f64; 2]>; 2],
+    /// Those of static and of dynamic imbalance.
+    phases: [PhaseTrack; 2],
 }
 
 /// A block of the gyro.
@@ -81,6 +82,10 @@ impl Line {
         let (sine, cosine) = Angle::sin_cos(self.angle);
         Some(Complex::new(cosine, sine) * (rate / signature.rate).powi(2))
     }
+
+    fn forget(&mut self) {
+        self.phases.iter_mut().for_each(PhaseTrack::forget);
+    }
 }
 
 impl BodyFit {
@@ -103,7 +108,7 @@ impl BodyFit {
             signature: None,
             separate: None,
             first: None,
-            before: [None; 2],
+            phases: Default::default(),
         };
         Self {
             lines: turning.into_iter().map(line).collect(),
@@ -121,8 +126,20 @@ impl BodyFit {
     /// Forgets what joins a block with the one before.
     pub(super) fn forget(&mut self) {
         self.steps.iter_mut().for_each(StepSearch::forget);
-        for line in &mut self.lines {
-            line.before = [None; 2];
+        self.lines.iter_mut().for_each(Line::forget);
+    }
+
+    /// Forgets the readings before an axis was corrected.
+    pub(super) fn forget_steps(&mut self, axis: usize) {
+        if let Some(steps) = self.steps.get_mut(axis) {
+            steps.forget();
+        }
+    }
+
+    /// Forgets the phases of a rotor, whose angle is not known any more.
+    pub(super) fn forget_phases(&mut self, rotor: usize) {
+        if let Some(line) = self.lines.get_mut(rotor) {
+            line.forget();
         }
     }
 
@@ -250,24 +267,14 @@ impl BodyFit {
         };
         let lines = self.lines.iter_mut().enumerate().map(|(index, line)| {
             let mut values = [None; 4];
-            for kind in 0..2 {
-                let of = found.line(line_of(index) + 2 * kind);
-                let phase = of.and_then(|(_, phase)| phase);
-                values[kind] = of.map(|(amplitude, _)| amplitude);
-                values[2 + kind] = line.before[kind].zip(phase).map(|(before, now)| {
-                    let turned = now[0] - before[0];
-                    let step = turned - TAU * ((turned + PI) / TAU).floor();
-                    // Phases far off are likelier than those of a normal distribution; the chord is as rare as that.
-                    let chord = 2.0 * libm::sin(0.5 * step);
-                    let longer = if chord == 0.0 { 1.0 } else { (step / chord).powi(2) };
-                    [step, longer * (now[1] + before[1])]
-                });
-                // A line whose phase turns within the block is weak in it: the next one is compared with the block before.
-                line.before[kind] = phase.or(line.before[kind]);
+            for (kind, phase) in line.phases.iter_mut().enumerate() {
+                let Some(of) = found.line(line_of(index) + 2 * kind) else { continue };
+                values[kind] = Some(of.amplitude());
+                values[2 + kind] = phase.step(of);
             }
             values
         });
-        let lines = lines.collect();
+        let lines: Vec<RotorValues> = lines.collect();
         let count = self.row.len();
         let mut jumps = [None; 3];
         for (axis, (steps, to)) in self.steps.iter_mut().zip(&mut jumps).enumerate() {

@@ -12,13 +12,10 @@ use super::thresholds::{DRIFT, Thresholds};
 pub(super) const INTERVAL: f64 = 1.959_963_984_540_054;
 
 /// Blocks after an alarm in which its cause is looked at again.
-const NAMING: usize = 30;
+pub(super) const NAMING: usize = 30;
 
 /// Twice the logarithm of the likelihood ratio by which the other cause must be likelier: 100 to 1.
 pub(super) const LIKELIER: f64 = 9.210_340_371_976_184;
-
-/// Squares nearer than this are equal: then it is the quantity's own cause.
-const EQUAL: f64 = 1e-6;
 
 /// Which test raised an alarm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +61,15 @@ pub(super) enum Cause {
     Other,
 }
 
+impl Cause {
+    pub(super) const ALL: [Self; 2] = [Self::Own, Self::Other];
+
+    /// Its place in `ALL`.
+    pub(super) fn index(self) -> usize {
+        usize::from(self == Self::Other)
+    }
+}
+
 /// What is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -76,6 +82,8 @@ pub(super) enum Kind {
     Single,
     /// As one, whose expectation is zero.
     Centred,
+    /// The drag of a wheel, whose rate goes on from block to block: not of a series of estimates.
+    Drag,
 }
 
 /// An estimate of a block.
@@ -186,7 +194,7 @@ fn search(window: &VecDeque<Sample>, latest: f64, reference: &Reference) -> [Opt
         if sample.time > latest {
             continue;
         }
-        for (best, cause) in best.iter_mut().zip([Cause::Own, Cause::Other]) {
+        for (best, cause) in best.iter_mut().zip(Cause::ALL) {
             let Some(estimate) = sums.estimate(cause, reference) else { continue };
             let ratio = estimate[0].abs() / estimate[1];
             if best.is_none_or(|(most, ..)| ratio > most) {
@@ -312,9 +320,8 @@ impl Detector {
         }
         self.window.push_back(sample);
         let [own, other] = search(&self.window, f64::INFINITY, reference);
-        // Signatures of bearings hardly differ from block to block: an amplitude is its own unless the other is much likelier.
-        let more = if self.kind == Kind::Amplitude { LIKELIER } else { EQUAL };
-        if square(other) > square(own) + more { other } else { own }
+        // Where signatures hardly differ from block to block both are as likely.
+        if square(other) > square(own) + LIKELIER { other } else { own }
     }
 
     /// Whether a cumulative sum is above its bound.

@@ -16,6 +16,8 @@
 //! |---|---|
 //! | `model` | accelerations and lines |
 //! | `body`, `joint` | the block of the gyro, that of a joint |
+//! | `block` | what a block says in the end; corrections of sensors |
+//! | `phase`, `drag` | phases from block to block, the drag of a wheel by its rate |
 //! | `regression` | least squares, what a block does not determine |
 //! | `settings` | lengths and the rate of false alarms |
 //! | `sequence`, `track` | readings in the order of time, rates between them |
@@ -24,11 +26,14 @@
 //! | `record` | a whole record, in memory |
 //! | `detector`, `thresholds` | likelihood ratio and cumulative sums, the bounds for a rate of false alarms |
 
+mod block;
 mod body;
 mod detector;
+mod drag;
 mod error;
 mod joint;
 pub(crate) mod model;
+mod phase;
 mod quantity;
 mod record;
 mod regression;
@@ -40,8 +45,7 @@ mod tests;
 mod thresholds;
 mod track;
 
-use nalgebra::Vector3;
-
+pub use block::Block;
 pub use detector::{Shift, Test};
 pub use error::WatchError;
 pub use quantity::{Alarm, Watched};
@@ -51,35 +55,21 @@ pub use settings::WatchSettings;
 use crate::scenario::{Scenario, body_key};
 use crate::telemetry::{Reading, Sensor, SensorColumns};
 use body::BodyFit;
-use detector::{Detector, Kind};
-use joint::{JointFit, JointValues};
+use detector::Kind;
+use joint::JointFit;
 use model::{Accelerations, WatchedModel};
 pub(crate) use quantity::Quantity;
-use regression::Reduced;
 use sequence::Sequence;
 use thresholds::Thresholds;
 
 /// Onsets that the likelihood ratio is searched over.
 const ONSETS: usize = 60;
 
+/// Axes of the gyro.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// A time without readings that is longer than this share of a block ends the block.
 const GAP: f64 = 0.25;
-
-/// A step within a block of so many deviations, and its block has no amplitudes, or no drag.
-const SPOILS: f64 = 6.0;
-
-/// What a block says.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Block {
-    /// Start and end, s.
-    pub times: [f64; 2],
-    /// Each quantity with its variance, in the order of [`Watch::quantities`]; none where the block does not determine it.
-    pub values: Vec<Option<[f64; 2]>>,
-    /// How much of the other cause's unit is in each.
-    pub(crate) signatures: Vec<f64>,
-    /// What was found at its end.
-    pub alarms: Vec<Alarm>,
-}
 
 /// The watch over one record.
 pub struct Watch {
@@ -147,18 +137,23 @@ impl Watch {
                         Watched::StaticPhase,
                         Watched::DynamicPhase,
                     ];
-                    kinds.map(|kind| (kind, of.name.clone()))
+                    kinds.map(|watched| (watched.clone(), of.name.clone(), watched.kind()))
                 })),
                 Err(error) => remarks.push(format!("imbalance is not watched: {error}")),
             }
-            all.extend(["x", "y", "z"].map(|axis| (Watched::GyroJump, axis.to_owned())));
+            let jump = Watched::GyroJump;
+            all.extend(AXES.map(|axis| (jump.clone(), axis.to_owned(), jump.kind())));
         }
         all.extend(joints.iter().flat_map(|of| {
             let name = joint_name(scenario, of.joint);
-            let mut own =
-                vec![(Watched::Drag, name.clone()), (Watched::TorqueConstant, name.clone())];
+            let drag = if of.is_wheel() { Kind::Drag } else { Watched::Drag.kind() };
+            let mut own = vec![
+                (Watched::Drag, name.clone(), drag),
+                (Watched::TorqueConstant, name.clone(), drag),
+            ];
             if of.is_wheel() {
-                own.push((Watched::TachometerScale, name));
+                let scale = Watched::TachometerScale;
+                own.push((scale.clone(), name, scale.kind()));
             }
             own
         }));
@@ -198,7 +193,7 @@ impl Watch {
         &self,
         settings: &WatchSettings,
     ) -> Result<Vec<Quantity>, WatchError> {
-        let all = self.quantities.iter().map(|of| (of.watched.clone(), of.of.clone()));
+        let all = self.quantities.iter().map(|of| (of.watched.clone(), of.of.clone(), of.kind));
         quantities_of(all.collect(), settings)
     }
 
@@ -282,23 +277,22 @@ impl Watch {
     }
 
     fn read(&mut self, sensor: Sensor, reading: &Reading) {
-        let [first, second, third, _] = reading.value;
+        let value = self.sequence.corrected(reading);
         let elapsed = self.start.map(|start| reading.time - start);
         match (sensor, elapsed) {
             (Sensor::Gyro, Some(elapsed)) => {
-                let omega = Vector3::new(first, second, third);
                 if let (Some(body), Some(track)) = (&mut self.body, self.sequence.track(reading)) {
-                    body.read(elapsed, &omega, &self.model, track);
+                    body.read(elapsed, &value, &self.model, track);
                 }
             }
             (Sensor::Tachometer(joint), Some(_)) => {
                 if let Some(own) = self.joints.iter_mut().find(|of| of.joint == joint) {
                     let body = self.body.as_ref().zip(own.rotor());
                     let line = body.map(|(body, rotor)| body.of_joint(joint, rotor, &self.model));
-                    own.read(first, &line.unwrap_or_default());
+                    own.read(value.x, &line.unwrap_or_default());
                 }
             }
-            (Sensor::Motor(joint), _) => self.model.set_motor(joint, first),
+            (Sensor::Motor(joint), _) => self.model.set_motor(joint, value.x),
             _ => {}
         }
     }
@@ -315,61 +309,6 @@ impl Watch {
         self.start = Some(time);
         Ok(())
     }
-
-    /// What the block says, and what tests find in that.
-    fn end(&mut self, times: [f64; 2]) -> Block {
-        let of_joints: Vec<JointValues> = self.joints.iter_mut().map(JointFit::end).collect();
-        let gimbals: Vec<Reduced> = of_joints.iter().filter_map(|of| of.line.clone()).collect();
-        let mut lines = Vec::new();
-        let mut jumps = [None; 3];
-        if let Some(body) = &mut self.body {
-            (lines, jumps) = body.end(&gimbals);
-        }
-        let rotors = self.model.rotors().len();
-        let mut values = Vec::with_capacity(self.quantities.len());
-        if self.body.is_some() {
-            let watches_lines =
-                self.quantities.iter().any(|of| of.watched == Watched::StaticImbalance);
-            if watches_lines {
-                let of = |rotor: usize| lines.get(rotor).copied().unwrap_or([None; 4]);
-                values.extend((0..rotors).flat_map(of));
-            }
-            if jumps.iter().flatten().any(|of| is_step(*of)) {
-                let own = values.iter_mut().zip(&self.quantities);
-                own.filter(|(_, of)| of.watched.kind() == Kind::Amplitude)
-                    .for_each(|(value, _)| *value = None);
-            }
-            values.extend(jumps);
-        }
-        let mut signatures = vec![0.0; values.len()];
-        if let Some(body) = &mut self.body {
-            let of_rotors = self.quantities.iter().zip(&mut signatures);
-            let amplitudes = of_rotors.filter(|(of, _)| of.watched == Watched::StaticImbalance);
-            for (rotor, (_, signature)) in amplitudes.enumerate() {
-                *signature = body.speed(rotor);
-            }
-        }
-        for (joint, found) in self.joints.iter().zip(of_joints) {
-            let wheel = joint.is_wheel();
-            let JointValues { mut drag, signature, torque, scale, .. } = found;
-            // A step of the reading within the block is no drag.
-            if scale.is_some_and(is_step) {
-                drag = None;
-            }
-            values.extend([drag, torque].into_iter().chain(wheel.then_some(scale)));
-            signatures.extend([signature, 0.0].into_iter().chain(wheel.then_some(0.0)));
-        }
-        let own = self.quantities.iter_mut().zip(values.iter().zip(&signatures));
-        let alarms =
-            own.filter_map(|(of, (value, signature))| of.take(times, (*value)?, *signature));
-        let alarms = alarms.collect();
-        Block { times, values, signatures, alarms }
-    }
-}
-
-/// Whether it is as far from zero as to spoil the other estimates of its block.
-fn is_step([value, variance]: [f64; 2]) -> bool {
-    value * value > SPOILS * SPOILS * variance
 }
 
 /// The device of a joint; with its body where the device has several: `rw1`, `cmg1.outer_gimbal`.
@@ -381,7 +320,7 @@ fn joint_name(scenario: &Scenario, joint: usize) -> String {
 
 /// The tests of quantities.
 fn quantities_of(
-    all: Vec<(Watched, String)>,
+    all: Vec<(Watched, String, Kind)>,
     settings: &WatchSettings,
 ) -> Result<Vec<Quantity>, WatchError> {
     let WatchSettings { block, false_alarms, .. } = *settings;
@@ -390,11 +329,10 @@ fn quantities_of(
     let reference = settings.blocks();
     let at_once = Thresholds::new(alpha, 1, reference)?;
     let over_onsets = Thresholds::new(alpha, ONSETS, reference)?;
-    let quantities = all.into_iter().map(|(watched, of)| {
-        let kind = watched.kind();
-        let single = matches!(kind, Kind::Single | Kind::Centred);
+    let quantities = all.into_iter().map(|own| {
+        let single = matches!(own.2, Kind::Single | Kind::Centred);
         let (thresholds, onsets) = if single { (at_once, 1) } else { (over_onsets, ONSETS) };
-        Quantity::new(watched, &of, Detector::new(kind, thresholds, [reference, onsets]))
+        Quantity::new(own, thresholds, [reference, onsets])
     });
     Ok(quantities.collect())
 }

@@ -1,6 +1,9 @@
 //! [`Quantity`]: what is watched: its name, unit and tests, and what else would look the same.
 
+use super::block::Detail;
 use super::detector::{Cause, Detector, Kind, Sample, Shift};
+use super::drag::DragDetector;
+use super::thresholds::Thresholds;
 
 /// What a quantity is.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,8 +124,17 @@ pub(crate) struct Quantity {
     pub(super) name: String,
     /// Of which joint, rotor or axis.
     pub(super) of: String,
-    /// None of a torque constant, which is found in the series of drag.
-    detector: Option<Detector>,
+    pub(super) kind: Kind,
+    tests: Tests,
+}
+
+/// The tests of a quantity.
+#[derive(Clone, Debug)]
+enum Tests {
+    Series(Box<Detector>),
+    Drag(Box<DragDetector>),
+    /// Of a torque constant, which is found with drag.
+    Other,
 }
 
 /// A change that a test has found.
@@ -132,6 +144,8 @@ pub struct Alarm {
     pub name: String,
     /// Which quantity that is.
     pub watched: Watched,
+    /// Of which joint, rotor or axis.
+    pub of: String,
     /// When it was raised, s.
     pub time: f64,
     /// From when on, and by how much.
@@ -141,34 +155,47 @@ pub struct Alarm {
 }
 
 impl Quantity {
-    pub(super) fn new(watched: Watched, of: &str, detector: Detector) -> Self {
-        let detector = (watched != Watched::TorqueConstant).then_some(detector);
-        Self { name: watched.name(of), of: of.to_owned(), watched, detector }
-    }
-
-    /// Of which joint, rotor or axis it is.
-    pub(crate) fn place(&self) -> &str {
-        &self.of
+    /// With so many blocks of reference and onsets that are tried.
+    pub(super) fn new(
+        (watched, of, kind): (Watched, String, Kind),
+        thresholds: Thresholds,
+        counts: [usize; 2],
+    ) -> Self {
+        let tests = match (&watched, kind) {
+            (Watched::TorqueConstant, _) => Tests::Other,
+            (_, Kind::Drag) => Tests::Drag(Box::new(DragDetector::new(thresholds.ratio, counts))),
+            _ => Tests::Series(Box::new(Detector::new(kind, thresholds, counts))),
+        };
+        Self { name: watched.name(&of), of, watched, kind, tests }
     }
 
     /// The reference and the scatter about it by the stated variance; none while it is taken.
     pub(super) fn reference(&self) -> Option<[f64; 2]> {
-        self.detector.as_ref().and_then(Detector::reference)
+        match &self.tests {
+            Tests::Series(detector) => detector.reference(),
+            Tests::Drag(detector) => detector.reference(),
+            Tests::Other => None,
+        }
     }
 
-    /// Takes the estimate of a block, with its variance, and how much of another cause's unit is in it.
+    /// Takes the estimate of a block, with its variance, and what else its tests need.
     pub(crate) fn take(
         &mut self,
         [start, end]: [f64; 2],
         [value, variance]: [f64; 2],
-        signature: f64,
+        detail: &Detail,
     ) -> Option<Alarm> {
-        let detector = self.detector.as_mut()?;
-        let (shift, cause) = detector.take(Sample { time: start, value, variance, signature })?;
+        let (shift, cause) = match (&mut self.tests, detail) {
+            (Tests::Series(detector), Detail::Signature(signature)) => {
+                detector.take(Sample { time: start, value, variance, signature: *signature })?
+            }
+            (Tests::Drag(detector), Detail::Drag(sample)) => detector.take(sample.as_ref()?)?,
+            _ => return None,
+        };
         let other = self.watched.other_cause().filter(|_| cause == Cause::Other);
         let watched = other.unwrap_or_else(|| self.watched.clone());
         let name = watched.name(&self.of);
         let alike = watched.alike(&self.of);
-        Some(Alarm { name, watched, time: end, shift, alike })
+        Some(Alarm { name, watched, of: self.of.clone(), time: end, shift, alike })
     }
 }

@@ -1,7 +1,7 @@
 //! [`Regression`]: least squares of one block: sums over its samples, the estimate with its covariance, and what the block does not
 //! determine.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
 /// Directions whose eigenvalue is below this share of the largest, each parameter in its own scale, are not determined.
 const DETERMINED: f64 = 1e-9;
@@ -196,20 +196,40 @@ impl Estimated {
         determined.then(|| [self.values[parameter], self.covariance[(parameter, parameter)]])
     }
 
-    /// Amplitude and phase of two parameters, real and imaginary part, with their variances; the phase where the amplitude is five
-    /// deviations or more.
-    pub(super) fn line(&self, real: usize) -> Option<([f64; 2], Option<[f64; 2]>)> {
+    /// A line by two parameters, its real and its imaginary part.
+    pub(super) fn line(&self, real: usize) -> Option<LineEstimate> {
         let ([re, a], [im, b]) = (self.of(real)?, self.of(real + 1)?);
         let c = self.covariance[(real + 1, real)];
-        // The larger eigenvalue: of a line that noise hides, no direction is its own.
-        let largest = f64::midpoint(a, b) + (0.25 * (a - b).powi(2) + c * c).sqrt();
-        let square = re * re + im * im;
-        if square < 25.0 * largest {
-            return Some(([square.sqrt(), largest], None));
-        }
-        let along = (re * re * a + 2.0 * re * im * c + im * im * b) / square;
-        let across = (im * im * a - 2.0 * re * im * c + re * re * b) / square;
-        Some(([square.sqrt(), along], Some([libm::atan2(im, re), across / square])))
+        Some(LineEstimate { value: Complex::new(re, im), covariance: [a, b, c] })
+    }
+}
+
+/// A line, with the variances of its real and its imaginary part and their covariance.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LineEstimate {
+    pub(super) value: Complex<f64>,
+    pub(super) covariance: [f64; 3],
+}
+
+impl LineEstimate {
+    /// The larger eigenvalue of its covariance.
+    pub(super) fn largest(&self) -> f64 {
+        let [a, b, c] = self.covariance;
+        f64::midpoint(a, b) + (0.25 * (a - b).powi(2) + c * c).sqrt()
+    }
+
+    /// Variance across a direction.
+    pub(super) fn across(&self, direction: Complex<f64>) -> f64 {
+        let (re, im) = (direction.re, direction.im);
+        let [a, b, c] = self.covariance;
+        (im * im * a - 2.0 * re * im * c + re * re * b) / direction.norm_sqr()
+    }
+
+    /// Amplitude with its variance, that along the line. Of a line that noise hides no direction is its own.
+    pub(super) fn amplitude(&self) -> [f64; 2] {
+        let (square, largest) = (self.value.norm_sqr(), self.largest());
+        let along = || self.across(self.value * Complex::i());
+        [square.sqrt(), if square < 25.0 * largest { largest } else { along() }]
     }
 }
 

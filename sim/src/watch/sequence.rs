@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use nalgebra::Vector3;
 use precess_control::GyroOutput;
 
 use super::model::WatchedModel;
@@ -12,12 +13,28 @@ use super::track::{Kind, Track};
 use crate::scenario::Scenario;
 use crate::telemetry::{Reading, Sensor};
 
+/// What has been found to be wrong in the readings of a sensor.
+#[derive(Clone, Copy, Debug)]
+struct Correction {
+    offset: Vector3<f64>,
+    scale: f64,
+}
+
+impl Correction {
+    const NONE: Self = Self { offset: Vector3::new(0.0, 0.0, 0.0), scale: 1.0 };
+
+    fn apply(&self, value: Vector3<f64>) -> Vector3<f64> {
+        (value - self.offset) / self.scale
+    }
+}
+
 /// Readings of all sensors.
 #[derive(Clone, Debug)]
 pub(super) struct Sequence {
     sensors: Vec<Sensor>,
     /// Of each sensor of a rate or an angle.
     tracks: Vec<Option<Track>>,
+    corrections: Vec<Correction>,
     waiting: VecDeque<Reading>,
     /// How long a reading waits, s.
     longest: f64,
@@ -36,7 +53,8 @@ impl Sequence {
             Sensor::Motor(_) | Sensor::StarTracker => None,
         };
         let tracks = sensors.iter().map(|sensor| of(sensor).map(Track::new)).collect();
-        Self { sensors, tracks, waiting: VecDeque::new(), longest, latest: 0.0 }
+        let corrections = vec![Correction::NONE; sensors.len()];
+        Self { sensors, tracks, corrections, waiting: VecDeque::new(), longest, latest: 0.0 }
     }
 
     /// The sensor of a reading; none of what is not watched.
@@ -69,6 +87,22 @@ impl Sequence {
         if due { self.waiting.pop_front() } else { None }
     }
 
+    /// A reading without what has been found to be wrong in it.
+    pub(super) fn corrected(&self, reading: &Reading) -> Vector3<f64> {
+        let [x, y, z, _] = reading.value;
+        let correction = self.corrections.get(reading.index).unwrap_or(&Correction::NONE);
+        correction.apply(Vector3::new(x, y, z))
+    }
+
+    /// From now on takes an offset off the readings of a sensor, and divides them by a scale.
+    pub(super) fn correct(&mut self, sensor: Sensor, offset: Vector3<f64>, scale: f64) {
+        let all = self.sensors.iter().zip(&mut self.corrections);
+        for (_, correction) in all.filter(|(of, _)| **of == sensor) {
+            correction.offset += offset * correction.scale;
+            correction.scale *= scale;
+        }
+    }
+
     /// Forgets rates and angles before a time: there is a gap.
     pub(super) fn forget(&mut self, time: f64) {
         self.tracks.iter_mut().flatten().for_each(|of| of.forget(time));
@@ -76,8 +110,10 @@ impl Sequence {
 
     /// Sets the model's rates and angles to their means over an interval without a reading inside.
     pub(super) fn follow(&mut self, interval: [f64; 2], model: &mut WatchedModel) {
-        for (sensor, track) in self.sensors.iter().zip(&mut self.tracks) {
+        let all = self.sensors.iter().zip(&mut self.tracks).zip(&self.corrections);
+        for ((sensor, track), correction) in all {
             let Some(mean) = track.as_mut().and_then(|of| of.mean(interval)) else { continue };
+            let mean = correction.apply(mean);
             match sensor {
                 Sensor::Gyro => model.set_rate(mean),
                 Sensor::Tachometer(joint) => model.set_joint_rate(*joint, mean.x),

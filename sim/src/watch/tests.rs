@@ -1,9 +1,11 @@
 //! False alarms and delays of the tests over seeded estimates of blocks, as docs/health.md states them.
 
+use nalgebra::{Matrix2, Vector2};
 use precess_control::Noise;
 
 use super::ONSETS;
 use super::detector::{Cause, Detector, Kind, LIKELIER, Sample, Shift};
+use super::drag::{DragDetector, DragSample};
 use super::steps::StepSearch;
 use super::thresholds::{DRIFT, Thresholds};
 
@@ -269,4 +271,108 @@ fn the_scatter_of_steps_is_learnt() {
     println!("of {BLOCKS} blocks {counts:?} above 2.807 deviations: normal 50");
     // One scatter for all twelve times, of a mode whose amplitude hardly changes in some blocks: more than of normal numbers, but few.
     assert!(counts[0] > 1000 && 20 * counts[1] < counts[0], "{counts:?}");
+}
+
+/// Blocks of a wheel with white noise of its tachometer; units are chosen so that the drag of a block has a deviation of one, and a second
+/// of drag of one changes the rate by one.
+struct Wheel {
+    draws: Draws,
+    rate: f64,
+    block: u32,
+}
+
+impl Wheel {
+    const READINGS: u32 = 100;
+    const LENGTH: f64 = 2.0;
+
+    fn new(seed: u64) -> Self {
+        Self { draws: Draws::new(seed), rate: 0.0, block: 0 }
+    }
+
+    /// The next block, with drag and relative change of the torque constant by the time.
+    fn next(&mut self, true_values: impl Fn(f64) -> [f64; 2]) -> DragSample {
+        let count = f64::from(Self::READINGS);
+        // The slope of a straight line has 12 s^2 / (N T^2).
+        let noise = (count * Self::LENGTH * Self::LENGTH / 12.0).sqrt();
+        let start = f64::from(self.block) * Self::LENGTH;
+        let torque = 20.0 * (1.0 + libm::sin(std::f64::consts::TAU * f64::from(self.block) / 20.0));
+        let step = Self::LENGTH / count;
+        let (mut sums, mut moments) = (Matrix2::zeros(), Vector2::zeros());
+        for k in 0..Self::READINGS {
+            let elapsed = (f64::from(k) + 0.5) * step;
+            let [drag, constant] = true_values(start + elapsed);
+            // The motor's torque in the model is in the prediction.
+            let slope = constant * torque - drag;
+            let read = self.rate + 0.5 * step * slope + noise * self.draws.draw();
+            self.rate += step * slope;
+            let row = Vector2::new(1.0, -elapsed);
+            sums += row * row.transpose();
+            moments += row * read;
+        }
+        let inverse = sums.try_inverse().expect("a line");
+        self.block += 1;
+        DragSample {
+            times: [start, start + Self::LENGTH],
+            continues: true,
+            value: inverse * moments,
+            covariance: inverse * noise * noise,
+            predicted: 0.0,
+            added: [-Self::LENGTH, torque * Self::LENGTH],
+            seen: [Vector2::y(), Vector2::new(0.0, -torque)],
+        }
+    }
+}
+
+fn drag_detector() -> DragDetector {
+    DragDetector::new(thresholds().ratio, [100, ONSETS])
+}
+
+/// A drag of one deviation of a block, which estimates of blocks by themselves show after 26 blocks, and a torque constant, each from within a
+/// block on: found within five blocks, rightly named, with its size.
+#[test]
+fn the_rate_of_a_wheel_goes_on_from_block_to_block() {
+    for (seed, change, expected) in [
+        (11, [1.0, 0.0], Cause::Own),
+        (12, [-2.0, 0.0], Cause::Own),
+        (13, [0.0, 0.1], Cause::Other),
+    ] {
+        let (mut wheel, mut detector) = (Wheel::new(seed), drag_detector());
+        let onset = 241.1;
+        let mut alarms = Vec::new();
+        for _ in 0..160 {
+            let sample = wheel.next(|time| {
+                let [drag, constant] = if time > onset { change } else { [0.0; 2] };
+                [3.0 + drag, constant]
+            });
+            let end = sample.times[1];
+            alarms.extend(detector.take(&sample).map(|(shift, cause)| (end, shift, cause)));
+        }
+        println!("{change:?}: {alarms:?}");
+        let Some((first, ..)) = alarms.first() else { panic!("{change:?} is not found") };
+        assert!((onset..onset + 10.0).contains(first), "{change:?}: {alarms:?}");
+        let (_, shift, cause) = alarms.last().expect("an alarm");
+        assert_eq!(*cause, expected);
+        let size = change[expected.index()];
+        assert!((shift.change - size).abs() < 1.5 * shift.half_width, "{change:?}: {shift:?}");
+        assert!(alarms.len() <= 2);
+    }
+}
+
+/// Over blocks without a change there are no more alarms than the bound is for, and the drag of a hundred blocks is known to the power 3/2.
+#[test]
+fn the_drag_of_a_wheel_has_no_more_false_alarms_than_stated() {
+    const BLOCKS: u32 = 3000;
+    let bound = Thresholds::new(1e-3, ONSETS, 100).unwrap().ratio;
+    let (mut wheel, mut detector) = (Wheel::new(14), DragDetector::new(bound, [100, ONSETS]));
+    let mut alarms = 0;
+    for block in 0..BLOCKS {
+        alarms += u32::from(detector.take(&wheel.next(|_| [3.0, 0.0])).is_some());
+        if block == 100 {
+            let [drag, scale] = detector.reference().expect("a reference");
+            println!("drag {drag} of 3, scale {scale}");
+            assert!((drag - 3.0).abs() < 5e-3 && (scale - 1.0).abs() < 0.3, "{drag} {scale}");
+        }
+    }
+    println!("{alarms} alarms in {BLOCKS} blocks, at most {} stated", BLOCKS / 1000);
+    assert!(alarms <= BLOCKS / 1000, "{alarms}");
 }
