@@ -153,6 +153,7 @@ struct Learning {
     weight: f64,
     value: f64,
     square: f64,
+    largest: f64,
     /// Weighted products of neighbours, and sums of what is first and second in them.
     product: f64,
     last: Option<[f64; 2]>,
@@ -288,6 +289,7 @@ impl Detector {
         learnt.weight += weight;
         learnt.value += weight * value;
         learnt.square += weight * value * value;
+        learnt.largest = learnt.largest.max(weight * value * value);
         if let Some([before, other]) = learnt.last {
             let (both, mean) = ((weight * other).sqrt(), learnt.value / learnt.weight);
             learnt.product += both * (value - mean) * (before - mean);
@@ -299,7 +301,9 @@ impl Detector {
         }
         let count = crate::spectra::float(blocks);
         self.reference = Some(if self.kind == Kind::Centred {
-            let scatter = (learnt.square / count).max(1.0);
+            // The largest of so many normal numbers is about sqrt(2 ln n): modes and tones make large steps likelier than their mean square says.
+            let tail = learnt.largest / (2.0 * libm::log(count)).max(1.0);
+            let scatter = (learnt.square / count).max(tail).max(1.0);
             Reference { mean: 0.0, variance: 0.0, scatter, correlation: 0.0 }
         } else {
             let mean = learnt.value / learnt.weight;

@@ -8,7 +8,7 @@
 //!
 //! with the response g of the rate to drag, and torques that the model lacks: w is white from block to block, e fades within five blocks. A
 //! Kalman filter follows r, d and e. The variances of w and e, and one scale of all variances, are those of the largest likelihood over the
-//! reference, on a grid. d is known better with the power 3/2 of the number of blocks: rates at both ends of a long time tell it.
+//! reference, on a grid. Over the first blocks a change is known better with the power 3/2 of their number: rates at both ends of a time tell it.
 //!
 //! A change from an onset on is one more state: a filter of each of the last onsets and of each cause begins with what was known then. The estimate of the
 //! change by its deviation is the root of twice the logarithm of the likelihood ratio. A fault begins within a block: its cause, its size and
@@ -23,8 +23,9 @@ use super::detector::{Cause, INTERVAL, LIKELIER, NAMING, Shift, Test};
 /// Variances of w by that of a rate at the start of a block, which are tried.
 const WALKS: [f64; 9] = [1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0, 10.0, 100.0];
 
-/// Variances of e by that of the drag of a block, which are tried.
-const LACKING: [f64; 8] = [0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0];
+/// Variances of e by that of the drag of a block, which are tried. However quiet the reference is, no model is trusted to less than a tenth of that
+/// deviation.
+const LACKING: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 1.0, 10.0];
 
 /// What is left of e after a block.
 const STAYS: f64 = 0.8;
